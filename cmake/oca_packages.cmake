@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Every third-party library, found once. All are Debian 12 packages; nothing is downloaded.
+find_package(Eigen3 3.4 REQUIRED)
+find_package(fmt REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(SUNDIALS REQUIRED COMPONENTS cvode arkode nvecserial sunmatrixdense sunlinsoldense)
+find_package(yaml-cpp REQUIRED)
+find_package(muparser REQUIRED)
+find_package(assimp REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(spdlog REQUIRED)
+
+# CMake's FindBullet picks the float build without a word, so pkg-config names the double one.
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(bullet REQUIRED IMPORTED_TARGET bullet-float64)
+pkg_check_modules(urdfdom REQUIRED IMPORTED_TARGET urdfdom)

@@ -1,0 +1,2 @@
+list(APPEND headers)
+list(APPEND sources)
