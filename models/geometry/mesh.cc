@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "models/geometry/mesh.h"
+
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <cctype>
+#include <exception>
+#include <string>
+
+#include "models/error.h"
+
+namespace oca::models {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+
+constexpr std::uintmax_t kMaxBytes = 100'000'000;
+
+[[noreturn]] void Refuse(const fs::path& file, const std::string& what) {
+  throw ModelError(fmt::format("{}: {}", file.string(), what));
+}
+
+void CheckFile(const fs::path& file) {
+  std::string extension = file.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (extension != ".stl" && extension != ".obj" && extension != ".dae") {
+    Refuse(file, fmt::format("unknown kind of mesh; got extension '{}'; expected .stl, .obj, .dae",
+                             extension));
+  }
+  std::error_code error;
+  if (!fs::exists(file, error)) {
+    Refuse(file, "mesh not found; got no such file; expected a readable file");
+  }
+  if (!fs::is_regular_file(file, error)) {
+    Refuse(file, "mesh is not a file; got a folder or device; expected a readable file");
+  }
+  const std::uintmax_t bytes = fs::file_size(file, error);
+  if (error) Refuse(file, "mesh cannot be read; got " + error.message() + "; expected a file");
+  if (bytes == 0) Refuse(file, "mesh is empty; got 0 bytes; expected triangles");
+  if (bytes > kMaxBytes) {
+    Refuse(file, fmt::format("mesh too large; got {} MB; expected at most {} MB", bytes / 1'000'000,
+                             kMaxBytes / 1'000'000));
+  }
+}
+
+void CheckScale(const fs::path& file, const Vector3d& scale) {
+  if (scale.allFinite() && (scale.array() != 0.0).all()) return;
+  Refuse(file, fmt::format("scale; got ({}, {}, {}); expected finite numbers other than 0",
+                           scale.x(), scale.y(), scale.z()));
+}
+
+// Appends the triangles of a node and of all below it. The tree of a file may be deep: no
+// recursion.
+void Collect(const aiScene& scene, const Vector3d& scale, TriangleMesh* result) {
+  std::vector<std::pair<const aiNode*, aiMatrix4x4>> open{{scene.mRootNode, aiMatrix4x4()}};
+  while (!open.empty()) {
+    const auto [node, parent] = open.back();
+    open.pop_back();
+    const aiMatrix4x4 X = parent * node->mTransformation;
+    const bool mirrored = (X.Determinant() < 0) != (scale.prod() < 0);
+    for (unsigned m = 0; m < node->mNumMeshes; ++m) {
+      const aiMesh& mesh = *scene.mMeshes[node->mMeshes[m]];
+      const int offset = static_cast<int>(result->vertices.size());
+      for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+        const aiVector3D p = X * mesh.mVertices[i];
+        result->vertices.push_back(scale.cwiseProduct(Vector3d(p.x, p.y, p.z)));
+      }
+      for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
+        const aiFace& face = mesh.mFaces[i];
+        if (face.mNumIndices != 3) continue;  // points and lines enclose nothing
+        std::array<int, 3> corner;
+        for (int k = 0; k < 3; ++k) corner[k] = offset + static_cast<int>(face.mIndices[k]);
+        if (mirrored) std::swap(corner[1], corner[2]);
+        result->triangles.push_back(corner);
+      }
+    }
+    for (unsigned i = 0; i < node->mNumChildren; ++i) open.emplace_back(node->mChildren[i], X);
+  }
+}
+
+// Vertices that no triangle uses (points, lines) are no part of the surface.
+void DropUnused(TriangleMesh* mesh) {
+  std::vector<int> index(mesh->vertices.size(), -1);
+  std::vector<Vector3d> used;
+  for (auto& triangle : mesh->triangles) {
+    for (int& v : triangle) {
+      if (index[v] < 0) {
+        index[v] = static_cast<int>(used.size());
+        used.push_back(mesh->vertices[v]);
+      }
+      v = index[v];
+    }
+  }
+  mesh->vertices = std::move(used);
+}
+
+}  // namespace
+
+TriangleMesh LoadMesh(const fs::path& file, const Vector3d& scale) {
+  CheckFile(file);
+  CheckScale(file, scale);
+  Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  const aiScene* scene = nullptr;
+  std::string reason;
+  try {
+    scene = importer.ReadFile(file.string(), aiProcess_Triangulate);
+    reason = importer.GetErrorString();
+  } catch (const std::exception& error) {  // a hostile size may exhaust the memory
+    reason = error.what();
+  }
+  if (!scene || !scene->mRootNode) {
+    Refuse(file, fmt::format("cannot be read as a mesh; got {}; expected STL, OBJ or Collada",
+                             reason.empty() ? "no scene" : reason));
+  }
+  TriangleMesh mesh;
+  Collect(*scene, scale, &mesh);
+  if (mesh.triangles.empty()) Refuse(file, "mesh is empty; got 0 triangles; expected some");
+  DropUnused(&mesh);
+  for (const Vector3d& p : mesh.vertices) {
+    if (p.allFinite()) continue;
+    Refuse(file, fmt::format("vertex {} is not finite; got ({}, {}, {}); expected numbers",
+                             &p - mesh.vertices.data(), p.x(), p.y(), p.z()));
+  }
+  return mesh;
+}
+
+std::shared_ptr<const ConvexHull> LoadConvexHull(const fs::path& file, const Vector3d& scale) {
+  return MakeConvexHull(LoadMesh(file, scale).vertices, file.string());
+}
+
+}  // namespace oca::models

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "models/geometry/convex_hull.h"
+
+namespace oca::models {
+
+/// Triangles as a file gives them, in the frame of the file, m.
+struct TriangleMesh {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<std::array<int, 3>> triangles;  ///< indices into vertices
+};
+
+/// Reads all triangles of an STL (text or binary), OBJ or Collada file.
+///
+/// Node transforms and the unit of a Collada file are applied; its up axis is not, because URDF
+/// users draw in the frame of the link. `scale` multiplies x, y, z; a negative one mirrors and the
+/// triangles keep their outer side.
+/// throws ModelError naming the file: missing, empty or above 100 MB; unknown extension; content
+///        that is no such mesh; no triangle; a vertex or the scale not finite; zero scale
+TriangleMesh LoadMesh(const std::filesystem::path& file,
+                      const Eigen::Vector3d& scale = Eigen::Vector3d::Ones());
+
+/// Convex hull of all triangles of a file; it contains every vertex of the mesh.
+/// throws ModelError as LoadMesh and MakeConvexHull do
+std::shared_ptr<const ConvexHull> LoadConvexHull(
+    const std::filesystem::path& file, const Eigen::Vector3d& scale = Eigen::Vector3d::Ones());
+
+}  // namespace oca::models
