@@ -1,3 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-list(APPEND headers geometry/convex_hull.h geometry/mesh.h)
-list(APPEND sources geometry/convex_hull.cc geometry/lattice_hull.cc geometry/mesh.cc)
+list(APPEND headers geometry/convex_hull.h geometry/mesh.h geometry/collider.h
+  geometry/distance.h)
+list(APPEND sources geometry/bullet_penetration.cc geometry/closed_forms.cc geometry/collider.cc
+  geometry/convex_hull.cc geometry/distance.cc geometry/gjk.cc geometry/hull_support.cc
+  geometry/lattice_hull.cc geometry/mesh.cc geometry/polytope_depth.cc geometry/simplex.cc)

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "models/geometry/gjk.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "models/geometry/simplex.h"
+
+namespace oca::models::internal {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kMaxSteps = 128;
+
+// False if there is nothing to start from, or if the bodies moved such that it encloses the origin.
+bool Recall(const CorePair& pair, const PairCache& cache, Simplex* simplex) {
+  for (int i = 0; i < cache.count; ++i) {
+    simplex->Add(pair.At(cache.points_a[i], cache.points_b[i]));
+  }
+  return cache.count > 0 && simplex->Reduce(false);
+}
+
+void Remember(const Simplex& simplex, PairCache* cache) {
+  if (!cache) return;
+  cache->count = simplex.count();
+  for (int i = 0; i < simplex.count(); ++i) {
+    cache->points_a[i] = simplex.point(i).a;
+    cache->points_b[i] = simplex.point(i).b;
+  }
+}
+
+CoreDistance Result(const CorePair& pair, const Simplex& simplex, double length, double lower) {
+  return {length, simplex.PointA(), pair.X_AB * simplex.PointB(), simplex.v() / length,
+          std::max(length - lower, 0.0)};
+}
+
+}  // namespace
+
+GjkStatus Gjk(const CorePair& pair, double max_distance, bool separated, PairCache* cache,
+              CoreDistance* result) {
+  const double size = pair.Extent();
+  Simplex simplex;
+  if (!cache || !Recall(pair, *cache, &simplex)) {
+    simplex.Clear();
+    const Vector3d centre = pair.Centre();
+    simplex.Add(pair.Support(centre.isZero(0.0) ? Vector3d(Vector3d::UnitX()) : -centre));
+    simplex.Reduce(false);
+  }
+  double length = simplex.v().norm();
+  double lower = 0.0;
+  bool outside = separated;
+  for (int step = 0; step < kMaxSteps; ++step) {
+    if (length <= kTouch * size) break;
+    const CorePair::Difference support = pair.Support(-simplex.v());
+    const double bound = simplex.v().dot(support.w) / length;
+    lower = std::max(lower, bound);
+    outside = outside || bound > 0.0;
+    if (bound > max_distance) {
+      Remember(simplex, cache);
+      *result = Result(pair, simplex, length, bound);
+      result->distance = bound;
+      return GjkStatus::kBeyond;
+    }
+    if (length - bound <= std::min(kProof * size, 1e-6 * length)) break;
+    if (simplex.Contains(support)) break;
+    const Simplex before = simplex;
+    simplex.Add(support);
+    if (!simplex.Reduce(outside)) {  // the origin is inside
+      if (cache) cache->count = 0;
+      return GjkStatus::kTouching;
+    }
+    const double shorter = simplex.v().norm();
+    if (shorter >= length) {  // rounding stops the descent
+      simplex = before;
+      break;
+    }
+    length = shorter;
+  }
+  if (length <= kTouch * size) {
+    if (cache) cache->count = 0;
+    return GjkStatus::kTouching;
+  }
+  Remember(simplex, cache);
+  *result = Result(pair, simplex, length, lower);
+  return GjkStatus::kSeparated;
+}
+
+}  // namespace oca::models::internal

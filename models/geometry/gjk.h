@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "models/geometry/core_pair.h"
+#include "models/geometry/distance.h"
+
+namespace oca::models::internal {
+
+enum class GjkStatus {
+  kSeparated,  ///< the result holds, `gap` says how well it is proved
+  kBeyond,     ///< farther than asked; result.distance is a proved lower bound
+  kTouching    ///< the cores overlap or are closer than kTouch of their size; no result
+};
+
+/// Below this distance, relative to the size of the pair, a difference vector has no direction
+/// left.
+inline constexpr double kTouch = 1e-10;
+/// Proof that ends the search: upper less lower bound, relative to the size of the pair.
+inline constexpr double kProof = 1e-10;
+
+/// Distance of two separated cores. Starts from the simplex in `cache` (may be null) and leaves its
+/// own there.
+///
+/// `separated` promises that a plane between the cores is known.
+/// Each step takes the support point w along -v: |v| is an upper bound of the distance, v.w / |v| a
+/// lower one.
+/// source Gilbert, Johnson, Keerthi 1988; van den Bergen 1999 (termination)
+GjkStatus Gjk(const CorePair& pair, double max_distance, bool separated, PairCache* cache,
+              CoreDistance* result);
+
+}  // namespace oca::models::internal

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "models/geometry/polytope_depth.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <memory_resource>
+
+#include "models/geometry/lattice_hull.h"
+
+namespace oca::models::internal {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kMaxVertices = 256;
+constexpr double kEnough = 1e-10;  // gap that ends the search, relative to the size of the pair
+// Per vertex: a point, four faces with their planes, and the index lists of LatticeHull.
+constexpr std::size_t kArenaBytes =
+    kMaxVertices * (sizeof(LatticePoint) + 4 * sizeof(LatticeHull::Face) + 48 * sizeof(int)) + 1024;
+
+struct Plane {
+  Vector3d normal;
+  double offset;
+};
+
+class Polytope {
+ public:
+  Polytope(const CorePair& pair, std::pmr::memory_resource* memory)
+      : pair_(pair), lattice_(pair.Centre(), 1.001 * pair.Extent()), hull_(kMaxVertices, memory) {}
+
+  // A tetrahedron of extreme points; A - B has volume, so one exists.
+  bool Start();
+  // Adds the farthest point of A - B along a direction if it lies outside.
+  void Reach(const Vector3d& direction);
+  CoreDistance Search();
+
+ private:
+  int Add(const Vector3d& direction);
+  int AddFarther(const Vector3d& direction, const Vector3d& from);
+  void RefreshPlanes();
+  int LowestFace() const;
+  bool Full() const { return hull_.points() >= kMaxVertices; }
+  CoreDistance Result(const std::array<int, 3>& face, const Plane& plane, double gap) const;
+
+  const CorePair& pair_;
+  Lattice lattice_;
+  LatticeHull hull_;
+  std::array<CorePair::Difference, kMaxVertices> source_;
+  std::array<Plane, 4 * kMaxVertices> planes_;
+};
+
+int Polytope::Add(const Vector3d& direction) {
+  const CorePair::Difference p = pair_.Support(direction);
+  const int index = hull_.AddPoint(lattice_.Round(p.w));
+  source_[index] = p;
+  return index;
+}
+
+int Polytope::AddFarther(const Vector3d& direction, const Vector3d& from) {
+  const double ahead = direction.dot(pair_.Support(direction).w - from);
+  const double behind = direction.dot(from - pair_.Support(-direction).w);
+  return Add(ahead >= behind ? direction : Vector3d(-direction));
+}
+
+bool Polytope::Start() {
+  const int a = Add(Vector3d::UnitX());
+  const Vector3d wa = source_[a].w;
+  // The farthest of the axis supports: A - B may be thin along any one axis.
+  Vector3d axis = -Vector3d::UnitX();
+  double farthest = -1.0;
+  for (int i = 0; i < 6; ++i) {
+    const Vector3d direction = (i < 3 ? 1.0 : -1.0) * Vector3d::Unit(i % 3);
+    const double distance = (pair_.Support(direction).w - wa).norm();
+    if (distance > farthest) farthest = distance, axis = direction;
+  }
+  const int b = Add(axis);
+  const Vector3d along = (source_[b].w - wa).normalized();
+  const Vector3d side = along.unitOrthogonal();
+  const Vector3d other = along.cross(side);
+  const auto width = [&](const Vector3d& d) {
+    return d.dot(pair_.Support(d).w) + d.dot(-pair_.Support(-d).w);
+  };
+  const int c = AddFarther(width(side) >= width(other) ? side : other, wa);
+  const Vector3d normal = along.cross(source_[c].w - wa).normalized();
+  const int d = AddFarther(normal, wa);
+  if (!hull_.Start(a, b, c, d)) return false;
+  RefreshPlanes();
+  return true;
+}
+
+void Polytope::RefreshPlanes() {
+  for (const int i : hull_.created()) {
+    const LatticeHull::Face& face = hull_.face(i);
+    const Vector3d normal =
+        Vector3d(static_cast<double>(face.normal[0]), static_cast<double>(face.normal[1]),
+                 static_cast<double>(face.normal[2]))
+            .normalized();
+    planes_[i] = {normal, normal.dot(lattice_.Point(hull_.point(face.vertex[0])))};
+  }
+}
+
+int Polytope::LowestFace() const {
+  int lowest = -1;
+  for (int i = 0; i < hull_.face_slots(); ++i) {
+    if (!hull_.face(i).alive) continue;
+    if (lowest < 0 || planes_[i].offset < planes_[lowest].offset) lowest = i;
+  }
+  return lowest;
+}
+
+void Polytope::Reach(const Vector3d& direction) {
+  if (direction.isZero(0.0) || Full()) return;
+  const int point = Add(direction);
+  for (int i = 0; i < hull_.face_slots(); ++i) {
+    if (!hull_.face(i).alive || hull_.Height(i, point) <= 0) continue;
+    hull_.Grow(point, i);
+    RefreshPlanes();
+    return;
+  }
+}
+
+CoreDistance Polytope::Search() {
+  const double enough = kEnough * pair_.Extent();
+  std::array<int, 3> best_face{};
+  Plane best{Vector3d::UnitX(), std::numeric_limits<double>::infinity()};
+  while (true) {
+    const int lowest = LowestFace();
+    const Plane& plane = planes_[lowest];
+    const int point = Full() ? -1 : Add(plane.normal);
+    const Vector3d w = point < 0 ? pair_.Support(plane.normal).w : source_[point].w;
+    const double reach = plane.normal.dot(w);
+    if (reach < best.offset) best = {plane.normal, reach}, best_face = hull_.face(lowest).vertex;
+    if (point < 0 || best.offset - plane.offset <= enough || hull_.Height(lowest, point) <= 0) {
+      // The lattice may put the face a step above the plane that bounds A - B.
+      return Result(best_face, best, std::max(best.offset - plane.offset, 0.0));
+    }
+    hull_.Grow(point, lowest);
+    RefreshPlanes();
+  }
+}
+
+// The points of the bodies behind the foot of the origin on a face.
+CoreDistance Polytope::Result(const std::array<int, 3>& face, const Plane& plane,
+                              double gap) const {
+  const auto& [a, b, c] = face;
+  const Vector3d &A = source_[a].w, &B = source_[b].w, &C = source_[c].w;
+  const Vector3d& n = plane.normal;
+  Vector3d weight(n.dot(B.cross(C)), n.dot(C.cross(A)), n.dot(A.cross(B)));
+  weight = weight.cwiseMax(0.0);  // the origin may lie beside the face, at touch only
+  if (!(weight.sum() > 0.0)) weight = Vector3d::Ones();
+  weight /= weight.sum();
+  CoreDistance result{.distance = -plane.offset, .normal = -n, .gap = gap};
+  result.point_a = weight[0] * source_[a].a + weight[1] * source_[b].a + weight[2] * source_[c].a;
+  result.point_b = result.point_a - result.distance * result.normal;
+  return result;
+}
+
+}  // namespace
+
+CoreDistance PolytopeDepth(const CorePair& pair, const Vector3d& hint) {
+  alignas(std::max_align_t) std::array<std::byte, kArenaBytes> bytes;
+  std::pmr::monotonic_buffer_resource arena(bytes.data(), bytes.size(),
+                                            std::pmr::null_memory_resource());
+  Polytope polytope(pair, &arena);
+  if (!polytope.Start()) {
+    return {.distance = std::numeric_limits<double>::quiet_NaN(),
+            .gap = std::numeric_limits<double>::infinity()};
+  }
+  polytope.Reach(hint);
+  return polytope.Search();
+}
+
+}  // namespace oca::models::internal

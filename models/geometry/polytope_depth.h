@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "models/geometry/core_pair.h"
+
+namespace oca::models::internal {
+
+/// Signed distance of two cores that overlap or touch: minus the least height of the origin below
+/// the planes that bound A - B.
+///
+/// A polytope inside A - B grows towards the origin's nearest face until that face is one of A - B
+/// itself. It grows on an integer lattice with exact predicates, so no flat or thin face misleads
+/// it; polyhedral pairs end at the true face, curved ones when `gap` is below 1e-9 of their size.
+/// `hint` (frame of A, zero if none) is a direction in which another method found an exit.
+/// source van den Bergen 2001
+CoreDistance PolytopeDepth(const CorePair& pair, const Eigen::Vector3d& hint);
+
+}  // namespace oca::models::internal
