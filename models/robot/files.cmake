@@ -1,2 +1,18 @@
-list(APPEND headers)
-list(APPEND sources)
+# SPDX-License-Identifier: BSD-3-Clause
+list(APPEND headers
+  robot/jacobian_mapping.h
+  robot/kinematics.h
+  robot/robot_model.h
+  robot/urdf.h)
+list(APPEND sources
+  robot/fuse_capsules.cc
+  robot/jacobian_mapping.cc
+  robot/kinematics.cc
+  robot/nearest_name.cc
+  robot/robot_model.cc
+  robot/srdf.cc
+  robot/urdf.cc
+  robot/urdf_outline.cc
+  robot/urdf_tree.cc
+  robot/xml_file.cc
+  robot/xml_numbers.cc)

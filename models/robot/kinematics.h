@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <span>
+#include <vector>
+
+#include "models/robot/robot_model.h"
+
+namespace oca::models {
+
+// Conventions of this file. q holds num_positions() joint positions (rad, m). X_WL holds one pose a
+// link, in the order of the model. All vectors have world axes. A Jacobian has num_positions()
+// columns; a mimic joint adds to its master's column with its multiplier. Except for LinkPoses and
+// CheckPositions no function allocates, and sizes are asserted, not checked.
+
+using Matrix6X = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
+/// throws ModelError if q has the wrong length or holds a number that is not finite
+void CheckPositions(const RobotModel& model, const Eigen::Ref<const Eigen::VectorXd>& q);
+
+/// Poses of all links in the world. throws ModelError as CheckPositions does
+std::vector<Eigen::Isometry3d> LinkPoses(const RobotModel& model,
+                                         const Eigen::Ref<const Eigen::VectorXd>& q);
+
+/// The same in one pass into `X_WL` (num_links() poses).
+void ForwardKinematics(const RobotModel& model, const Eigen::Ref<const Eigen::VectorXd>& q,
+                       std::span<Eigen::Isometry3d> X_WL);
+
+/// A joint seen from the world: unit axis (zero for a fixed joint) and the origin of its child
+/// link (m), a point on the axis of a revolute joint.
+struct JointScrew {
+  Eigen::Vector3d axis_W;
+  Eigen::Vector3d origin_W;
+};
+
+/// All joints (num_joints() entries). The poses of the links alone determine them, because a
+/// joint's motion leaves its own axis where it is.
+void JointScrews(const RobotModel& model, std::span<const Eigen::Isometry3d> X_WL,
+                 std::span<JointScrew> screws);
+
+/// Velocity of the point of `link` that is now at p_W: v = J_v qdot. J_v is 3 x n.
+void PointJacobian(const RobotModel& model, std::span<const Eigen::Isometry3d> X_WL, int link,
+                   const Eigen::Vector3d& p_W, Eigen::Ref<Eigen::Matrix3Xd> J_v);
+
+/// Velocity of the origin of `link`: rows 0-2 linear, 3-5 angular. J is 6 x n.
+void LinkJacobian(const RobotModel& model, std::span<const Eigen::Isometry3d> X_WL, int link,
+                  Eigen::Ref<Matrix6X> J);
+
+/// The LinkJacobians of all bodies below each other, in the order of RobotModel::bodies():
+/// J is 6 num_bodies() x n; 42 x 7 for an arm of seven joints. source report eq. (3.4)
+void StackedJacobian(const RobotModel& model, std::span<const Eigen::Isometry3d> X_WL,
+                     Eigen::Ref<Eigen::MatrixXd> J);
+
+}  // namespace oca::models

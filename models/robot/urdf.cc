@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "models/robot/urdf.h"
+
+#include <console_bridge/console.h>
+#include <fmt/format.h>
+#include <tinyxml.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include <algorithm>
+#include <mutex>
+#include <unordered_map>
+
+#include "models/error.h"
+#include "models/geometry/mesh.h"
+#include "models/robot/fuse_capsules.h"
+#include "models/robot/srdf.h"
+#include "models/robot/urdf_outline.h"
+#include "models/robot/xml_file.h"
+
+namespace oca::models {
+namespace {
+
+// Keeps what urdfdom says instead of letting it print, while this object lives. The handler of
+// console_bridge is global, so one thread at a time.
+class CapturedLog : public console_bridge::OutputHandler {
+ public:
+  CapturedLog() : lock_(Mutex()) { console_bridge::useOutputHandler(this); }
+  ~CapturedLog() override { console_bridge::restorePreviousOutputHandler(); }
+  CapturedLog(const CapturedLog&) = delete;
+  CapturedLog& operator=(const CapturedLog&) = delete;
+
+  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
+    if (level < console_bridge::CONSOLE_BRIDGE_LOG_ERROR) return;
+    errors_ += (errors_.empty() ? "" : "; ") + text;
+  }
+  const std::string& errors() const { return errors_; }
+
+ private:
+  static std::mutex& Mutex() {
+    static std::mutex mutex;
+    return mutex;
+  }
+  std::lock_guard<std::mutex> lock_;
+  std::string errors_;
+};
+
+urdf::ModelInterfaceSharedPtr ParseWithUrdfdom(const std::string& text, const std::string& where) {
+  CapturedLog log;
+  urdf::ModelInterfaceSharedPtr parsed;
+  std::string reason;
+  try {
+    parsed = urdf::parseURDF(text);
+  } catch (const std::exception& error) {
+    reason = error.what();
+  }
+  if (parsed == nullptr || !log.errors().empty()) {
+    throw ModelError(fmt::format("{}: URDF; got '{}{}'; expected what urdfdom can read", where,
+                                 log.errors(), reason));
+  }
+  return parsed;
+}
+
+Eigen::Isometry3d ToPose(const urdf::Pose& pose) {
+  const auto& [x, y, z, w] = pose.rotation;
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.linear() = Eigen::Quaterniond(w, x, y, z).normalized().toRotationMatrix();
+  X.translation() = Eigen::Vector3d(pose.position.x, pose.position.y, pose.position.z);
+  return X;
+}
+
+Eigen::Vector3d ToVector(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
+
+// One load: what the conversions share.
+class UrdfReader {
+ public:
+  UrdfReader(const std::string& where, const LoadOptions& options,
+             const std::filesystem::path& directory)
+      : where_(where), options_(options), directory_(directory) {}
+
+  RobotModel Read(const std::string& text) {
+    const XmlDocument document = ParseXml(text, where_);
+    outline_ = ReadUrdfOutline(*document->RootElement(), where_);
+    CheckUrdfTree(outline_, where_);
+    parsed_ = ParseWithUrdfdom(text, where_);
+    OrderTree();
+    for (const std::size_t joint : joint_order_) joints_.push_back(ReadJoint(joint));
+    for (const std::size_t link : link_order_) links_.push_back(ReadLink(outline_.links[link]));
+    ApplyLimits(options_.acceleration_limits, "acceleration_limits", &Joint::acceleration_limit);
+    ApplyLimits(options_.jerk_limits, "jerk_limits", &Joint::jerk_limit);
+    std::vector<std::pair<int, int>> disabled;
+    if (!options_.srdf.empty()) {
+      std::vector<std::string> names;
+      for (const Link& link : links_) names.push_back(link.name.text());
+      disabled = LoadDisabledPairs(options_.srdf, names);
+    }
+    return {Name(outline_.robot_name), std::move(links_), std::move(joints_), options_.X_WB,
+            std::move(disabled)};
+  }
+
+ private:
+  // Depth first, children in the order of the file's joints, without recursion.
+  void OrderTree() {
+    std::unordered_map<std::string, std::size_t> link_of_name;
+    for (std::size_t i = 0; i < outline_.links.size(); ++i)
+      link_of_name[outline_.links[i].name] = i;
+    std::vector<std::vector<std::size_t>> joints_below(outline_.links.size());
+    std::vector<bool> root(outline_.links.size(), true);
+    for (std::size_t j = 0; j < outline_.joints.size(); ++j) {
+      joints_below[link_of_name[outline_.joints[j].parent]].push_back(j);
+      root[link_of_name[outline_.joints[j].child]] = false;
+    }
+    const auto visit = [&](std::size_t link, std::vector<std::size_t>& pending) {
+      number_of_link_[outline_.links[link].name] = static_cast<int>(link_order_.size());
+      link_order_.push_back(link);
+      pending.insert(pending.end(), joints_below[link].rbegin(), joints_below[link].rend());
+    };
+    std::vector<std::size_t> pending;
+    visit(std::find(root.begin(), root.end(), true) - root.begin(), pending);
+    while (!pending.empty()) {
+      const std::size_t joint = pending.back();
+      pending.pop_back();
+      number_of_joint_[outline_.joints[joint].name] = static_cast<int>(joint_order_.size());
+      joint_order_.push_back(joint);
+      visit(link_of_name[outline_.joints[joint].child], pending);
+    }
+  }
+
+  Joint ReadJoint(std::size_t index) const {
+    const UrdfOutline::Joint& entry = outline_.joints[index];
+    const urdf::Joint& from = *parsed_->getJoint(entry.name);
+    Joint joint;
+    joint.name = Name(entry.name);
+    joint.parent_link = number_of_link_.at(entry.parent);
+    joint.child_link = number_of_link_.at(entry.child);
+    joint.X_PJ = ToPose(from.parent_to_joint_origin_transform);
+    joint.type = from.type == urdf::Joint::REVOLUTE     ? JointType::kRevolute
+                 : from.type == urdf::Joint::CONTINUOUS ? JointType::kContinuous
+                 : from.type == urdf::Joint::PRISMATIC  ? JointType::kPrismatic
+                                                        : JointType::kFixed;
+    if (!joint.movable()) return joint;
+    joint.axis = ToVector(from.axis).normalized();
+    if (from.limits != nullptr) {
+      joint.velocity_limit = from.limits->velocity;
+      joint.effort_limit = from.limits->effort;
+      if (joint.type != JointType::kContinuous) {
+        joint.lower_limit = from.limits->lower;
+        joint.upper_limit = from.limits->upper;
+      }
+    }
+    joint.acceleration_limit = entry.acceleration.value_or(kUnlimited);
+    joint.jerk_limit = entry.jerk.value_or(kUnlimited);
+    if (!entry.mimic.empty()) {
+      joint.mimic =
+          Mimic{number_of_joint_.at(entry.mimic), from.mimic->multiplier, from.mimic->offset};
+    }
+    return joint;
+  }
+
+  Link ReadLink(const UrdfOutline::Link& entry) const {
+    const urdf::Link& from = *parsed_->getLink(entry.name);
+    if (from.collision_array.size() != entry.collision_lines.size() ||
+        from.visual_array.size() != entry.visual_lines.size()) {
+      throw ModelError(fmt::format(
+          "{}:{}: link '{}': urdfdom; got {} collision and {} visual elements; expected {} and {}",
+          where_, entry.line, entry.name, from.collision_array.size(), from.visual_array.size(),
+          entry.collision_lines.size(), entry.visual_lines.size()));
+    }
+    Link link;
+    link.name = Name(entry.name);
+    for (std::size_t i = 0; i < from.collision_array.size(); ++i) {
+      const std::string source = fmt::format("{}:{}", where_, entry.collision_lines[i]);
+      const urdf::Collision& collision = *from.collision_array[i];
+      link.collisions.push_back(
+          {ToPose(collision.origin),
+           ReadShape(*collision.geometry,
+                     fmt::format("{}: link '{}' collision", source, entry.name)),
+           source});
+    }
+    link.collisions = FuseCapsules(std::move(link.collisions));
+    for (std::size_t i = 0; options_.load_visuals && i < from.visual_array.size(); ++i) {
+      link.visuals.push_back(ReadVisual(
+          *from.visual_array[i],
+          fmt::format("{}:{}: link '{}' visual", where_, entry.visual_lines[i], entry.name)));
+    }
+    if (from.inertial != nullptr) link.inertia = ReadInertia(*from.inertial);
+    return link;
+  }
+
+  Shape ReadShape(const urdf::Geometry& geometry, const std::string& where) const {
+    if (geometry.type == urdf::Geometry::MESH) {
+      const auto& mesh = static_cast<const urdf::Mesh&>(geometry);
+      const std::filesystem::path file = FindMesh(mesh.filename, where);
+      try {
+        return ConvexMesh{LoadConvexHull(file, ToVector(mesh.scale))};
+      } catch (const ModelError& error) {
+        throw ModelError(where + ": " + error.what());
+      }
+    }
+    return ReadPrimitive(geometry);
+  }
+
+  static Shape ReadPrimitive(const urdf::Geometry& geometry) {
+    if (geometry.type == urdf::Geometry::SPHERE) {
+      return Sphere{static_cast<const urdf::Sphere&>(geometry).radius};
+    }
+    if (geometry.type == urdf::Geometry::BOX) {
+      return Box{ToVector(static_cast<const urdf::Box&>(geometry).dim)};
+    }
+    const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
+    return Cylinder{cylinder.radius, cylinder.length};
+  }
+
+  VisualElement ReadVisual(const urdf::Visual& from, const std::string& where) const {
+    VisualElement visual;
+    visual.X_LV = ToPose(from.origin);
+    if (from.geometry->type == urdf::Geometry::MESH) {
+      const auto& mesh = static_cast<const urdf::Mesh&>(*from.geometry);
+      visual.mesh_file = FindMesh(mesh.filename, where).string();
+      visual.mesh_scale = ToVector(mesh.scale);
+    } else {
+      visual.shape = ReadPrimitive(*from.geometry);
+    }
+    if (from.material != nullptr) {
+      const urdf::Color& colour = from.material->color;
+      visual.colour = Eigen::Vector4d(colour.r, colour.g, colour.b, colour.a);
+    }
+    return visual;
+  }
+
+  static Inertia ReadInertia(const urdf::Inertial& from) {
+    const Eigen::Isometry3d X_LC = ToPose(from.origin);
+    Eigen::Matrix3d I;
+    I << from.ixx, from.ixy, from.ixz, from.ixy, from.iyy, from.iyz, from.ixz, from.iyz, from.izz;
+    return {from.mass, X_LC.translation(), X_LC.linear() * I * X_LC.linear().transpose()};
+  }
+
+  std::filesystem::path FindMesh(const std::string& name, const std::string& where) const {
+    constexpr std::string_view kPackage = "package://";
+    constexpr std::string_view kFile = "file://";
+    std::vector<std::filesystem::path> candidates;
+    if (name.starts_with(kPackage)) {
+      const std::size_t slash = std::min(name.find('/', kPackage.size()), name.size());
+      const std::string package = name.substr(kPackage.size(), slash - kPackage.size());
+      const std::string rest = slash < name.size() ? name.substr(slash + 1) : "";
+      const auto found = options_.find_package ? options_.find_package(package) : "";
+      if (!found.empty()) candidates.push_back(found / rest);
+      for (const auto& folder : options_.package_directories) {
+        candidates.push_back(folder / package / rest);
+      }
+    } else {
+      candidates.push_back(directory_ /
+                           (name.starts_with(kFile) ? name.substr(kFile.size()) : name));
+    }
+    std::string tried;
+    for (const auto& candidate : candidates) {
+      std::error_code error;
+      if (std::filesystem::is_regular_file(candidate, error)) return candidate;
+      tried += (tried.empty() ? "" : ", ") + candidate.string();
+    }
+    throw ModelError(fmt::format("{}: missing mesh file; got '{}'; expected a file at {}", where,
+                                 name, tried.empty() ? "a known package" : tried));
+  }
+
+  void ApplyLimits(const Eigen::VectorXd& limits, const char* what, double Joint::*field) {
+    if (limits.size() == 0) return;
+    std::vector<Joint*> moving;
+    for (Joint& joint : joints_) {
+      if (joint.movable() && !joint.mimic) moving.push_back(&joint);
+    }
+    if (limits.size() != 1 && limits.size() != std::ssize(moving)) {
+      throw ModelError(fmt::format("{}: {}; got {} numbers; expected 1 or {}", where_, what,
+                                   limits.size(), moving.size()));
+    }
+    for (std::size_t i = 0; i < moving.size(); ++i) {
+      const double limit = limits[limits.size() == 1 ? 0 : static_cast<Eigen::Index>(i)];
+      if (!(limit > 0.0)) {
+        throw ModelError(fmt::format("{}: {} of joint '{}'; got {}; expected more than 0", where_,
+                                     what, moving[i]->name.text(), limit));
+      }
+      moving[i]->*field = limit;
+    }
+  }
+
+  const std::string& where_;
+  const LoadOptions& options_;
+  const std::filesystem::path& directory_;
+  UrdfOutline outline_;
+  urdf::ModelInterfaceSharedPtr parsed_;
+  std::vector<std::size_t> link_order_, joint_order_;  // places in the outline
+  std::unordered_map<std::string, int> number_of_link_, number_of_joint_;
+  std::vector<Link> links_;
+  std::vector<Joint> joints_;
+};
+
+}  // namespace
+
+RobotModel LoadUrdf(const std::filesystem::path& file, const LoadOptions& options) {
+  return ParseUrdf(ReadXmlFile(file), file.string(), options, file.parent_path());
+}
+
+RobotModel ParseUrdf(const std::string& text, const std::string& name, const LoadOptions& options,
+                     const std::filesystem::path& directory) {
+  return UrdfReader(name, options, directory).Read(text);
+}
+
+}  // namespace oca::models

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "models/robot/robot_model.h"
+
+namespace oca::models {
+
+/// What a robot's description leaves open.
+struct LoadOptions {
+  /// Pose of the root link in the world.
+  Eigen::Isometry3d X_WB{Eigen::Isometry3d::Identity()};
+  /// SRDF file with the pairs of links that are never checked for collision; empty: none.
+  std::filesystem::path srdf;
+  /// rad/s^2 or m/s^2, rad/s^3 or m/s^3, more than 0: one for all, or one a position; empty: as in
+  /// the URDF's <limit acceleration jerk>, unlimited where it has none.
+  Eigen::VectorXd acceleration_limits;
+  Eigen::VectorXd jerk_limits;
+  /// package://NAME/rest is looked up as find_package(NAME)/rest if that is set and not empty, then
+  /// as DIR/NAME/rest for each DIR.
+  std::function<std::filesystem::path(const std::string& package)> find_package;
+  std::vector<std::filesystem::path> package_directories;
+  /// false: visual elements are not read, and their meshes need not exist.
+  bool load_visuals{true};
+};
+
+/// Reads a robot, or a world of fixed links, from a URDF file. Relative mesh paths are relative to
+/// the file's folder. Links are numbered depth first, children in the order of the file's joints. A
+/// cylinder with a sphere of the same radius at either end becomes one Capsule.
+///
+/// throws ModelError naming file, line and element, for all that a robot cannot be built from or
+/// that would be lost in silence: see ReadUrdfOutline and CheckUrdfTree; beyond these an unreadable
+/// or malformed file, a missing mesh, a wrong number of acceleration limits
+/// source https://wiki.ros.org/urdf/XML
+RobotModel LoadUrdf(const std::filesystem::path& file, const LoadOptions& options = {});
+
+/// The same from text. `name` stands for the file in messages; relative mesh paths are relative to
+/// `directory`.
+RobotModel ParseUrdf(const std::string& text, const std::string& name,
+                     const LoadOptions& options = {}, const std::filesystem::path& directory = {});
+
+}  // namespace oca::models

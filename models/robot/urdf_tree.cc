@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <unordered_map>
+
+#include "models/error.h"
+#include "models/robot/nearest_name.h"
+#include "models/robot/urdf_outline.h"
+
+namespace oca::models {
+namespace {
+
+using Index = std::unordered_map<std::string, std::size_t>;
+
+template <typename Entry>
+Index IndexByName(const std::vector<Entry>& entries) {
+  Index index;
+  for (const Entry& entry : entries) index.emplace(entry.name, index.size());
+  return index;
+}
+
+std::string Nearest(const std::string& name, const Index& index) {
+  std::vector<std::string> names;
+  for (const auto& entry : index) names.push_back(entry.first);
+  return NearestName(name, names);
+}
+
+class TreeChecker {
+ public:
+  TreeChecker(const UrdfOutline& outline, const std::string& where)
+      : outline_(outline),
+        where_(where),
+        links_(IndexByName(outline.links)),
+        joints_(IndexByName(outline.joints)) {}
+
+  void Check() const {
+    // Follow each link's parent joint; -1 marks a root.
+    std::vector<int> parent_joint(outline_.links.size(), -1);
+    for (std::size_t j = 0; j < outline_.joints.size(); ++j) {
+      const UrdfOutline::Joint& joint = outline_.joints[j];
+      FindLink(joint, joint.parent, "parent");
+      int& parent = parent_joint[FindLink(joint, joint.child, "child")];
+      if (parent >= 0) {
+        Fail(joint, fmt::format("child link '{}'", joint.child),
+             fmt::format("a loop: joint '{}' leads there too", outline_.joints[parent].name),
+             "one parent a link");
+      }
+      parent = static_cast<int>(j);
+    }
+    CheckRoots(parent_joint);
+    CheckLoops(parent_joint);
+    for (const UrdfOutline::Joint& joint : outline_.joints) CheckMimic(joint);
+  }
+
+ private:
+  [[noreturn]] void Fail(const UrdfOutline::Joint& joint, const std::string& what,
+                         const std::string& got, const std::string& expected) const {
+    throw ModelError(fmt::format("{}:{}: joint '{}': {}; got {}; expected {}", where_, joint.line,
+                                 joint.name, what, got, expected));
+  }
+
+  std::size_t FindLink(const UrdfOutline::Joint& joint, const std::string& name,
+                       const char* role) const {
+    const auto found = links_.find(name);
+    if (found == links_.end()) {
+      Fail(joint, fmt::format("unknown {} link", role), fmt::format("'{}'", name),
+           fmt::format("a link of the file, nearest is '{}'", Nearest(name, links_)));
+    }
+    return found->second;
+  }
+
+  void CheckRoots(const std::vector<int>& parent_joint) const {
+    const UrdfOutline::Link* root = nullptr;
+    for (std::size_t i = 0; i < parent_joint.size(); ++i) {
+      if (parent_joint[i] >= 0) continue;
+      const UrdfOutline::Link& link = outline_.links[i];
+      if (root != nullptr) {
+        throw ModelError(fmt::format(
+            "{}:{}: root link; got two, '{}' and '{}'; expected one link without parent", where_,
+            link.line, root->name, link.name));
+      }
+      root = &link;
+    }
+  }
+
+  // Walks up from each link until a root or a link known to reach one.
+  void CheckLoops(const std::vector<int>& parent_joint) const {
+    std::vector<bool> rooted(parent_joint.size(), false);
+    for (std::size_t start = 0; start < parent_joint.size(); ++start) {
+      std::vector<std::size_t> path;
+      for (std::size_t at = start; !rooted[at];) {
+        path.push_back(at);
+        if (parent_joint[at] < 0) break;
+        const UrdfOutline::Joint& joint = outline_.joints[parent_joint[at]];
+        if (path.size() > parent_joint.size()) {
+          Fail(joint, "tree", "a loop of joints", "a path from each link to the root");
+        }
+        at = links_.at(joint.parent);
+      }
+      for (const std::size_t link : path) rooted[link] = true;
+    }
+  }
+
+  void CheckMimic(const UrdfOutline::Joint& joint) const {
+    std::size_t hops = 0;
+    for (const UrdfOutline::Joint* at = &joint; !at->mimic.empty(); ++hops) {
+      const auto found = joints_.find(at->mimic);
+      if (found == joints_.end()) {
+        Fail(*at, "mimic of an unknown joint", fmt::format("'{}'", at->mimic),
+             fmt::format("a joint of the file, nearest is '{}'", Nearest(at->mimic, joints_)));
+      }
+      if (hops > outline_.joints.size()) {
+        Fail(joint, "mimic", "a loop of mimic rules", "a joint that mimics none at the end");
+      }
+      at = &outline_.joints[found->second];
+    }
+  }
+
+  const UrdfOutline& outline_;
+  const std::string& where_;
+  Index links_, joints_;
+};
+
+}  // namespace
+
+void CheckUrdfTree(const UrdfOutline& outline, const std::string& where) {
+  TreeChecker(outline, where).Check();
+}
+
+}  // namespace oca::models

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+class TiXmlDocument;
+
+namespace oca::models {
+
+/// Deletes what this header only declares.
+struct XmlDeleter {
+  void operator()(TiXmlDocument* document) const;
+};
+using XmlDocument = std::unique_ptr<TiXmlDocument, XmlDeleter>;
+
+/// The whole text of a regular file of at most 50 MB. throws ModelError naming the file
+std::string ReadXmlFile(const std::filesystem::path& file);
+
+/// Parses `text`; `where` begins each message. The document has a root element.
+/// throws ModelError if the text is empty, binary, malformed, nested deeper than 64 elements or has
+/// a document type declaration
+XmlDocument ParseXml(const std::string& text, const std::string& where);
+
+}  // namespace oca::models

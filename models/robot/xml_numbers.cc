@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "models/robot/xml_numbers.h"
+
+#include <charconv>
+#include <cmath>
+
+namespace oca::models {
+
+std::optional<std::vector<double>> ParseFiniteNumbers(std::string_view text) {
+  std::vector<double> numbers;
+  constexpr std::string_view kSpace = " \t\r\n";
+  for (std::size_t at = text.find_first_not_of(kSpace); at != text.npos;
+       at = text.find_first_not_of(kSpace, at)) {
+    const std::size_t end = std::min(text.find_first_of(kSpace, at), text.size());
+    std::string_view word = text.substr(at, end - at);
+    if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
+    double number = 0.0;
+    const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    if (error != std::errc{} || stop != word.data() + word.size() || !std::isfinite(number)) {
+      return std::nullopt;
+    }
+    numbers.push_back(number);
+    at = end;
+  }
+  return numbers;
+}
+
+}  // namespace oca::models
