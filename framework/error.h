@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace oca {
+
+/// Base of every exception that OCA throws on purpose.
+/// The text reads `where: what; got X; expected Y`.
+struct Error : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A file or a parameter is wrong.
+struct ConfigError : Error {
+  using Error::Error;
+};
+
+/// A diagram is wired wrongly. One line a problem; all problems of a diagram at once.
+struct WiringError : Error {
+  explicit WiringError(std::vector<std::string> all_problems);
+  std::vector<std::string> problems;
+};
+
+/// A run failed at `time` in `system` at `port` (empty where no single port is to blame).
+struct SimulationError : Error {
+  SimulationError(std::string system, std::string port, double time, const std::string& what);
+  std::string system;
+  std::string port;
+  double time;
+};
+
+}  // namespace oca

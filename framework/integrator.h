@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+
+namespace oca {
+
+class Context;
+class Plan;
+
+enum class IntegratorKind { kErkDp5, kErkBs3, kCvodeAdams, kCvodeBdf, kFixedDp5, kFixedRk4 };
+std::span<const char* const> EnumNames(IntegratorKind);
+
+struct IntegratorOptions {
+  IntegratorKind integrator{IntegratorKind::kErkDp5};
+  double relative_tolerance{1e-6};
+  double absolute_tolerance{1e-9};
+  double max_step{std::numeric_limits<double>::infinity()};  ///< s
+  double fixed_step{1e-3};                                   ///< s; of the fixed-step integrators
+  int max_steps{100000};                                     ///< between two events
+};
+
+struct IntegratorStatistics {
+  std::int64_t steps{0};
+  std::int64_t rejected_steps{0};
+  std::int64_t derivative_calls{0};
+  std::int64_t restarts{0};
+};
+
+/// Advances the continuous state of a Context between two events.
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+  /// Forgets the past: the right-hand side changed (`jumped` false) or the state jumped.
+  virtual void Restart(Context& context, bool jumped) = 0;
+  /// Integrates the context's continuous state from its time to `to`.
+  /// throws SimulationError.
+  virtual void IntegrateTo(Context& context, double to) = 0;
+  const IntegratorStatistics& statistics() const { return statistics_; }
+
+ protected:
+  IntegratorStatistics statistics_;
+};
+
+/// throws ConfigError if an option is out of bounds.
+std::unique_ptr<Integrator> MakeIntegrator(const Plan& plan, const IntegratorOptions& options);
+
+}  // namespace oca

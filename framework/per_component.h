@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <utility>
+
+namespace oca {
+
+/// A number for every component, or a list with one number a component.
+class PerComponent {
+ public:
+  PerComponent(double scalar = 0.0)  // NOLINT: a number is a parameter
+      : values_(Eigen::VectorXd::Constant(1, scalar)), scalar_(true) {}
+  PerComponent(Eigen::VectorXd values)  // NOLINT: a vector is a parameter
+      : values_(std::move(values)), scalar_(false) {}
+
+  bool scalar() const { return scalar_; }
+  const Eigen::VectorXd& values() const { return values_; }
+  double operator[](Eigen::Index i) const { return values_[scalar_ ? 0 : i]; }
+  double& operator[](Eigen::Index i) { return values_[scalar_ ? 0 : i]; }
+
+ private:
+  Eigen::VectorXd values_;
+  bool scalar_;
+};
+
+}  // namespace oca

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "framework/period.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "framework/error.h"
+
+namespace oca {
+
+Period::Period(std::int64_t numerator, std::int64_t denominator) {
+  if (denominator <= 0) {
+    throw ConfigError(fmt::format("period: denominator; got {}; expected > 0", denominator));
+  }
+  const std::int64_t divisor = std::gcd(numerator, denominator);
+  numerator_ = numerator / divisor;
+  denominator_ = denominator / divisor;
+}
+
+Period Period::FromSeconds(double seconds) {
+  constexpr double kLargest = 1e9;
+  if (!std::isfinite(seconds) || std::fabs(seconds) > kLargest) {
+    throw ConfigError(
+        fmt::format("period: got {}; expected a finite number of seconds below 1e9", seconds));
+  }
+  // Convergents p/q of the continued fraction: the first that rounds to `seconds` is the simplest.
+  const double magnitude = std::fabs(seconds);
+  double rest = magnitude;
+  double p0 = 0.0, q0 = 1.0, p1 = 1.0, q1 = 0.0;
+  for (int i = 0; i < 64; ++i) {
+    const double whole = std::floor(rest);
+    const double p2 = whole * p1 + p0;
+    const double q2 = whole * q1 + q0;
+    if (q2 > kLargest) break;
+    // Two roundings (the division in the file and this one) may each cost half a unit.
+    if (std::fabs(p2 / q2 - magnitude) <= 2.3e-16 * magnitude) {
+      const auto numerator = static_cast<std::int64_t>(p2);
+      return Period(seconds < 0 ? -numerator : numerator, static_cast<std::int64_t>(q2));
+    }
+    p0 = p1, q0 = q1, p1 = p2, q1 = q2;
+    if (rest == whole) break;
+    rest = 1.0 / (rest - whole);
+  }
+  throw ConfigError(fmt::format(
+      "period: got {:.17g} s; expected a ratio of integers with a denominator up to 1e9", seconds));
+}
+
+std::string Period::ToString() const {
+  const std::int64_t q = denominator_;
+  std::int64_t rest = q;
+  while (rest % 2 == 0) rest /= 2;
+  while (rest % 5 == 0) rest /= 5;
+  if (rest == 1) return fmt::format("{} s", seconds());
+  return fmt::format("{}/{} s", numerator_, q);
+}
+
+}  // namespace oca

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "framework/plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "framework/error.h"
+
+namespace oca {
+
+std::uint64_t Plan::ClassChanged(const Context& context, std::uint32_t source_class) const {
+  auto& state = reinterpret_cast<ClassState*>(arena(context) + class_states_offset)[source_class];
+  if (state.checked != context.header().epoch) {
+    const std::uint64_t* version = versions(context);
+    std::uint64_t newest = 0;
+    for (std::uint32_t i = classes[source_class].begin; i < classes[source_class].end; ++i) {
+      newest = std::max(newest, version[class_sources[i]]);
+    }
+    state = {newest, context.header().epoch};
+  }
+  return state.changed;
+}
+
+void Plan::Pull(const Context& context, int node) const {
+  NodeState& state = node_states(context)[node];
+  const Node& target = nodes[node];
+  // What the target needs depends on no more sources than the target itself.
+  if (state.computed >= ClassChanged(context, target.source_class)) {
+    state.checked = context.header().epoch;
+    return;
+  }
+  PullRange(context, target.pull_begin, target.pull_end);
+}
+
+void Plan::PullRange(const Context& context, std::uint32_t begin, std::uint32_t end) const {
+  NodeState* const states_of_nodes = node_states(context);
+  const std::uint64_t epoch = context.header().epoch;
+  for (std::uint32_t i = begin; i < end; ++i) {
+    const std::uint32_t node = pulls[i];
+    NodeState& state = states_of_nodes[node];
+    if (state.checked == epoch) continue;
+    if (state.computed < ClassChanged(context, nodes[node].source_class)) {
+      Compute(context, node);
+      state.computed = epoch;
+    }
+    state.checked = epoch;
+  }
+}
+
+void Plan::Compute(const Context& context, std::uint32_t index) const {
+  const Node& node = nodes[index];
+  std::byte* const memory = arena(context);
+  try {
+    node.function(*node.system, memory, &slots[node.first_slot]);
+  } catch (const SimulationError&) {
+    throw;
+  } catch (const std::exception& error) {
+    Fail(context, node.system, node.system->outputs()[PortOf(index)].name, error.what());
+  }
+  const bool finite =
+      node.type == &kVectorType
+          ? AllFinite(reinterpret_cast<const double*>(memory + node.out.offset), node.out.size)
+          : node.type->finite(memory + node.out.offset);
+  if (!finite) FailNode(context, index);
+}
+
+int Plan::PortOf(std::uint32_t node) const {
+  const auto& all = nodes[node].system->outputs();
+  const int first = nodes[node].system->first_output_;
+  for (int i = 0; i < static_cast<int>(all.size()); ++i) {
+    if (outputs[first + i].node == static_cast<int>(node)) return i;
+  }
+  return 0;
+}
+
+void Plan::FailNode(const Context& context, std::uint32_t index) const {
+  const System* const system = nodes[index].system;
+  const auto& entries = inputs;
+  for (std::size_t i = 0; i < system->inputs().size(); ++i) {
+    const InputEntry& entry = entries[system->first_input_ + i];
+    if (entry.source >= 0 && versions(context)[entry.source] == 0) {
+      Fail(context, system, system->inputs()[i].name, "the exported input has not been fixed");
+    }
+  }
+  Fail(context, system, system->outputs()[PortOf(index)].name,
+       "the value is not finite (NaN or infinity)");
+}
+
+void Plan::Fail(const Context& context, const System* system, const std::string& port,
+                const char* what) const {
+  throw SimulationError(PathOf(*system), port, context.time(), what);
+}
+
+std::string Plan::PathOf(const System& system) const {
+  const auto found = std::find(systems.begin(), systems.end(), &system);
+  return found == systems.end() ? "diagram" : paths[found - systems.begin()];
+}
+
+void Plan::EvaluateDerivatives(Context& context, double* result) const {
+  PullRange(context, derivative_pull_begin, derivative_pull_end);
+  for (const Derivative& derivative : derivatives) {
+    try {
+      derivative.function(*derivative.system, arena(context), &slots[derivative.first_slot]);
+    } catch (const std::exception& error) {
+      Fail(context, derivative.system, derivative.state, error.what());
+    }
+  }
+  const auto* computed = reinterpret_cast<const double*>(arena(context) + derivative_offset);
+  if (!AllFinite(computed, static_cast<std::size_t>(continuous_size))) FailDerivative(context);
+  std::memcpy(result, computed, sizeof(double) * static_cast<std::size_t>(continuous_size));
+}
+
+void Plan::FailDerivative(const Context& context) const {
+  for (const Derivative& derivative : derivatives) {
+    const auto* values = reinterpret_cast<const double*>(arena(context) + derivative.out.offset);
+    if (!AllFinite(values, derivative.out.size)) {
+      Fail(context, derivative.system, derivative.state,
+           "the derivative is not finite (NaN or infinity)");
+    }
+  }
+}
+
+void Plan::RunEvent(Context& context, const Event& event) const {
+  PullRange(context, event.pull_begin, event.pull_end);
+  std::byte* const memory = arena(context);
+  for (const int index : event.writes) {
+    const StateEntry& state = states[index];
+    if (state.type == &kVectorType) {
+      std::memcpy(memory + state.next.offset, memory + state.slot.offset,
+                  sizeof(double) * state.slot.size);
+    } else {
+      state.type->assign(memory + state.next.offset, memory + state.slot.offset);
+    }
+  }
+  try {
+    event.function(*event.system, memory, &slots[event.first_slot]);
+  } catch (const SimulationError&) {
+    throw;
+  } catch (const std::exception& error) {
+    Fail(context, event.system, "", error.what());
+  }
+  for (const int index : event.writes) {
+    const StateEntry& state = states[index];
+    const bool finite = state.type == &kVectorType
+                            ? AllFinite(reinterpret_cast<const double*>(memory + state.next.offset),
+                                        state.next.size)
+                            : state.type->finite(memory + state.next.offset);
+    if (!finite) {
+      Fail(context, event.system, state.info->name,
+           "the new state is not finite (NaN or infinity)");
+    }
+  }
+}
+
+Plan::Change Plan::Commit(Context& context, const Event& event) const {
+  Change change = Change::kNone;
+  std::byte* const memory = arena(context);
+  for (const int index : event.writes) {
+    const StateEntry& state = states[index];
+    if (state.type == &kVectorType) {
+      const std::size_t bytes = sizeof(double) * state.slot.size;
+      if (std::memcmp(memory + state.slot.offset, memory + state.next.offset, bytes) == 0) continue;
+      std::memcpy(memory + state.slot.offset, memory + state.next.offset, bytes);
+    } else {
+      state.type->assign(memory + state.slot.offset, memory + state.next.offset);
+    }
+    MarkChanged(context, state.source);
+    if (state.continuous) {
+      change = Change::kState;
+    } else if (state.in_derivatives && change == Change::kNone) {
+      change = Change::kDerivative;
+    }
+  }
+  return change;
+}
+
+const Plan::InputEntry& Plan::input(const InputHandle& handle) const {
+  if (handle.system == root) return exported_inputs[handle.index];
+  return inputs[handle.system->first_input_ + handle.index];
+}
+
+const Plan& Plan::Of(const Handle& handle, const Context& context) {
+  const Plan* const plan = handle.system == nullptr ? nullptr : handle.system->plan_;
+  if (plan == nullptr || plan != context.plan_) {
+    throw WiringError(
+        {"port or state: its system is not part of the diagram that made the context"});
+  }
+  return *plan;
+}
+
+}  // namespace oca

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "framework/signal.h"
+
+namespace oca {
+
+class Context;
+class Log;
+class Plan;
+class System;
+
+/// The length of a vector port or state: a number, or a variable that Build settles from what is
+/// connected. Make variables with System::DeclareSize.
+class Size {
+ public:
+  Size(int n) : n_(n) {}  // NOLINT: an int is a size
+  static Size Variable(int index) {
+    Size size(-1);
+    size.variable_ = index;
+    return size;
+  }
+  int number() const { return n_; }           ///< -1 for a variable
+  int variable() const { return variable_; }  ///< -1 for a number
+
+ private:
+  int n_;
+  int variable_{-1};
+};
+
+/// The unit of a port, `any` (connects to everything), or a variable that Build settles.
+class Unit {
+ public:
+  Unit(const char* text) : text_(text) {}             // NOLINT: a literal is a unit
+  Unit(std::string text) : text_(std::move(text)) {}  // NOLINT: a string is a unit
+  static Unit Any() { return Unit(std::string()); }
+  static Unit Variable(int index) {
+    Unit unit = Any();
+    unit.variable_ = index;
+    return unit;
+  }
+  /// This unit per second: rad -> rad/s -> rad/s^2.
+  Unit Rate() const {
+    Unit rate = *this;
+    ++rate.rates_;
+    return rate;
+  }
+  bool any() const { return variable_ < 0 && text_.empty(); }
+  const std::string& text() const { return text_; }
+  int variable() const { return variable_; }
+  int rates() const { return rates_; }
+
+ private:
+  std::string text_;
+  int variable_{-1};
+  int rates_{0};
+};
+
+/// Length and unit of a vector port or state. Ports of other types ignore it.
+struct PortSpec {
+  Size size{1};
+  Unit unit{Unit::Any()};
+};
+
+/// Where a port, a state or an update sits in its system. Handles are small values; the system
+/// they belong to must outlive them.
+struct Handle {
+  const System* system{nullptr};
+  int index{-1};
+};
+
+struct InputHandle : Handle {};
+struct OutputHandle : Handle {};
+struct StateHandle : Handle {};
+
+/// An input port. Calculations that name it read what it is connected to.
+template <class T>
+struct Input : InputHandle {
+  /// Gives an input that a root diagram exports its value. throws WiringError for other inputs.
+  template <class Value>
+  void Fix(Context& context, const Value& value) const;
+};
+
+/// An input port that may stay unconnected; calculations then read an empty optional or nullptr.
+template <class T>
+struct OptionalInput : InputHandle {};
+
+/// An output port.
+template <class T>
+struct Output : OutputHandle {
+  /// The value at the context's time and state; computed only if something it depends on changed.
+  /// throws SimulationError if a calculation fails or yields a number that is not finite.
+  typename ViewOf<T>::Const Eval(const Context& context) const;
+};
+
+/// A part of the state that updates change at discrete times.
+template <class T>
+struct DiscreteState : StateHandle {
+  typename ViewOf<T>::Const Get(const Context& context) const;
+  template <class Value>
+  void Set(Context& context, const Value& value) const;
+};
+
+/// A part of the state that a derivative drives.
+struct ContinuousState : StateHandle {
+  VectorView Get(const Context& context) const;
+  void Set(Context& context, const Eigen::Ref<const Eigen::VectorXd>& value) const;
+};
+
+/// Names the time among the things a calculation reads; it arrives as a double in s.
+struct Time {};
+inline constexpr Time kTime;
+
+/// Names the log among the things a publish event reads; it arrives as a Log&.
+struct LogAccess {};
+inline constexpr LogAccess kLog;
+
+}  // namespace oca

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// The templates behind port.h's handles; include it where handles are read or written.
+
+#include "framework/port.h"
+
+namespace oca {
+namespace internal {
+
+struct Location {
+  std::byte* arena;
+  Slot slot;
+};
+
+Location Find(const OutputHandle& output, const Context& context);
+Location Find(const StateHandle& state, const Context& context);
+Location FindExported(const InputHandle& input, const Context& context);
+void MarkChanged(const InputHandle& input, Context& context);
+void MarkChanged(const StateHandle& state, Context& context);
+/// throws ConfigError unless the vector has the slot's length and is finite.
+void CheckVector(const double* values, Eigen::Index size, Slot slot);
+
+template <class T, class Value>
+void Assign(Location at, const Value& value) {
+  if constexpr (std::is_same_v<T, Vector>) {
+    const Eigen::Ref<const Eigen::VectorXd> vector(value);
+    CheckVector(vector.data(), vector.size(), at.slot);
+    ViewOf<Vector>::Write(at.arena, at.slot) = vector;
+  } else {
+    ViewOf<T>::Write(at.arena, at.slot) = value;
+  }
+}
+
+}  // namespace internal
+
+template <class T>
+template <class Value>
+void Input<T>::Fix(Context& context, const Value& value) const {
+  internal::Assign<T>(internal::FindExported(*this, context), value);
+  internal::MarkChanged(*this, context);
+}
+
+template <class T>
+typename ViewOf<T>::Const Output<T>::Eval(const Context& context) const {
+  const internal::Location at = internal::Find(*this, context);
+  return ViewOf<T>::Read(at.arena, at.slot);
+}
+
+template <class T>
+typename ViewOf<T>::Const DiscreteState<T>::Get(const Context& context) const {
+  const internal::Location at = internal::Find(*this, context);
+  return ViewOf<T>::Read(at.arena, at.slot);
+}
+
+template <class T>
+template <class Value>
+void DiscreteState<T>::Set(Context& context, const Value& value) const {
+  internal::Assign<T>(internal::Find(*this, context), value);
+  internal::MarkChanged(*this, context);
+}
+
+}  // namespace oca

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "framework/signal.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cstdint>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "framework/error.h"
+
+namespace oca {
+
+// A vector port keeps its doubles in the arena itself, so nothing here is ever called with one
+// value; the engine asks for `&kVectorType` and handles the length.
+const SignalType kVectorType{"Vector", 0,       alignof(double), nullptr, nullptr,
+                             nullptr,  nullptr, nullptr,         nullptr};
+
+bool AllFinite(const double* values, std::size_t n) {
+  // Adding one to an exponent field of all ones carries into the sign bit: no branch a value.
+  constexpr std::uint64_t kExponent = 0x7ff0000000000000;
+  constexpr std::uint64_t kOne = 0x0010000000000000;
+  std::uint64_t carry = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    carry |= (std::bit_cast<std::uint64_t>(values[i]) & kExponent) + kOne;
+  }
+  return (carry >> 63) == 0;
+}
+
+void WriteVectorJson(const double* values, std::size_t n, std::string& out) {
+  out += '[';
+  for (std::size_t i = 0; i < n; ++i) {
+    fmt::format_to(std::back_inserter(out), "{}{}", i == 0 ? "" : ",", values[i]);
+  }
+  out += ']';
+}
+
+Eigen::VectorXd ReadVectorJson(std::string_view text) {
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  if (!json.is_array()) {
+    throw ConfigError(fmt::format("got {}; expected a list of numbers", text.substr(0, 60)));
+  }
+  Eigen::VectorXd vector(static_cast<Eigen::Index>(json.size()));
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    if (!json[i].is_number()) {
+      throw ConfigError(fmt::format("item {}: got {}; expected a number", i, json[i].dump()));
+    }
+    vector[static_cast<Eigen::Index>(i)] = json[i].get<double>();
+  }
+  if (!AllFinite(vector.data(), json.size())) {
+    throw ConfigError("got a number that is not finite; expected finite numbers");
+  }
+  return vector;
+}
+
+}  // namespace oca

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/context.h"
+#include "framework/diagram.h"
+#include "framework/integrator.h"
+
+namespace oca {
+
+/// What a simulator did since Initialize.
+struct SimulatorStatistics {
+  std::int64_t steps{0};    ///< of the simulator: from one event to the next
+  std::int64_t updates{0};  ///< discrete updates and resets that ran
+  std::int64_t publishes{0};
+  IntegratorStatistics integrator;
+};
+
+/// Advances a Context of a root diagram through discrete events and continuous time.
+///
+/// One step at time t, from the state x-(t): resets; discrete updates; restart of the integrator if
+/// something jumped; integration to the next event; publish; monitors. Each stage reads the result
+/// of the one before; within a stage all events read the same state and are applied together.
+///
+/// AdvanceTo(T) ends at x-(T): updates due at T are pending, publishes at T have seen x-(T).
+/// Initialize runs the initialization events, then publishes; the first periodic update at the
+/// initial time belongs to the first step.
+class Simulator {
+ public:
+  /// What a monitor wants: false ends AdvanceTo after the present step.
+  using Monitor = std::function<bool(const Context&)>;
+  using Publish = std::function<void(const Context&)>;
+
+  /// Makes a Context of its own. The diagram must outlive the simulator.
+  /// throws ConfigError if the options are out of bounds or the periods share no clock.
+  explicit Simulator(const Diagram& diagram, const IntegratorOptions& options = {});
+  /// Continues `context`, which a simulator of the same diagram may have advanced before.
+  Simulator(const Diagram& diagram, Context context, const IntegratorOptions& options = {});
+  ~Simulator();
+  Simulator(const Simulator&) = delete;
+  Simulator& operator=(const Simulator&) = delete;
+
+  Context& context() { return context_; }
+  const Context& context() const { return context_; }
+
+  /// Called at 0, period, 2 period, ... after the diagram's own publish events. Add before
+  /// Initialize.
+  void AddPublish(const Period& period, Publish publish);
+  /// Called after every step.
+  void AddMonitor(Monitor monitor);
+  /// Receives what publish events log; nullptr drops it.
+  void SetLog(Log* log);
+
+  /// Runs the initialization events and publishes at the context's time. Called by the first
+  /// AdvanceTo if it was not before.
+  /// throws SimulationError.
+  void Initialize();
+  /// Advances to `time` (s). Returns false if a monitor ended it earlier.
+  /// throws ConfigError if `time` is not finite or lies in the past, SimulationError if a
+  /// calculation fails; the context then holds the last state before the failure.
+  bool AdvanceTo(double time);
+
+  const SimulatorStatistics& statistics() const { return statistics_; }
+
+ private:
+  class Clock;
+  struct OwnPublish {
+    Period period;
+    std::int64_t count;  ///< of the next one
+    Publish publish;
+  };
+
+  void RunStage(System::Stage stage);
+  void RunPublishes();
+  double NextEventTime() const;
+  void Integrate(double to);
+  void ContinueFrom(double time);
+
+  const Diagram& diagram_;
+  Context context_;
+  std::unique_ptr<Clock> clock_;
+  std::unique_ptr<Integrator> integrator_;
+  std::vector<OwnPublish> publishes_;
+  std::vector<Monitor> monitors_;
+  std::vector<int> due_;  ///< events of the present stage
+  bool restart_{true};
+  bool jumped_{true};
+  SimulatorStatistics statistics_;
+};
+
+}  // namespace oca

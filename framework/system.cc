@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "framework/system.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <utility>
+
+#include "framework/error.h"
+#include "framework/nearest.h"
+
+namespace oca {
+namespace {
+
+template <class Infos>
+int IndexOf(const Infos& infos, const std::string& name, const char* kind) {
+  std::vector<std::string> names;
+  for (const auto& info : infos) {
+    if (info.name == name) return static_cast<int>(&info - infos.data());
+    names.push_back(info.name);
+  }
+  throw WiringError(
+      {fmt::format("no {} port '{}'{}; {} ports are: {}", kind, name, DidYouMean(name, names), kind,
+                   names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")))});
+}
+
+}  // namespace
+
+System::~System() = default;
+
+InputHandle System::FindInput(const std::string& name) const {
+  return {{this, IndexOf(inputs_, name, "input")}};
+}
+
+OutputHandle System::FindOutput(const std::string& name) const {
+  return {{this, IndexOf(outputs_, name, "output")}};
+}
+
+Size System::DeclareSize(
+    std::initializer_list<std::pair<const char*, const PerComponent*>> parameters) {
+  const std::pair<const char*, const PerComponent*>* list = nullptr;
+  for (const auto& parameter : parameters) {
+    if (parameter.second->scalar()) continue;
+    if (list != nullptr && list->second->values().size() != parameter.second->values().size()) {
+      throw ConfigError(fmt::format("{}: got {} numbers; expected {} as in {}", parameter.first,
+                                    parameter.second->values().size(),
+                                    list->second->values().size(), list->first));
+    }
+    if (list == nullptr) list = &parameter;
+  }
+  return list == nullptr ? DeclareSize() : Size(static_cast<int>(list->second->values().size()));
+}
+
+InputHandle System::AddInput(InputInfo info) {
+  inputs_.push_back(std::move(info));
+  return {{this, static_cast<int>(inputs_.size()) - 1}};
+}
+
+OutputHandle System::AddOutput(OutputInfo info) {
+  outputs_.push_back(std::move(info));
+  return {{this, static_cast<int>(outputs_.size()) - 1}};
+}
+
+OutputHandle System::AddStateOutput(std::string name, int state) {
+  const StateInfo& shown = states_.at(state);
+  return AddOutput({std::move(name), shown.type, shown.spec, {}, state});
+}
+
+StateHandle System::AddState(StateInfo info) {
+  states_.push_back(std::move(info));
+  return {{this, static_cast<int>(states_.size()) - 1}};
+}
+
+void System::AddEvent(EventInfo info) {
+  if (info.stage != Stage::kInitialization && !info.every.period.positive()) {
+    throw ConfigError(fmt::format("period: got {}; expected > 0 s", info.every.period.ToString()));
+  }
+  for (const int state : info.writes) {
+    if (info.stage == Stage::kUpdate && states_.at(state).continuous) {
+      throw WiringError({fmt::format("state '{}' is continuous: only a reset may write it",
+                                     states_.at(state).name)});
+    }
+    for (const EventInfo& other : events_) {
+      if (other.stage != info.stage) continue;
+      for (const int written : other.writes) {
+        if (written != state) continue;
+        throw WiringError({fmt::format("state '{}' is written by two events of one stage",
+                                       states_.at(state).name)});
+      }
+    }
+  }
+  events_.push_back(std::move(info));
+}
+
+}  // namespace oca

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <initializer_list>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "framework/calculation.h"
+#include "framework/per_component.h"
+#include "framework/period.h"
+#include "framework/port.h"
+
+namespace oca {
+
+class Plan;
+
+/// A discrete event that repeats: at offset, offset + period, offset + 2 period, ...
+struct Every {
+  Period period;
+  Period offset{};
+};
+
+/// The states that an update writes. Discrete states only, except in a reset.
+template <class... States>
+struct Writes {
+  explicit constexpr Writes(const States&... written) : states(written...) {}
+  std::tuple<States...> states;
+};
+
+/// What `simulator describe` says of a system type; every type in the catalogue has one as `kDoc`.
+struct SystemDoc {
+  const char* summary;   ///< one line
+  const char* equation;  ///< recurrence or formula, in the names of ports and parameters
+  const char* source;    ///< paper and equation; empty for the obvious
+};
+
+/// An immutable block of a diagram: typed ports, state, and the calculations between them.
+///
+/// A derived class declares everything in its constructor. Each calculation is a const member
+/// function that receives exactly the inputs, states and time it was declared with, in that
+/// order, then what it writes. What an output depends on is therefore known, never stated by hand,
+/// and direct feedthrough, caching and algebraic loops follow from it.
+///
+///     out_(DeclareOutput<Vector, &Gain::CalcOut>("out", {n, unit}, in))
+///     void CalcOut(VectorView in, MutableVectorView out) const { out = gain_ * in; }
+///
+/// All mutable values live in a Context. Systems are neither copied nor moved.
+class System {
+ public:
+  struct InputInfo {
+    std::string name;
+    const SignalType* type;
+    PortSpec spec;
+    bool optional;
+  };
+  struct OutputInfo {
+    std::string name;
+    const SignalType* type;
+    PortSpec spec;
+    Calculation calculation;  ///< unused if `state` is set
+    int state{-1};            ///< the output shows this state as it is
+  };
+  struct StateInfo {
+    std::string name;
+    const SignalType* type;
+    PortSpec spec;
+    bool continuous{false};
+    PerComponent initial{};                      ///< of a vector
+    std::function<void(void*)> initial_value{};  ///< of another type; writes a constructed value
+    Calculation derivative{};                    ///< of a continuous state
+  };
+  enum class Stage { kInitialization, kReset, kUpdate, kPublish };
+  struct EventInfo {
+    Stage stage;
+    Every every;  ///< without meaning for an initialization
+    Calculation calculation;
+    std::vector<int> writes;  ///< states
+  };
+
+  virtual ~System();
+  System(const System&) = delete;
+  System& operator=(const System&) = delete;
+
+  const std::vector<InputInfo>& inputs() const { return inputs_; }
+  const std::vector<OutputInfo>& outputs() const { return outputs_; }
+  const std::vector<StateInfo>& states() const { return states_; }
+  const std::vector<EventInfo>& events() const { return events_; }
+  int size_variables() const { return size_variables_; }
+  int unit_variables() const { return unit_variables_; }
+
+  /// Ports by name. throw WiringError naming the ports there are.
+  virtual InputHandle FindInput(const std::string& name) const;
+  virtual OutputHandle FindOutput(const std::string& name) const;
+
+ protected:
+  System() = default;
+
+  Size DeclareSize() { return Size::Variable(size_variables_++); }
+  /// The common length of per-component parameters; a variable if all are scalars.
+  /// throws ConfigError if two lists differ in length.
+  Size DeclareSize(std::initializer_list<std::pair<const char*, const PerComponent*>> parameters);
+  Unit DeclareUnit() { return Unit::Variable(unit_variables_++); }
+
+  template <class T>
+  Input<T> DeclareInput(std::string name, PortSpec spec = {}) {
+    return {AddInput({std::move(name), &TypeOf<T>(), std::move(spec), false})};
+  }
+  template <class T>
+  OptionalInput<T> DeclareOptionalInput(std::string name, PortSpec spec = {}) {
+    return {AddInput({std::move(name), &TypeOf<T>(), std::move(spec), true})};
+  }
+
+  /// An output that `kMethod(reads..., T& out)` computes.
+  template <class T, auto kMethod, class... Reads>
+  Output<T> DeclareOutput(std::string name, PortSpec spec, const Reads&... reads) {
+    auto calculation = MakeCalculation<kMethod, WriteOf<T>>(reads...);
+    return {AddOutput({std::move(name), &TypeOf<T>(), std::move(spec), std::move(calculation)})};
+  }
+  /// An output that shows a state; it costs nothing and breaks algebraic loops.
+  template <class T>
+  Output<T> DeclareStateOutput(std::string name, const DiscreteState<T>& state) {
+    return {AddStateOutput(std::move(name), state.index)};
+  }
+  Output<Vector> DeclareStateOutput(std::string name, const ContinuousState& state) {
+    return {AddStateOutput(std::move(name), state.index)};
+  }
+
+  /// A vector state, `initial` at the start; a scalar `initial` counts for every component.
+  DiscreteState<Vector> DeclareDiscreteState(std::string name, PortSpec spec,
+                                             PerComponent initial) {
+    return {AddState({std::move(name), &kVectorType, std::move(spec), false, std::move(initial)})};
+  }
+  /// A state of another copyable type with a Signal trait.
+  template <class T>
+  DiscreteState<T> DeclareDiscreteState(std::string name, T initial) {
+    return {AddState({std::move(name), &TypeOf<T>(), {}, false, {}, [initial](void* at) {
+                        *static_cast<T*>(at) = initial;
+                      }})};
+  }
+  /// A state that DeclareDerivative's `kMethod(reads..., MutableVectorView derivative)` drives.
+  ContinuousState DeclareContinuousState(std::string name, PortSpec spec, PerComponent initial) {
+    return {AddState({std::move(name), &kVectorType, std::move(spec), true, std::move(initial)})};
+  }
+  template <auto kMethod, class... Reads>
+  void DeclareDerivative(const ContinuousState& state, const Reads&... reads) {
+    states_.at(state.index).derivative = MakeCalculation<kMethod, WriteOf<Vector>>(reads...);
+  }
+
+  /// Discrete update: `kMethod(reads..., next states...)`. The next states arrive holding the
+  /// current ones; all updates of one instant read the same state and are applied together.
+  template <auto kMethod, class... States, class... Reads>
+  void DeclareUpdate(Every every, const Writes<States...>& writes, const Reads&... reads) {
+    DeclareEvent<kMethod>(Stage::kUpdate, every, writes, reads...);
+  }
+  /// As an update, but it happens before the discrete updates of its instant and may write
+  /// continuous states too; the integrator then starts afresh.
+  template <auto kMethod, class... States, class... Reads>
+  void DeclareReset(Every every, const Writes<States...>& writes, const Reads&... reads) {
+    DeclareEvent<kMethod>(Stage::kReset, every, writes, reads...);
+  }
+  /// Happens once, when a simulator initializes.
+  template <auto kMethod, class... States, class... Reads>
+  void DeclareInitialization(const Writes<States...>& writes, const Reads&... reads) {
+    DeclareEvent<kMethod>(Stage::kInitialization, {}, writes, reads...);
+  }
+  /// `kMethod(reads...)`, after the integrator has reached the instant; sees the state, changes
+  /// nothing.
+  template <auto kMethod, class... Reads>
+  void DeclarePublish(Every every, const Reads&... reads) {
+    DeclareEvent<kMethod>(Stage::kPublish, every, Writes<>(), reads...);
+  }
+
+ private:
+  friend class DiagramBuilder;
+  friend class PlanCompiler;
+  friend class Plan;
+
+  template <auto kMethod, class... States, class... Reads>
+  void DeclareEvent(Stage stage, Every every, const Writes<States...>& writes,
+                    const Reads&... reads) {
+    std::vector<int> written;
+    auto calculation = std::apply(
+        [&](const auto&... state) {
+          (written.push_back(state.index), ...);
+          return MakeCalculation<kMethod, WriteOf<typename SignalOf<States>::Type>...>(reads...);
+        },
+        writes.states);
+    AddEvent({stage, every, std::move(calculation), std::move(written)});
+  }
+
+  InputHandle AddInput(InputInfo info);
+  OutputHandle AddOutput(OutputInfo info);
+  OutputHandle AddStateOutput(std::string name, int state);
+  StateHandle AddState(StateInfo info);
+  void AddEvent(EventInfo info);
+
+  std::vector<InputInfo> inputs_;
+  std::vector<OutputInfo> outputs_;
+  std::vector<StateInfo> states_;
+  std::vector<EventInfo> events_;
+  int size_variables_{0};
+  int unit_variables_{0};
+
+  // Written when a root diagram is built: where its plan keeps this system.
+  const Plan* plan_{nullptr};
+  int first_input_{0};
+  int first_output_{0};
+  int first_state_{0};
+};
+
+}  // namespace oca

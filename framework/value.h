@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace oca {
+
+/// Where a value was written: a file with line and column (from 1), or an option such as `-s`.
+struct Location {
+  std::shared_ptr<const std::string> file;
+  int line{0};  ///< 0: the source has no lines
+  int column{0};
+  /// `file:line:column`
+  std::string ToString() const;
+};
+
+/// A tree of parameters as read from YAML or JSON, every node knowing where it stands.
+class Value {
+ public:
+  struct Entry;
+  using List = std::vector<Value>;
+  using Map = std::vector<Entry>;  ///< in the order of the file; keys are unique
+  using Data = std::variant<std::monostate, bool, std::int64_t, double, std::string, List, Map>;
+
+  Value() = default;
+  Value(Data data, Location location) : data_(std::move(data)), location_(std::move(location)) {}
+
+  const Data& data() const { return data_; }
+  Data& data() { return data_; }
+  const Location& location() const { return location_; }
+
+  bool null() const { return std::holds_alternative<std::monostate>(data_); }
+  const bool* boolean() const { return std::get_if<bool>(&data_); }
+  const std::int64_t* integer() const { return std::get_if<std::int64_t>(&data_); }
+  const std::string* string() const { return std::get_if<std::string>(&data_); }
+  const List* list() const { return std::get_if<List>(&data_); }
+  const Map* map() const { return std::get_if<Map>(&data_); }
+  Map* map() { return std::get_if<Map>(&data_); }
+  List* list() { return std::get_if<List>(&data_); }
+  /// The number, integers included; returns false if there is none.
+  bool number(double& out) const;
+  /// The entry of a map; nullptr if this is no map or has no such key.
+  const Value* Find(const std::string& key) const;
+  /// For messages: `7`, `'text'`, `a list`, `a map`.
+  std::string Show() const;
+
+ private:
+  Data data_;
+  Location location_;
+};
+
+struct Value::Entry {
+  std::string key;
+  Location location;  ///< of the key
+  Value value;
+};
+
+/// Collects the problems of a file, so that a person sees all of them at once.
+class Problems {
+ public:
+  /// Adds `location: error: what`.
+  void Add(const Location& location, const std::string& what);
+  bool empty() const { return all_.empty(); }
+  const std::vector<std::string>& all() const { return all_; }
+  /// throws ConfigError with all problems, a line each, if there are any.
+  void Throw() const;
+
+ private:
+  std::vector<std::string> all_;
+};
+
+}  // namespace oca
