@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "models/geometry/distance.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -47,19 +48,44 @@ bool IsCurved(const CorePair& pair) {
   return pair.a.core() == Collider::Core::kCylinder || pair.b.core() == Collider::Core::kCylinder;
 }
 
+DistanceStatus StatusOf(const CorePair& pair, const CoreDistance& found) {
+  return found.gap <= kExactGap * pair.Extent() ? DistanceStatus::kExact
+                                                : DistanceStatus::kApproximate;
+}
+
+// Close to touch GJK may stall on a sliver. The plane of a polytope separates better there, or
+// gives a start from which GJK takes another way.
+void ProveSeparation(const CorePair& pair, CoreDistance* found) {
+  CoreDistance plane = internal::PolytopeDepth(pair, -found->normal);
+  plane.gap = std::max(found->distance - plane.distance, 0.0);
+  if (plane.gap <= kExactGap * pair.Extent()) {
+    *found = plane;
+    return;
+  }
+  const CorePair::Difference start = pair.Support(-plane.normal);
+  PairCache cache{.count = 1, .points_a = {start.a}, .points_b = {start.b}};
+  CoreDistance again;
+  const auto status =
+      internal::Gjk(pair, std::numeric_limits<double>::infinity(), true, &cache, &again);
+  if (status == GjkStatus::kTouching) {  // so the plane is all there is to know
+    plane.gap = std::max(internal::kTouch * pair.Extent() - plane.distance, 0.0);
+    again = plane;
+  }
+  if (again.gap < found->gap) *found = again;
+}
+
 // Cores that overlap, or are closer than a difference vector can tell.
 DistanceStatus Overlap(const CorePair& pair, CoreDistance* found) {
   const Vector3d hint = IsCurved(pair) ? internal::BulletExit(pair) : Vector3d(Vector3d::Zero());
   *found = internal::PolytopeDepth(pair, hint);
-  const double size = pair.Extent();
-  if (found->distance > 10.0 * internal::kTouch * size) {
+  if (found->distance > 10.0 * internal::kTouch * pair.Extent()) {
     // A plane between the cores: GJK was misled by a flat simplex and now knows better.
     if (internal::Gjk(pair, std::numeric_limits<double>::infinity(), true, nullptr, found) ==
         GjkStatus::kTouching) {
       return DistanceStatus::kApproximate;
     }
   }
-  return found->gap <= kExactGap * size ? DistanceStatus::kExact : DistanceStatus::kApproximate;
+  return StatusOf(pair, *found);
 }
 
 DistanceStatus Solve(const CorePair& pair, double max_core_distance, PairCache* cache,
@@ -72,8 +98,8 @@ DistanceStatus Solve(const CorePair& pair, double max_core_distance, PairCache* 
     case GjkStatus::kBeyond:
       return DistanceStatus::kBeyond;
     case GjkStatus::kSeparated:
-      return found->gap <= kExactGap * pair.Extent() ? DistanceStatus::kExact
-                                                     : DistanceStatus::kApproximate;
+      if (found->gap > kExactGap * pair.Extent()) ProveSeparation(pair, found);
+      return StatusOf(pair, *found);
     case GjkStatus::kTouching:
       break;
   }

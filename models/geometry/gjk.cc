@@ -12,6 +12,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kMaxSteps = 128;
+constexpr int kMaxIdleSteps = 4;
+constexpr double kRounding = 1e-15;  // of a difference of support points, of the size of the pair
 
 // False if there is nothing to start from, or if the bodies moved such that it encloses the origin.
 bool Recall(const CorePair& pair, const PairCache& cache, Simplex* simplex) {
@@ -50,6 +52,7 @@ GjkStatus Gjk(const CorePair& pair, double max_distance, bool separated, PairCac
   double length = simplex.v().norm();
   double lower = 0.0;
   bool outside = separated;
+  int idle = 0;
   for (int step = 0; step < kMaxSteps; ++step) {
     if (length <= kTouch * size) break;
     const CorePair::Difference support = pair.Support(-simplex.v());
@@ -71,7 +74,8 @@ GjkStatus Gjk(const CorePair& pair, double max_distance, bool separated, PairCac
       return GjkStatus::kTouching;
     }
     const double shorter = simplex.v().norm();
-    if (shorter >= length) {  // rounding stops the descent
+    // A step may gain less than rounding shows, yet turn the simplex for the next one.
+    if (shorter > length + kRounding * size || (shorter >= length && ++idle > kMaxIdleSteps)) {
       simplex = before;
       break;
     }

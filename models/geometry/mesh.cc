@@ -11,7 +11,10 @@
 #include <assimp/Importer.hpp>
 #include <cctype>
 #include <exception>
+#include <fstream>
+#include <iterator>
 #include <string>
+#include <utility>
 
 #include "models/error.h"
 
@@ -27,9 +30,14 @@ constexpr std::uintmax_t kMaxBytes = 100'000'000;
   throw ModelError(fmt::format("{}: {}", file.string(), what));
 }
 
-void CheckFile(const fs::path& file) {
+std::string LowerExtension(const fs::path& file) {
   std::string extension = file.extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
+void CheckFile(const fs::path& file) {
+  const std::string extension = LowerExtension(file);
   if (extension != ".stl" && extension != ".obj" && extension != ".dae") {
     Refuse(file, fmt::format("unknown kind of mesh; got extension '{}'; expected .stl, .obj, .dae",
                              extension));
@@ -47,6 +55,26 @@ void CheckFile(const fs::path& file) {
   if (bytes > kMaxBytes) {
     Refuse(file, fmt::format("mesh too large; got {} MB; expected at most {} MB", bytes / 1'000'000,
                              kMaxBytes / 1'000'000));
+  }
+}
+
+// assimp walks Collada by recursion: a file of nothing but opening tags would exhaust the stack.
+void CheckNesting(const fs::path& file) {
+  constexpr int kMaxDepth = 200;
+  std::ifstream stream(file, std::ios::binary);
+  int depth = 0;
+  char previous = 0, before = 0;
+  for (std::istreambuf_iterator<char> it(stream), end; it != end; ++it) {
+    const char c = *it;
+    if (previous == '<' && c == '/') --depth;
+    if (previous == '<' && (std::isalpha(static_cast<unsigned char>(c)) || c == '_')) ++depth;
+    if (previous == '/' && c == '>' && before != '<') --depth;
+    if (depth > kMaxDepth) {
+      Refuse(file, fmt::format("Collada elements nested too deep; got more than {}; expected a "
+                               "file of a drawing program",
+                               kMaxDepth));
+    }
+    before = std::exchange(previous, c);
   }
 }
 
@@ -106,6 +134,7 @@ void DropUnused(TriangleMesh* mesh) {
 TriangleMesh LoadMesh(const fs::path& file, const Vector3d& scale) {
   CheckFile(file);
   CheckScale(file, scale);
+  if (LowerExtension(file) == ".dae") CheckNesting(file);
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = nullptr;

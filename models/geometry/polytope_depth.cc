@@ -42,6 +42,7 @@ class Polytope {
   void RefreshPlanes();
   int LowestFace() const;
   bool Full() const { return hull_.points() >= kMaxVertices; }
+  void Straighten(Plane* plane) const;
   CoreDistance Result(const std::array<int, 3>& face, const Plane& plane, double gap) const;
 
   const CorePair& pair_;
@@ -133,11 +134,24 @@ CoreDistance Polytope::Search() {
     const double reach = plane.normal.dot(w);
     if (reach < best.offset) best = {plane.normal, reach}, best_face = hull_.face(lowest).vertex;
     if (point < 0 || best.offset - plane.offset <= enough || hull_.Height(lowest, point) <= 0) {
+      Straighten(&best);
       // The lattice may put the face a step above the plane that bounds A - B.
       return Result(best_face, best, std::max(best.offset - plane.offset, 0.0));
     }
     hull_.Grow(point, lowest);
     RefreshPlanes();
+  }
+}
+
+// A ring of equally near exits (a cylinder whose axis meets an edge) ends in a full polytope and a
+// slightly skew normal; across the axis of a body the exit is often shorter.
+void Polytope::Straighten(Plane* plane) const {
+  for (const Vector3d& axis : {Vector3d(Vector3d::UnitZ()), Vector3d(pair_.X_AB.linear().col(2))}) {
+    const Vector3d across = plane->normal - plane->normal.dot(axis) * axis;
+    if (across.squaredNorm() < 0.5) continue;
+    const Vector3d normal = across.normalized();
+    const double reach = normal.dot(pair_.Support(normal).w);
+    if (reach < plane->offset) *plane = {normal, reach};
   }
 }
 
