@@ -160,6 +160,13 @@ Plan::Change Plan::Commit(Context& context, const Event& event) const {
   std::byte* const memory = arena(context);
   for (const int index : event.writes) {
     const StateEntry& state = states[index];
+    // Whether the integrator starts afresh must not hang on the value: a run that is resumed here
+    // starts afresh in any case and has to give the same bits.
+    if (state.continuous) {
+      change = Change::kState;
+    } else if (state.in_derivatives && change == Change::kNone) {
+      change = Change::kDerivative;
+    }
     if (state.type == &kVectorType) {
       const std::size_t bytes = sizeof(double) * state.slot.size;
       if (std::memcmp(memory + state.slot.offset, memory + state.next.offset, bytes) == 0) continue;
@@ -168,13 +175,18 @@ Plan::Change Plan::Commit(Context& context, const Event& event) const {
       state.type->assign(memory + state.slot.offset, memory + state.next.offset);
     }
     MarkChanged(context, state.source);
-    if (state.continuous) {
-      change = Change::kState;
-    } else if (state.in_derivatives && change == Change::kNone) {
-      change = Change::kDerivative;
-    }
   }
   return change;
+}
+
+void Plan::SetTimeAndState(Context& context, double time, const double* state) const {
+  if (state != continuous(context)) {
+    std::memcpy(continuous(context), state,
+                sizeof(double) * static_cast<std::size_t>(continuous_size));
+  }
+  Context::Header& header = context.header();
+  header.time = time;
+  versions(context)[kTimeSource] = versions(context)[kContinuousSource] = ++header.epoch;
 }
 
 const Plan::InputEntry& Plan::input(const InputHandle& handle) const {

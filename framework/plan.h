@@ -92,6 +92,10 @@ class Plan {
   /// Makes `next` the state.
   Change Commit(Context& context, const Event& event) const;
 
+  /// What an integrator does before it asks for derivatives.
+  void SetTimeAndState(Context& context, double time, const double* state) const;
+  double& integrator_step(Context& context) const { return context.header().integrator_step; }
+
   void MarkChanged(Context& context, int source) const {
     versions(context)[source] = ++context.header().epoch;
   }

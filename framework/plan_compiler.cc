@@ -373,7 +373,7 @@ void PlanCompiler::CompileStates() {
       if (!info.continuous) continue;
       const int index = static_cast<int>(leaf);
       Slot out = plan_->states[system.first_state_ + i].slot;
-      out.offset += plan_->derivative_offset - plan_->continuous_offset;
+      out.offset = out.offset - plan_->continuous_offset + plan_->derivative_offset;
       plan_->derivatives.push_back({info.derivative.function, &system,
                                     AddSlots(index, info.derivative, {out}), out, info.name});
       const auto more = NodesOf(index, info.derivative.reads);

@@ -3,10 +3,7 @@
 
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <memory>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "framework/context.h"
@@ -72,7 +69,6 @@ class Simulator {
  private:
   class Clock;
   struct OwnPublish {
-    Period period;
     std::int64_t count;  ///< of the next one
     Publish publish;
   };
@@ -81,7 +77,6 @@ class Simulator {
   void RunPublishes();
   double NextEventTime() const;
   void Integrate(double to);
-  void ContinueFrom(double time);
 
   const Diagram& diagram_;
   Context context_;
@@ -92,6 +87,8 @@ class Simulator {
   std::vector<int> due_;  ///< events of the present stage
   bool restart_{true};
   bool jumped_{true};
+  bool initialized_{false};
+  Eigen::VectorXd saved_state_;  ///< at the start of an integration, in case it fails
   SimulatorStatistics statistics_;
 };
 

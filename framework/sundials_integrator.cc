@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "framework/sundials_integrator.h"
+
+#include <arkode/arkode_erkstep.h>
+#include <cvode/cvode.h>
+#include <fmt/format.h>
+#include <sundials/sundials_context.h>
+#include <sundials/sundials_version.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <exception>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "framework/error.h"
+#include "framework/plan.h"
+#include "framework/sundials_vector.h"
+
+namespace oca {
+namespace {
+
+/// What both families share: the vector, the tolerances, and the right-hand side.
+class SundialsIntegrator : public Integrator {
+ public:
+  SundialsIntegrator(const Plan& plan, const IntegratorOptions& options)
+      : plan_(plan),
+        relative_(plan.continuous_size, options.relative_tolerance),
+        absolute_(plan.continuous_size, options.absolute_tolerance),
+        state_(plan.continuous_size) {
+    SetTolerances(options);
+#if SUNDIALS_VERSION_MAJOR >= 7
+    SUNContext_Create(SUN_COMM_NULL, &sundials_);
+    SUNContext_ClearErrHandlers(sundials_);
+    SUNContext_PushErrHandler(
+        sundials_, [](int, const char*, const char*, const char*, SUNErrCode, void*, SUNContext){},
+        nullptr);
+#else
+    SUNContext_Create(nullptr, &sundials_);
+#endif
+    y_ = internal::MakeSerialVector(static_cast<sunindextype>(state_.size()), state_.data(),
+                                    sundials_);
+  }
+  ~SundialsIntegrator() override {
+    if (y_ != nullptr) N_VDestroy(y_);
+    SUNContext_Free(&sundials_);
+  }
+
+ protected:
+  /// Counters that SUNDIALS keeps and sets to zero at a restart.
+  struct Counters {
+    long steps{0}, rejected{0}, derivative_calls{0};
+  };
+  virtual Counters ReadCounters() const = 0;
+
+  void LoadState(Context& context) {
+    context_ = &context;
+    std::copy_n(plan_.continuous(context), state_.size(), state_.data());
+  }
+
+  void CountAll() {
+    const Counters now = ReadCounters();
+    statistics_.steps += now.steps - counted_.steps;
+    statistics_.rejected_steps += now.rejected - counted_.rejected;
+    statistics_.derivative_calls += now.derivative_calls - counted_.derivative_calls;
+    counted_ = now;
+  }
+  void ForgetCounters() {
+    counted_ = {};
+    ++statistics_.restarts;
+  }
+
+  static int RightHandSide(sunrealtype t, N_Vector y, N_Vector ydot, void* self) {
+    auto& integrator = *static_cast<SundialsIntegrator*>(self);
+    // SUNDIALS may retry hundreds of times after a failure.
+    if (integrator.failure_) return -1;
+    try {
+      integrator.plan_.SetTimeAndState(*integrator.context_, t, NV_DATA_S(y));
+      integrator.plan_.EvaluateDerivatives(*integrator.context_, NV_DATA_S(ydot));
+      return 0;
+    } catch (...) {
+      integrator.failure_ = std::current_exception();
+      return -1;
+    }
+  }
+
+  static int ErrorWeights(N_Vector y, N_Vector weights, void* self) {
+    const auto& integrator = *static_cast<const SundialsIntegrator*>(self);
+    const double* x = NV_DATA_S(y);
+    double* w = NV_DATA_S(weights);
+    for (std::size_t i = 0; i < integrator.state_.size(); ++i) {
+      w[i] = 1.0 / (integrator.relative_[i] * std::fabs(x[i]) + integrator.absolute_[i]);
+    }
+    return 0;
+  }
+
+  /// Rethrows what a calculation threw; otherwise turns a negative flag into an error.
+  void Check(int flag, const char* call, const char* name) {
+    if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+    if (flag >= 0) return;
+    throw SimulationError("simulator", "", context_ == nullptr ? 0.0 : context_->time(),
+                          fmt::format("{} failed with {}", call, name));
+  }
+
+  const Plan& plan_;
+  std::vector<double> relative_, absolute_;
+  std::vector<double> state_;  // y_ lies over it
+  SUNContext sundials_{nullptr};
+  N_Vector y_{nullptr};
+  Context* context_{nullptr};
+  std::exception_ptr failure_;
+  Counters counted_;
+
+ private:
+  void SetTolerances(const IntegratorOptions& options) {
+    std::vector<std::string> used;
+    for (const auto& derivative : plan_.derivatives) {
+      const auto found = options.tolerances.find(plan_.PathOf(*derivative.system));
+      if (found == options.tolerances.end()) continue;
+      used.push_back(found->first);
+      if (!(found->second.relative > 0.0) || !(found->second.absolute > 0.0)) {
+        throw ConfigError(fmt::format("simulator: tolerances of {}; got {} and {}; expected > 0",
+                                      found->first, found->second.relative,
+                                      found->second.absolute));
+      }
+      const std::size_t begin = (derivative.out.offset - plan_.derivative_offset) / sizeof(double);
+      std::fill_n(relative_.begin() + begin, derivative.out.size, found->second.relative);
+      std::fill_n(absolute_.begin() + begin, derivative.out.size, found->second.absolute);
+    }
+    for (const auto& [path, tolerances] : options.tolerances) {
+      if (std::find(used.begin(), used.end(), path) != used.end()) continue;
+      throw ConfigError(fmt::format(
+          "simulator: tolerances; got '{}'; expected a system with continuous state", path));
+    }
+  }
+};
+
+#if SUNDIALS_VERSION_MAJOR < 7
+void Silence(int, const char*, const char*, char*, void*) {}
+#endif
+
+/// ARKODE's explicit Runge-Kutta with error control.
+class ErkIntegrator final : public SundialsIntegrator {
+ public:
+  ErkIntegrator(const Plan& plan, const IntegratorOptions& options, const char* table)
+      : SundialsIntegrator(plan, options) {
+    memory_ = ERKStepCreate(RightHandSide, 0.0, y_, sundials_);
+    if (memory_ == nullptr) Check(-1, "ERKStepCreate", "no memory");
+    static_cast<void>(ERKStepSetUserData(memory_, static_cast<SundialsIntegrator*>(this)));
+#if SUNDIALS_VERSION_MAJOR < 7
+    ERKStepSetErrHandlerFn(memory_, Silence, nullptr);
+#endif
+    CheckFlag(ERKStepWFtolerances(memory_, ErrorWeights), "ERKStepWFtolerances");
+    CheckFlag(ERKStepSetTableName(memory_, table), "ERKStepSetTableName");
+    CheckFlag(ERKStepSetMaxNumSteps(memory_, options.max_steps), "ERKStepSetMaxNumSteps");
+    if (std::isfinite(options.max_step)) {
+      CheckFlag(ERKStepSetMaxStep(memory_, options.max_step), "ERKStepSetMaxStep");
+    }
+  }
+  ~ErkIntegrator() override { ERKStepFree(&memory_); }
+
+  void Restart(Context& context, bool jumped) override {
+    LoadState(context);
+    // Always a full re-initialization, with the step kept in the Context: what follows then
+    // depends on the Context alone, and a resumed run gives the same bits.
+    if (jumped) plan_.integrator_step(context) = 0.0;
+    CheckFlag(ERKStepReInit(memory_, RightHandSide, context.time(), y_), "ERKStepReInit");
+    CheckFlag(ERKStepSetInitStep(memory_, plan_.integrator_step(context)), "ERKStepSetInitStep");
+    ForgetCounters();
+  }
+
+  void IntegrateTo(Context& context, double to) override {
+    context_ = &context;
+    CheckFlag(ERKStepSetStopTime(memory_, to), "ERKStepSetStopTime");
+    double reached = context.time();
+    const int flag = ERKStepEvolve(memory_, to, y_, &reached, ARK_NORMAL);
+    CountAll();
+    CheckFlag(flag, "ERKStepEvolve");
+    plan_.SetTimeAndState(context, to, state_.data());
+    double next = 0.0;
+    ERKStepGetCurrentStep(memory_, &next);
+    plan_.integrator_step(context) = next;
+  }
+
+ protected:
+  Counters ReadCounters() const override {
+    Counters counters;
+    ERKStepGetNumSteps(memory_, &counters.steps);
+    ERKStepGetNumErrTestFails(memory_, &counters.rejected);
+    ERKStepGetNumRhsEvals(memory_, &counters.derivative_calls);
+    return counters;
+  }
+
+ private:
+  void CheckFlag(int flag, const char* call) {
+    if (flag >= 0 && !failure_) return;
+    char* name = ERKStepGetReturnFlagName(flag);
+    const std::string text = name == nullptr ? "an unknown error" : name;
+    std::free(name);
+    Check(flag, call, text.c_str());
+  }
+
+  void* memory_{nullptr};
+};
+
+/// CVODE: Adams with fixed-point iteration, or BDF with Newton and a dense Jacobian.
+class CvodeIntegrator final : public SundialsIntegrator {
+ public:
+  CvodeIntegrator(const Plan& plan, const IntegratorOptions& options, int method)
+      : SundialsIntegrator(plan, options) {
+    memory_ = CVodeCreate(method, sundials_);
+    if (memory_ == nullptr) Check(-1, "CVodeCreate", "no memory");
+    CVodeSetUserData(memory_, static_cast<SundialsIntegrator*>(this));
+#if SUNDIALS_VERSION_MAJOR < 7
+    CVodeSetErrHandlerFn(memory_, Silence, nullptr);
+#endif
+    CheckFlag(CVodeInit(memory_, RightHandSide, 0.0, y_), "CVodeInit");
+    CheckFlag(CVodeWFtolerances(memory_, ErrorWeights), "CVodeWFtolerances");
+    CheckFlag(CVodeSetMaxNumSteps(memory_, options.max_steps), "CVodeSetMaxNumSteps");
+    if (std::isfinite(options.max_step)) {
+      CheckFlag(CVodeSetMaxStep(memory_, options.max_step), "CVodeSetMaxStep");
+    }
+    if (method == CV_ADAMS) {
+      iteration_ = SUNNonlinSol_FixedPoint(y_, 0, sundials_);
+      CheckFlag(CVodeSetNonlinearSolver(memory_, iteration_), "CVodeSetNonlinearSolver");
+    } else {
+      const auto n = static_cast<sunindextype>(state_.size());
+      jacobian_ = SUNDenseMatrix(n, n, sundials_);
+      solver_ = SUNLinSol_Dense(y_, jacobian_, sundials_);
+      CheckFlag(CVodeSetLinearSolver(memory_, solver_, jacobian_), "CVodeSetLinearSolver");
+    }
+  }
+  ~CvodeIntegrator() override {
+    CVodeFree(&memory_);
+    if (iteration_ != nullptr) SUNNonlinSolFree(iteration_);
+    if (solver_ != nullptr) SUNLinSolFree(solver_);
+    if (jacobian_ != nullptr) SUNMatDestroy(jacobian_);
+  }
+
+  void Restart(Context& context, bool /*jumped*/) override {
+    LoadState(context);
+    CheckFlag(CVodeReInit(memory_, context.time(), y_), "CVodeReInit");
+    ForgetCounters();
+  }
+
+  void IntegrateTo(Context& context, double to) override {
+    context_ = &context;
+    CheckFlag(CVodeSetStopTime(memory_, to), "CVodeSetStopTime");
+    double reached = context.time();
+    const int flag = CVode(memory_, to, y_, &reached, CV_NORMAL);
+    CountAll();
+    CheckFlag(flag, "CVode");
+    plan_.SetTimeAndState(context, to, state_.data());
+  }
+
+ protected:
+  Counters ReadCounters() const override {
+    Counters counters;
+    CVodeGetNumSteps(memory_, &counters.steps);
+    CVodeGetNumErrTestFails(memory_, &counters.rejected);
+    CVodeGetNumRhsEvals(memory_, &counters.derivative_calls);
+    return counters;
+  }
+
+ private:
+  void CheckFlag(int flag, const char* call) {
+    if (flag >= 0 && !failure_) return;
+    char* name = CVodeGetReturnFlagName(flag);
+    const std::string text = name == nullptr ? "an unknown error" : name;
+    std::free(name);
+    Check(flag, call, text.c_str());
+  }
+
+  void* memory_{nullptr};
+  SUNNonlinearSolver iteration_{nullptr};
+  SUNMatrix jacobian_{nullptr};
+  SUNLinearSolver solver_{nullptr};
+};
+
+}  // namespace
+
+std::unique_ptr<Integrator> MakeSundialsIntegrator(const Plan& plan,
+                                                   const IntegratorOptions& options) {
+  switch (options.integrator) {
+    // Tables by name: their defaults differ between versions of SUNDIALS.
+    case IntegratorKind::kErkDp5:
+      return std::make_unique<ErkIntegrator>(plan, options, "ARKODE_DORMAND_PRINCE_7_4_5");
+    case IntegratorKind::kErkBs3:
+      return std::make_unique<ErkIntegrator>(plan, options, "ARKODE_BOGACKI_SHAMPINE_4_2_3");
+    case IntegratorKind::kCvodeAdams:
+      return std::make_unique<CvodeIntegrator>(plan, options, CV_ADAMS);
+    case IntegratorKind::kCvodeBdf:
+      return std::make_unique<CvodeIntegrator>(plan, options, CV_BDF);
+    default:
+      throw ConfigError("simulator: the integrator is not one of SUNDIALS'");
+  }
+}
+
+}  // namespace oca

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include "framework/integrator.h"
+
+namespace oca {
+
+/// The adaptive integrators of SUNDIALS: ARKODE's ERKStep with a named table, or CVODE.
+/// throws ConfigError for a kind that is not SUNDIALS', SimulationError if memory runs out.
+std::unique_ptr<Integrator> MakeSundialsIntegrator(const Plan& plan,
+                                                   const IntegratorOptions& options);
+
+}  // namespace oca
