@@ -8,11 +8,14 @@ list(APPEND sources
   robot/fuse_capsules.cc
   robot/jacobian_mapping.cc
   robot/kinematics.cc
+  robot/mesh_path.cc
   robot/nearest_name.cc
   robot/robot_model.cc
   robot/srdf.cc
   robot/urdf.cc
   robot/urdf_outline.cc
   robot/urdf_tree.cc
+  robot/urdfdom.cc
   robot/xml_file.cc
-  robot/xml_numbers.cc)
+  robot/xml_numbers.cc
+  robot/xml_reader.cc)

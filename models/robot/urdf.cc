@@ -1,64 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "models/robot/urdf.h"
 
-#include <console_bridge/console.h>
 #include <fmt/format.h>
 #include <tinyxml.h>
-#include <urdf_parser/urdf_parser.h>
 
 #include <algorithm>
-#include <mutex>
 #include <unordered_map>
 
 #include "models/error.h"
 #include "models/geometry/mesh.h"
 #include "models/robot/fuse_capsules.h"
+#include "models/robot/mesh_path.h"
 #include "models/robot/srdf.h"
 #include "models/robot/urdf_outline.h"
+#include "models/robot/urdfdom.h"
 #include "models/robot/xml_file.h"
 
 namespace oca::models {
 namespace {
-
-// Keeps what urdfdom says instead of letting it print, while this object lives. The handler of
-// console_bridge is global, so one thread at a time.
-class CapturedLog : public console_bridge::OutputHandler {
- public:
-  CapturedLog() : lock_(Mutex()) { console_bridge::useOutputHandler(this); }
-  ~CapturedLog() override { console_bridge::restorePreviousOutputHandler(); }
-  CapturedLog(const CapturedLog&) = delete;
-  CapturedLog& operator=(const CapturedLog&) = delete;
-
-  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
-    if (level < console_bridge::CONSOLE_BRIDGE_LOG_ERROR) return;
-    errors_ += (errors_.empty() ? "" : "; ") + text;
-  }
-  const std::string& errors() const { return errors_; }
-
- private:
-  static std::mutex& Mutex() {
-    static std::mutex mutex;
-    return mutex;
-  }
-  std::lock_guard<std::mutex> lock_;
-  std::string errors_;
-};
-
-urdf::ModelInterfaceSharedPtr ParseWithUrdfdom(const std::string& text, const std::string& where) {
-  CapturedLog log;
-  urdf::ModelInterfaceSharedPtr parsed;
-  std::string reason;
-  try {
-    parsed = urdf::parseURDF(text);
-  } catch (const std::exception& error) {
-    reason = error.what();
-  }
-  if (parsed == nullptr || !log.errors().empty()) {
-    throw ModelError(fmt::format("{}: URDF; got '{}{}'; expected what urdfdom can read", where,
-                                 log.errors(), reason));
-  }
-  return parsed;
-}
 
 Eigen::Isometry3d ToPose(const urdf::Pose& pose) {
   const auto& [x, y, z, w] = pose.rotation;
@@ -189,7 +148,7 @@ class UrdfReader {
   Shape ReadShape(const urdf::Geometry& geometry, const std::string& where) const {
     if (geometry.type == urdf::Geometry::MESH) {
       const auto& mesh = static_cast<const urdf::Mesh&>(geometry);
-      const std::filesystem::path file = FindMesh(mesh.filename, where);
+      const std::filesystem::path file = FindMesh(mesh.filename, directory_, options_, where);
       try {
         return ConvexMesh{LoadConvexHull(file, ToVector(mesh.scale))};
       } catch (const ModelError& error) {
@@ -215,7 +174,7 @@ class UrdfReader {
     visual.X_LV = ToPose(from.origin);
     if (from.geometry->type == urdf::Geometry::MESH) {
       const auto& mesh = static_cast<const urdf::Mesh&>(*from.geometry);
-      visual.mesh_file = FindMesh(mesh.filename, where).string();
+      visual.mesh_file = FindMesh(mesh.filename, directory_, options_, where).string();
       visual.mesh_scale = ToVector(mesh.scale);
     } else {
       visual.shape = ReadPrimitive(*from.geometry);
@@ -232,33 +191,6 @@ class UrdfReader {
     Eigen::Matrix3d I;
     I << from.ixx, from.ixy, from.ixz, from.ixy, from.iyy, from.iyz, from.ixz, from.iyz, from.izz;
     return {from.mass, X_LC.translation(), X_LC.linear() * I * X_LC.linear().transpose()};
-  }
-
-  std::filesystem::path FindMesh(const std::string& name, const std::string& where) const {
-    constexpr std::string_view kPackage = "package://";
-    constexpr std::string_view kFile = "file://";
-    std::vector<std::filesystem::path> candidates;
-    if (name.starts_with(kPackage)) {
-      const std::size_t slash = std::min(name.find('/', kPackage.size()), name.size());
-      const std::string package = name.substr(kPackage.size(), slash - kPackage.size());
-      const std::string rest = slash < name.size() ? name.substr(slash + 1) : "";
-      const auto found = options_.find_package ? options_.find_package(package) : "";
-      if (!found.empty()) candidates.push_back(found / rest);
-      for (const auto& folder : options_.package_directories) {
-        candidates.push_back(folder / package / rest);
-      }
-    } else {
-      candidates.push_back(directory_ /
-                           (name.starts_with(kFile) ? name.substr(kFile.size()) : name));
-    }
-    std::string tried;
-    for (const auto& candidate : candidates) {
-      std::error_code error;
-      if (std::filesystem::is_regular_file(candidate, error)) return candidate;
-      tried += (tried.empty() ? "" : ", ") + candidate.string();
-    }
-    throw ModelError(fmt::format("{}: missing mesh file; got '{}'; expected a file at {}", where,
-                                 name, tried.empty() ? "a known package" : tried));
   }
 
   void ApplyLimits(const Eigen::VectorXd& limits, const char* what, double Joint::*field) {
@@ -285,7 +217,7 @@ class UrdfReader {
   const LoadOptions& options_;
   const std::filesystem::path& directory_;
   UrdfOutline outline_;
-  urdf::ModelInterfaceSharedPtr parsed_;
+  std::shared_ptr<urdf::ModelInterface> parsed_;
   std::vector<std::size_t> link_order_, joint_order_;  // places in the outline
   std::unordered_map<std::string, int> number_of_link_, number_of_joint_;
   std::vector<Link> links_;

@@ -22,6 +22,7 @@ struct UrdfOutline {
     std::string name, parent, child;
     std::string mimic;  // empty: none
     int line{0};
+    bool fixed{false};
     std::optional<double> acceleration, jerk;  // <limit acceleration jerk>, which urdfdom 3 skips
   };
   std::string robot_name;
@@ -37,7 +38,7 @@ struct UrdfOutline {
 UrdfOutline ReadUrdfOutline(const TiXmlElement& root, const std::string& where);
 
 /// Refuses references to unknown links or joints, a link with two parents, two roots and loops, of
-/// the tree and of mimic rules. throws ModelError
+/// the tree and of mimic rules, and mimics of fixed joints. throws ModelError
 void CheckUrdfTree(const UrdfOutline& outline, const std::string& where);
 
 }  // namespace oca::models

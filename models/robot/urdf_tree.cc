@@ -113,6 +113,9 @@ class TreeChecker {
         Fail(joint, "mimic", "a loop of mimic rules", "a joint that mimics none at the end");
       }
       at = &outline_.joints[found->second];
+      if (at->fixed) {
+        Fail(joint, "mimic", fmt::format("'{}', a fixed joint", at->name), "a joint that moves");
+      }
     }
   }
 

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "models/robot/xml_reader.h"
+
+#include <fmt/format.h>
+#include <tinyxml.h>
+
+#include <algorithm>
+#include <set>
+
+#include "models/error.h"
+#include "models/robot/nearest_name.h"
+#include "models/robot/xml_numbers.h"
+
+namespace oca::models {
+namespace {
+
+bool Contains(const XmlReader::Names& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// "link 'NAME' " of the link or joint that holds the element or is it.
+std::string Holder(const TiXmlElement& element) {
+  for (const TiXmlNode* node = &element; node != nullptr; node = node->Parent()) {
+    const TiXmlElement* at = node->ToElement();
+    if (at == nullptr || (at->ValueStr() != "link" && at->ValueStr() != "joint")) continue;
+    const char* name = at->Attribute("name");
+    if (name != nullptr) return fmt::format("{} '{}' ", at->ValueStr(), name);
+  }
+  return "";
+}
+
+}  // namespace
+
+void XmlReader::Fail(const TiXmlElement& element, std::string_view what, std::string_view got,
+                     std::string_view expected) const {
+  throw ModelError(fmt::format("{}:{}: {}<{}>: {}; got {}; expected {}", where_, element.Row(),
+                               Holder(element), element.ValueStr(), what, got, expected));
+}
+
+std::string XmlReader::Text(const TiXmlElement& element, const char* attribute) const {
+  const char* text = element.Attribute(attribute);
+  if (text == nullptr || *text == '\0') Fail(element, attribute, "nothing", "a text");
+  return text;
+}
+
+std::vector<double> XmlReader::Numbers(const TiXmlElement& element, const char* attribute,
+                                       int count, bool required) const {
+  const char* text = element.Attribute(attribute);
+  const std::string expected = fmt::format("{} finite number{}", count, count == 1 ? "" : "s");
+  if (text == nullptr) {
+    if (required) Fail(element, attribute, "nothing", expected);
+    return {};
+  }
+  const auto numbers = ParseFiniteNumbers(text);
+  if (!numbers || static_cast<int>(numbers->size()) != count) {
+    Fail(element, attribute, fmt::format("'{}'", text), expected);
+  }
+  return *numbers;
+}
+
+std::vector<double> XmlReader::Positive(const TiXmlElement& element, const char* attribute,
+                                        int count) const {
+  const std::vector<double> numbers = Numbers(element, attribute, count, true);
+  if (std::any_of(numbers.begin(), numbers.end(), [](double number) { return !(number > 0.0); })) {
+    Fail(element, attribute, fmt::format("'{}'", element.Attribute(attribute)), "more than 0");
+  }
+  return numbers;
+}
+
+void XmlReader::CheckAttributes(const TiXmlElement& element, const Names& known) const {
+  for (auto* a = element.FirstAttribute(); a != nullptr; a = a->Next()) {
+    if (!Contains(known, a->Name())) {
+      Fail(element, "unknown attribute", fmt::format("'{}'", a->Name()),
+           fmt::format("one of {}", fmt::join(known, ", ")));
+    }
+  }
+}
+
+void XmlReader::CheckChildren(const TiXmlElement& element, const Names& once,
+                              const Names& repeated) const {
+  Names known = once;
+  known.insert(known.end(), repeated.begin(), repeated.end());
+  std::set<std::string> seen;
+  for (auto* e = element.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+    const std::string& name = e->ValueStr();
+    if (!Contains(known, name)) {
+      const std::string nearest = NearestName(name, known);
+      if (EditDistance(name, nearest) > 2) continue;
+      Fail(*e, fmt::format("unknown element in <{}>", element.ValueStr()), name, nearest);
+    }
+    if (Contains(once, name) && !seen.insert(name).second) {
+      Fail(*e, fmt::format("element in <{}>", element.ValueStr()), "a second one", "one");
+    }
+  }
+}
+
+void XmlReader::CheckExpanded(const TiXmlElement& element) const {
+  constexpr const char* kExpected = "expanded URDF (run xacro first)";
+  if (element.ValueStr().starts_with("xacro:")) {
+    Fail(element, "element", element.ValueStr(), kExpected);
+  }
+  for (auto* a = element.FirstAttribute(); a != nullptr; a = a->Next()) {
+    const std::string& value = a->ValueStr();
+    if (value.find("${") != std::string::npos || value.find("$(") != std::string::npos) {
+      Fail(element, a->Name(), fmt::format("'{}'", value), kExpected);
+    }
+  }
+  for (auto* e = element.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+    CheckExpanded(*e);
+  }
+}
+
+}  // namespace oca::models

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What runs each tick takes no memory from the heap: every malloc is counted,
+// which is where operator new and Eigen take theirs.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <vector>
+
+#include "models/robot/jacobian_mapping.h"
+#include "models/robot/kinematics.h"
+#include "models/robot/urdf.h"
+#include "random_robot.h"
+
+// Sanitizers bring a malloc of their own; there the tests below are skipped.
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+constexpr bool kCounting = true;
+static thread_local int allocations = 0;
+
+extern "C" {
+void* __libc_malloc(std::size_t bytes);
+void* __libc_memalign(std::size_t alignment, std::size_t bytes);
+
+void* malloc(std::size_t bytes) {
+  ++allocations;
+  return __libc_malloc(bytes);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t bytes) {
+  ++allocations;
+  return __libc_memalign(alignment, bytes);
+}
+}
+#else
+constexpr bool kCounting = false;
+static int allocations = 0;
+#endif
+
+namespace oca::models::test {
+namespace {
+
+TEST(AllocationTest, TheCounterSeesWhatEigenAndTheStandardLibraryTake) {
+  if (!kCounting) GTEST_SKIP() << "malloc is not ours to count here";
+  const int before = allocations;
+  const Eigen::VectorXd vector = Eigen::VectorXd::Zero(100);
+  EXPECT_EQ(allocations, before + 1);
+  const std::vector<double> other(vector.data(), vector.data() + 100);
+  EXPECT_EQ(allocations, before + 2) << other.size();
+}
+
+void ExpectNoAllocation(const char* file) {
+  Random random(31);
+  const RobotModel model = LoadUrdf(ProductFile(file));
+  const Eigen::VectorXd q = RandomPositions(model, random);
+  std::vector<Eigen::Isometry3d> X_WL(model.num_links());
+  std::vector<JointScrew> screws(model.num_joints());
+  std::vector<BodyWrench> wrenches(model.num_bodies());
+  for (BodyWrench& wrench : wrenches) wrench.force.x() = 1.0;
+  Matrix6X J(6, model.num_positions());
+  Eigen::Matrix3Xd J_v(3, model.num_positions());
+  Eigen::MatrixXd stacked(6 * model.num_bodies(), model.num_positions());
+  Eigen::VectorXd delta(model.num_positions());
+  MappingWorkspace workspace(model);
+
+  const int before = allocations;
+  ForwardKinematics(model, q, X_WL);
+  JointScrews(model, X_WL, screws);
+  LinkJacobian(model, X_WL, model.num_links() - 1, J);
+  PointJacobian(model, X_WL, model.num_links() - 1, Eigen::Vector3d::Ones(), J_v);
+  StackedJacobian(model, X_WL, stacked);
+  for (const auto method :
+       {MappingMethod::kTranspose, MappingMethod::kPseudoInverse, MappingMethod::kDamped}) {
+    MapWrenches(model, X_WL, wrenches, {method, 1.0, 0.1}, workspace, delta);
+  }
+  EXPECT_EQ(allocations, before) << file;
+}
+
+TEST(AllocationTest, KinematicsAndMappingTakeNoMemory) {
+  if (!kCounting) GTEST_SKIP() << "malloc is not ours to count here";
+  ExpectNoAllocation("robots/planar2/planar2.urdf");
+  ExpectNoAllocation("robots/lwr4/lwr4.urdf");
+  ExpectNoAllocation("robots/lwr4_dual/lwr4_dual.urdf");
+}
+
+}  // namespace
+}  // namespace oca::models::test

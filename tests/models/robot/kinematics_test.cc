@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "models/robot/kinematics.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "models/error.h"
+#include "models/robot/urdf.h"
+#include "random_robot.h"
+
+namespace oca::models::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+RobotModel Planar3() { return LoadUrdf(ProductFile("robots/planar3/planar3.urdf")); }
+
+TEST(KinematicsTest, PlanarArmReachesWhatTrigonometrySays) {
+  const RobotModel model = Planar3();
+  // A right angle up, then a right angle back, then straight on.
+  const Eigen::Vector3d q(std::numbers::pi / 2, -std::numbers::pi / 2, 0.0);
+  const auto X_WL = LinkPoses(model, q);
+  const Eigen::Vector3d tip = X_WL[model.FindLink("planar3_tip")].translation();
+  EXPECT_LT((tip - Eigen::Vector3d(0.4 + 0.3, 0.5, 0.0)).norm(), 1e-15);
+}
+
+TEST(KinematicsTest, PlanarJacobianIsTheLeverOfEachJoint) {
+  const RobotModel model = Planar3();
+  const auto X_WL = LinkPoses(model, Eigen::Vector3d::Zero());
+  Matrix6X J(6, 3);
+  LinkJacobian(model, X_WL, model.FindLink("planar3_tip"), J);
+  Matrix6X expected = Matrix6X::Zero(6, 3);
+  expected.row(1) << 1.2, 0.7, 0.3;
+  expected.row(5).setOnes();
+  EXPECT_LT((J - expected).cwiseAbs().maxCoeff(), 1e-15);
+}
+
+TEST(KinematicsTest, BasePoseMovesEverything) {
+  LoadOptions options;
+  options.X_WB.translation() = Eigen::Vector3d(1.0, 2.0, 3.0);
+  const RobotModel model = LoadUrdf(ProductFile("robots/planar3/planar3.urdf"), options);
+  const auto X_WL = LinkPoses(model, Eigen::Vector3d::Zero());
+  EXPECT_LT((X_WL[0].translation() - Eigen::Vector3d(1.0, 2.0, 3.0)).norm(), 1e-15);
+  EXPECT_LT((X_WL.back().translation() - Eigen::Vector3d(2.2, 2.0, 3.0)).norm(), 1e-15);
+}
+
+TEST(KinematicsTest, PosesAreRotations) {
+  Random random(11);
+  for (int i = 0; i < 50; ++i) {
+    const RobotModel model = RandomRobot(random, 20, true);
+    for (const auto& X : LinkPoses(model, RandomPositions(model, random))) {
+      const Eigen::Matrix3d R = X.linear();
+      EXPECT_LT((R.transpose() * R - Eigen::Matrix3d::Identity()).norm(), 1e-13);
+      EXPECT_EQ(X.matrix().row(3), Eigen::RowVector4d(0, 0, 0, 1));
+    }
+  }
+}
+
+TEST(KinematicsTest, ScrewsHoldTheAxisThatTheJointLeavesInPlace) {
+  Random random(12);
+  for (int i = 0; i < 50; ++i) {
+    const RobotModel model = RandomRobot(random, 12, false);
+    const auto X_WL = LinkPoses(model, RandomPositions(model, random));
+    std::vector<JointScrew> screws(model.num_joints());
+    JointScrews(model, X_WL, screws);
+    for (int j = 0; j < model.num_joints(); ++j) {
+      const Joint& joint = model.joints()[j];
+      const Eigen::Isometry3d X_WJ = X_WL[joint.parent_link] * joint.X_PJ;
+      if (!joint.movable()) {
+        EXPECT_EQ(screws[j].axis_W, Eigen::Vector3d::Zero());
+        continue;
+      }
+      EXPECT_LT((screws[j].axis_W - X_WJ.linear() * joint.axis).norm(), 1e-13);
+      const Eigen::Vector3d shift = screws[j].origin_W - X_WJ.translation();
+      const double off_axis = shift.cross(screws[j].axis_W).norm();
+      EXPECT_LT(joint.type == JointType::kPrismatic ? off_axis : shift.norm(), 1e-13);
+    }
+  }
+}
+
+// Central difference of the point of `link` that is at p_L in the link's frame.
+Eigen::Matrix3Xd NumericPointJacobian(const RobotModel& model, const Eigen::VectorXd& q, int link,
+                                      const Eigen::Vector3d& p_L) {
+  constexpr double kStep = 1e-5;
+  Eigen::Matrix3Xd J(3, q.size());
+  for (int i = 0; i < q.size(); ++i) {
+    Eigen::VectorXd ahead = q, behind = q;
+    ahead[i] += kStep;
+    behind[i] -= kStep;
+    J.col(i) =
+        (LinkPoses(model, ahead)[link] * p_L - LinkPoses(model, behind)[link] * p_L) / (2 * kStep);
+  }
+  return J;
+}
+
+TEST(KinematicsTest, PointJacobianIsTheDerivativeOfThePoint) {
+  Random random(13);
+  for (int i = 0; i < 50; ++i) {
+    const RobotModel model = RandomRobot(random, 10, i % 2 == 0);
+    const Eigen::VectorXd q = RandomPositions(model, random);
+    const auto X_WL = LinkPoses(model, q);
+    const int link = i % model.num_links();
+    const Eigen::Vector3d p_L = RandomPose(random).translation();
+    Eigen::Matrix3Xd J(3, q.size());
+    PointJacobian(model, X_WL, link, X_WL[link] * p_L, J);
+    EXPECT_LT((J - NumericPointJacobian(model, q, link, p_L)).cwiseAbs().maxCoeff(), 1e-8);
+  }
+}
+
+TEST(KinematicsTest, NumericCheckNoticesAWrongJacobian) {
+  const RobotModel model = Planar3();
+  const Eigen::Vector3d q(0.3, 0.2, 0.1);
+  const auto X_WL = LinkPoses(model, q);
+  Eigen::Matrix3Xd J(3, 3);
+  PointJacobian(model, X_WL, 2, X_WL[2].translation(), J);  // of link 2 instead of link 3
+  EXPECT_GT((J - NumericPointJacobian(model, q, 3, {0.1, 0, 0})).cwiseAbs().maxCoeff(), 0.05);
+}
+
+TEST(KinematicsTest, AngularRowsAreTheDerivativeOfTheRotation) {
+  Random random(14);
+  constexpr double kStep = 1e-5;
+  for (int i = 0; i < 20; ++i) {
+    const RobotModel model = RandomRobot(random, 8, true);
+    const Eigen::VectorXd q = RandomPositions(model, random);
+    const auto X_WL = LinkPoses(model, q);
+    Matrix6X J(6, q.size());
+    LinkJacobian(model, X_WL, 8, J);
+    for (int k = 0; k < q.size(); ++k) {
+      Eigen::VectorXd ahead = q, behind = q;
+      ahead[k] += kStep;
+      behind[k] -= kStep;
+      const Eigen::Matrix3d spin =
+          (LinkPoses(model, ahead)[8].linear() - LinkPoses(model, behind)[8].linear()) /
+          (2 * kStep) * X_WL[8].linear().transpose();
+      const Eigen::Vector3d omega(spin(2, 1), spin(0, 2), spin(1, 0));
+      EXPECT_LT((J.col(k).tail<3>() - omega).norm(), 1e-8);
+    }
+  }
+}
+
+TEST(KinematicsTest, MimicJointFollowsItsMasterInPoseAndJacobian) {
+  const std::string text = R"(<robot name="gripper"><link name="palm"/>
+    <link name="left"/><link name="right"/>
+    <joint name="open" type="prismatic"><parent link="palm"/><child link="left"/>
+      <axis xyz="0 1 0"/><limit lower="0" upper="0.04" velocity="1" effort="1"/></joint>
+    <joint name="follow" type="prismatic"><parent link="palm"/><child link="right"/>
+      <axis xyz="0 1 0"/><limit lower="-0.1" upper="0.1" velocity="1" effort="1"/>
+      <mimic joint="open" multiplier="-2" offset="0.01"/></joint></robot>)";
+  const RobotModel model = ParseUrdf(text, "gripper.urdf");
+  ASSERT_EQ(model.num_positions(), 1);
+  const auto X_WL = LinkPoses(model, Eigen::VectorXd::Constant(1, 0.03));
+  EXPECT_NEAR(X_WL[model.FindLink("right")].translation().y(), -2 * 0.03 + 0.01, 1e-16);
+  Eigen::MatrixXd J(12, 1);
+  StackedJacobian(model, X_WL, J);
+  EXPECT_EQ(J(1, 0), 1.0);
+  EXPECT_EQ(J(7, 0), -2.0);
+}
+
+TEST(KinematicsTest, RefusesPositionsOfWrongLengthOnEitherSide) {
+  const RobotModel model = Planar3();
+  for (const int length : {0, 2, 4}) {
+    EXPECT_THAT([&] { LinkPoses(model, Eigen::VectorXd::Zero(length)); },
+                ThrowsMessage<ModelError>(HasSubstr("expected 3")));
+  }
+  EXPECT_NO_THROW(LinkPoses(model, Eigen::VectorXd::Zero(3)));
+}
+
+TEST(KinematicsTest, RefusesPositionsThatAreNotFiniteNamingTheJoint) {
+  const RobotModel model = Planar3();
+  for (const double bad : {std::nan(""), kUnlimited, -kUnlimited}) {
+    EXPECT_THAT([&] { LinkPoses(model, Eigen::Vector3d(0.0, bad, 0.0)); },
+                ThrowsMessage<ModelError>(HasSubstr("'planar3_joint_2'")));
+  }
+}
+
+}  // namespace
+}  // namespace oca::models::test

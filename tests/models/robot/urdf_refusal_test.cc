@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every refusal of a robot description, with the place it must name.
+#include <gmock/gmock.h>
+
+#include "models/error.h"
+#include "models/robot/urdf.h"
+#include "random_robot.h"
+
+namespace oca::models::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+void ExpectRefused(const std::string& text, const char* reason, const char* element = "") {
+  EXPECT_THAT(
+      [&] { ParseUrdf(text, "bad.urdf"); },
+      ThrowsMessage<ModelError>(AllOf(HasSubstr("bad.urdf"), HasSubstr(reason), HasSubstr(element),
+                                      HasSubstr("; got "), HasSubstr("; expected "))))
+      << text;
+}
+
+std::string Robot(const std::string& content) {
+  return "<robot name='r'>\n" + content + "\n</robot>";
+}
+
+// One link with the given content.
+std::string Link(const std::string& content) {
+  return Robot("<link name='arm'>" + content + "</link>");
+}
+
+std::string Collision(const std::string& shape) {
+  return Link("<collision><geometry>" + shape + "</geometry></collision>");
+}
+
+// Two links and a joint of that type with the given content.
+std::string Joint(const std::string& type, const std::string& content) {
+  return Robot("<link name='a'/><link name='b'/>\n<joint name='elbow' type='" + type +
+               "'><parent link='a'/><child link='b'/>" + content + "</joint>");
+}
+
+const std::string kLimit = "<limit lower='-1' upper='1' velocity='1' effort='1'/>";
+
+TEST(UrdfRefusalTest, TheExamplesBelowAreOtherwiseSound) {
+  EXPECT_NO_THROW(ParseUrdf(Link(""), "good.urdf"));
+  EXPECT_NO_THROW(ParseUrdf(Collision("<sphere radius='1'/>"), "good.urdf"));
+  EXPECT_NO_THROW(ParseUrdf(Joint("revolute", kLimit), "good.urdf"));
+  EXPECT_NO_THROW(ParseUrdf(Joint("continuous", ""), "good.urdf"));
+}
+
+TEST(UrdfRefusalTest, FilesThatAreNoRobot) {
+  EXPECT_THAT([] { LoadUrdf("/nowhere/arm.urdf"); },
+              ThrowsMessage<ModelError>(HasSubstr("/nowhere/arm.urdf")));
+  ExpectRefused("", "nothing");
+  ExpectRefused(std::string("\x7f"
+                            "ELF\0\0\0",
+                            7),
+                "XML");
+  ExpectRefused("<robot name='r'>", "inside <robot>");
+  ExpectRefused("<sdf/>", "root element");
+  ExpectRefused("<robot><link name='a'/></robot>", "name");
+  ExpectRefused("<robot name='r'/>", "at least one <link>");
+}
+
+TEST(UrdfRefusalTest, DepthBombs) {
+  std::string bomb;
+  for (int i = 0; i < 200'000; ++i) bomb += "<link name='a'>";
+  ExpectRefused("<robot name='r'>" + bomb, "more than 64");
+}
+
+TEST(UrdfRefusalTest, UnexpandedXacro) {
+  ExpectRefused(Robot("<xacro:property name='x' value='1'/><link name='a'/>"), "xacro");
+  ExpectRefused(Collision("<sphere radius='${r}'/>"), "xacro", "'arm'");
+  ExpectRefused(Robot("<link name='$(arg prefix)arm'/>"), "xacro");
+  ExpectRefused(Robot("<link name='a'/><gazebo><x y='${z}'/></gazebo>"), "xacro");
+}
+
+TEST(UrdfRefusalTest, GeometryThatUrdfdomWouldDropInSilence) {
+  ExpectRefused(Collision("<capsule radius='1' length='2'/>"), "unknown geometry", "'arm'");
+  ExpectRefused(Link("<visual><geometry><cone/></geometry></visual>"), "unknown geometry");
+  ExpectRefused(Collision(""), "shapes; got none", "'arm'");
+  ExpectRefused(Collision("<sphere radius='1'/><sphere radius='2'/>"), "several");
+  ExpectRefused(Link("<collision/>"), "geometry; got none", "'arm'");
+}
+
+TEST(UrdfRefusalTest, SizesThatAreNotPositive) {
+  for (const char* shape :
+       {"<sphere radius='0'/>", "<sphere radius='-1'/>", "<box size='1 0 1'/>",
+        "<box size='1 -1 1'/>", "<cylinder radius='0' length='1'/>",
+        "<cylinder radius='1' length='0'/>", "<cylinder radius='1' length='-1'/>"}) {
+    ExpectRefused(Collision(shape), "more than 0", "bad.urdf:2: link 'arm'");
+  }
+  ExpectRefused(Collision("<mesh filename='a.stl' scale='1 0 1'/>"), "no zero");
+  EXPECT_NO_THROW(ParseUrdf(Collision("<sphere radius='1e-9'/>"), "good.urdf"));
+}
+
+TEST(UrdfRefusalTest, NumbersThatAreMissingOrTooMany) {
+  for (const char* shape : {"<sphere/>", "<sphere radius=''/>", "<sphere radius='1 2'/>",
+                            "<box size='1 2'/>", "<box size='1 2 3 4'/>", "<cylinder radius='1'/>",
+                            "<mesh filename='a.stl' scale='2'/>", "<sphere radius='one'/>"}) {
+    ExpectRefused(Collision(shape), "number", "'arm'");
+  }
+  ExpectRefused(Collision("<mesh/>"), "filename");
+}
+
+TEST(UrdfRefusalTest, NumbersThatAreNotFinite) {
+  for (const std::string bad : {"nan", "inf", "-inf", "1e999"}) {
+    ExpectRefused(Collision("<sphere radius='" + bad + "'/>"), "finite", "'arm'");
+    ExpectRefused(Collision("<box size='1 1 " + bad + "'/>"), "finite", "'arm'");
+    ExpectRefused(Joint("fixed", "<origin xyz='0 0 " + bad + "'/>"), "finite", "'elbow'");
+    ExpectRefused(Joint("fixed", "<origin rpy='0 0 " + bad + "'/>"), "finite", "'elbow'");
+    ExpectRefused(Joint("continuous", "<axis xyz='0 0 " + bad + "'/>"), "finite", "'elbow'");
+    ExpectRefused(
+        Joint("revolute", "<limit lower='0' velocity='1' effort='1' upper='" + bad + "'/>"),
+        "finite", "'elbow'");
+    ExpectRefused(
+        Joint("revolute", "<limit lower='0' upper='1' effort='1' velocity='" + bad + "'/>"),
+        "finite", "'elbow'");
+    ExpectRefused(Link("<inertial><mass value='" + bad + "'/><inertia/></inertial>"), "finite",
+                  "'arm'");
+    ExpectRefused(Link("<inertial><mass value='1'/><inertia ixx='" + bad + "'/></inertial>"),
+                  "finite", "'arm'");
+  }
+}
+
+TEST(UrdfRefusalTest, InertiaThatIsIncompleteOrNegative) {
+  const std::string inertia = "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/>";
+  ExpectRefused(Link("<inertial><mass value='-1'/>" + inertia + "</inertial>"), "0 or more");
+  EXPECT_NO_THROW(
+      ParseUrdf(Link("<inertial><mass value='0'/>" + inertia + "</inertial>"), "good.urdf"));
+  ExpectRefused(Link("<inertial><mass value='1'/></inertial>"), "no <inertia>");
+  ExpectRefused(Link("<inertial><mass value='1'/><inertia ixx='1'/></inertial>"), "ixy");
+}
+
+TEST(UrdfRefusalTest, ZeroAxis) {
+  ExpectRefused(Joint("revolute", kLimit + "<axis xyz='0 0 0'/>"), "a direction", "'elbow'");
+  ExpectRefused(Joint("continuous", "<axis xyz='0 0 1e-7'/>"), "a direction", "'elbow'");
+  EXPECT_NO_THROW(ParseUrdf(Joint("continuous", "<axis xyz='0 0 2e-6'/>"), "good.urdf"));
+  EXPECT_NO_THROW(ParseUrdf(Joint("fixed", "<axis xyz='0 0 0'/>"), "good.urdf"));
+}
+
+TEST(UrdfRefusalTest, LimitsThatAreMissingOrReversed) {
+  ExpectRefused(Joint("revolute", ""), "limit; got none", "'elbow'");
+  ExpectRefused(Joint("prismatic", ""), "limit; got none", "'elbow'");
+  ExpectRefused(Joint("revolute", "<limit velocity='1' effort='1'/>"), "lower", "'elbow'");
+  ExpectRefused(Joint("revolute", "<limit lower='0' upper='1' effort='1'/>"), "velocity");
+  ExpectRefused(Joint("revolute", "<limit lower='1' upper='0.9' velocity='1' effort='1'/>"),
+                "lower <= upper", "'elbow'");
+  EXPECT_NO_THROW(ParseUrdf(
+      Joint("revolute", "<limit lower='1' upper='1' velocity='1' effort='1'/>"), "good.urdf"));
+  ExpectRefused(Joint("revolute", "<limit lower='0' upper='1' velocity='-1' effort='1'/>"),
+                "0 or more", "'elbow'");
+  ExpectRefused(
+      Joint("revolute", "<limit lower='0' upper='1' velocity='1' effort='1' acceleration='0'/>"),
+      "more than 0", "'elbow'");
+}
+
+TEST(UrdfRefusalTest, JointTypesThatAreNotSupported) {
+  for (const char* type : {"floating", "planar", "ball", ""}) {
+    ExpectRefused(Joint(type, ""), "unsupported joint type", "'elbow'");
+  }
+}
+
+TEST(UrdfRefusalTest, JointsToUnknownLinks) {
+  ExpectRefused(Robot("<link name='arm'/><joint name='j' type='fixed'><parent link='amr'/>"
+                      "<child link='arm'/></joint>"),
+                "nearest is 'arm'", "unknown parent link");
+  ExpectRefused(Robot("<link name='arm'/><joint name='j' type='fixed'><parent link='arm'/>"
+                      "<child link='hand'/></joint>"),
+                "'hand'", "unknown child link");
+  ExpectRefused(
+      Robot("<link name='arm'/><joint name='j' type='fixed'><parent link='arm'/></joint>"),
+      "a <child>");
+}
+
+std::string Fixed(const std::string& name, const std::string& parent, const std::string& child) {
+  return "<joint name='" + name + "' type='fixed'><parent link='" + parent + "'/><child link='" +
+         child + "'/></joint>";
+}
+
+TEST(UrdfRefusalTest, TwoRoots) {
+  ExpectRefused(Robot("<link name='a'/><link name='b'/>"), "root link", "'a' and 'b'");
+}
+
+TEST(UrdfRefusalTest, Loops) {
+  const std::string links = "<link name='a'/><link name='b'/><link name='c'/>";
+  ExpectRefused(Robot(links + Fixed("1", "a", "b") + Fixed("2", "b", "c") + Fixed("3", "c", "a")),
+                "loop");
+  ExpectRefused(Robot(links + Fixed("1", "b", "c") + Fixed("2", "c", "b")), "loop");
+  ExpectRefused(Robot(links + Fixed("1", "a", "b") + Fixed("2", "a", "c") + Fixed("3", "b", "c")),
+                "a loop: joint '2'", "joint '3'");
+  ExpectRefused(Robot("<link name='a'/>" + Fixed("1", "a", "a")), "loop");
+}
+
+TEST(UrdfRefusalTest, MimicOfAnUnknownJointOrInALoop) {
+  ExpectRefused(Joint("revolute", kLimit + "<mimic joint='elbwo'/>"), "nearest is 'elbow'",
+                "unknown joint");
+  ExpectRefused(Joint("revolute", kLimit + "<mimic joint='elbow'/>"), "loop");
+  ExpectRefused(Joint("revolute", kLimit + "<mimic/>"), "got nothing", "<mimic>: joint");
+  ExpectRefused(Joint("revolute", kLimit + "<mimic joint='elbow' multiplier='nan'/>"), "finite");
+  const auto mimic = [](const char* name, const char* child, const char* master) {
+    return std::string("<joint name='") + name +
+           "' type='continuous'><parent link='a'/><child link='" + child + "'/><mimic joint='" +
+           master + "'/></joint>";
+  };
+  const std::string links = "<link name='a'/><link name='b'/><link name='c'/>";
+  ExpectRefused(Robot(links + mimic("p", "b", "q") + mimic("q", "c", "p")), "mimic rules");
+  ExpectRefused(Robot(links + Fixed("still", "a", "b") + mimic("q", "c", "still")),
+                "a fixed joint");
+}
+
+TEST(UrdfRefusalTest, NamesThatAreTakenOrMissing) {
+  ExpectRefused(Robot("<link name='a'/><link name='a'/>"), "one that is taken", "link 'a'");
+  ExpectRefused(Robot("<link name='a'/><link name='b'/><link name='c'/>" + Fixed("j", "a", "b") +
+                      Fixed("j", "a", "c")),
+                "one that is taken", "joint 'j'");
+  ExpectRefused(Robot("<link/>"), "name");
+}
+
+TEST(UrdfRefusalTest, ElementsThatAreMisspeltOrRepeated) {
+  ExpectRefused(Robot("<lnik name='a'/>"), "expected link");
+  ExpectRefused(Link("<colision/>"), "expected collision", "'arm'");
+  ExpectRefused(Joint("fixed", "<orgin xyz='1 0 0'/>"), "expected origin", "'elbow'");
+  ExpectRefused(Joint("fixed", "<origin xzy='1 0 0'/>"), "'xzy'", "'elbow'");
+  ExpectRefused(Joint("fixed", "<origin xyz='1 0 0'/><origin xyz='2 0 0'/>"), "a second one");
+  EXPECT_NO_THROW(ParseUrdf(Link("<drake:proximity_properties/>"), "good.urdf"));
+}
+
+}  // namespace
+}  // namespace oca::models::test
