@@ -27,6 +27,15 @@ double CheckedSize(double value, std::string_view where, std::string_view what) 
   return value;
 }
 
+// Relative thickness below which the volume of a body drowns in rounding.
+constexpr double kFlattest = 1e-9;
+
+void CheckThickness(const Vector3d& half, std::string_view where) {
+  if (half.minCoeff() >= kFlattest * half.maxCoeff()) return;
+  throw ModelError(fmt::format("{}: body too flat; got {} m by {} m; expected a ratio above {}",
+                               where, 2 * half.minCoeff(), 2 * half.maxCoeff(), kFlattest));
+}
+
 }  // namespace
 
 Collider::Collider(const Shape& shape, std::string_view where) : shape_(shape) {
@@ -44,12 +53,14 @@ Collider::Collider(const Shape& shape, std::string_view where) : shape_(shape) {
                 half_ =
                     0.5 * Vector3d(size(s.size.x(), "box size x"), size(s.size.y(), "box size y"),
                                    size(s.size.z(), "box size z"));
+                CheckThickness(half_, where);
                 bounding_radius_ = half_.norm();
               },
               [&](const Cylinder& s) {
                 core_ = Core::kCylinder;
                 const double r = size(s.radius, "cylinder radius");
                 half_ = Vector3d(r, r, 0.5 * size(s.length, "cylinder length"));
+                CheckThickness(half_, where);
                 bounding_radius_ = std::hypot(r, half_.z());
               },
               [&](const Capsule& s) {

@@ -51,7 +51,9 @@ class Collider {
 };
 
 /// Prepares a shape. `where` names it in the error.
-/// throws ModelError for a size that is not finite and positive, or a mesh without a hull
+/// throws ModelError for a size that is not finite and positive, a box or cylinder thinner than
+/// 1e-9
+///        of its extent, or a mesh without a hull
 std::shared_ptr<const Collider> MakeCollider(const Shape& shape, std::string_view where);
 
 /// Radius of a sphere about the origin of the shape's frame that contains the shape, m.

@@ -43,6 +43,8 @@ class Polytope {
   int LowestFace() const;
   bool Full() const { return hull_.points() >= kMaxVertices; }
   void Straighten(Plane* plane) const;
+  Vector3d Weights(const std::array<int, 3>& face, const Vector3d& normal) const;
+  std::array<int, 3> FaceBelow(const Vector3d& normal, double highest) const;
   CoreDistance Result(const std::array<int, 3>& face, const Plane& plane, double gap) const;
 
   const CorePair& pair_;
@@ -124,7 +126,6 @@ void Polytope::Reach(const Vector3d& direction) {
 
 CoreDistance Polytope::Search() {
   const double enough = kEnough * pair_.Extent();
-  std::array<int, 3> best_face{};
   Plane best{Vector3d::UnitX(), std::numeric_limits<double>::infinity()};
   while (true) {
     const int lowest = LowestFace();
@@ -132,11 +133,12 @@ CoreDistance Polytope::Search() {
     const int point = Full() ? -1 : Add(plane.normal);
     const Vector3d w = point < 0 ? pair_.Support(plane.normal).w : source_[point].w;
     const double reach = plane.normal.dot(w);
-    if (reach < best.offset) best = {plane.normal, reach}, best_face = hull_.face(lowest).vertex;
+    if (reach < best.offset) best = {plane.normal, reach};
     if (point < 0 || best.offset - plane.offset <= enough || hull_.Height(lowest, point) <= 0) {
       Straighten(&best);
       // The lattice may put the face a step above the plane that bounds A - B.
-      return Result(best_face, best, std::max(best.offset - plane.offset, 0.0));
+      return Result(FaceBelow(best.normal, best.offset + enough), best,
+                    std::max(best.offset - plane.offset, 0.0));
     }
     hull_.Grow(point, lowest);
     RefreshPlanes();
@@ -155,18 +157,33 @@ void Polytope::Straighten(Plane* plane) const {
   }
 }
 
-// The points of the bodies behind the foot of the origin on a face.
+// Barycentric coordinates of the point where a ray from the origin meets the plane of a face.
+Vector3d Polytope::Weights(const std::array<int, 3>& face, const Vector3d& normal) const {
+  const Vector3d &A = source_[face[0]].w, &B = source_[face[1]].w, &C = source_[face[2]].w;
+  const Vector3d areas(normal.dot(B.cross(C)), normal.dot(C.cross(A)), normal.dot(A.cross(B)));
+  return areas.sum() > 0.0 ? Vector3d(areas / areas.sum()) : Vector3d(Vector3d::Constant(-1.0));
+}
+
+// The face that the ray from the origin meets. Several may lie in one plane, hence `highest`.
+std::array<int, 3> Polytope::FaceBelow(const Vector3d& normal, double highest) const {
+  int below = -1;
+  double most = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < hull_.face_slots(); ++i) {
+    if (!hull_.face(i).alive || planes_[i].offset > highest) continue;
+    const double inside = Weights(hull_.face(i).vertex, normal).minCoeff();
+    if (inside > most) most = inside, below = i;
+  }
+  return hull_.face(below).vertex;
+}
+
+// The points of the bodies behind that ray.
 CoreDistance Polytope::Result(const std::array<int, 3>& face, const Plane& plane,
                               double gap) const {
-  const auto& [a, b, c] = face;
-  const Vector3d &A = source_[a].w, &B = source_[b].w, &C = source_[c].w;
-  const Vector3d& n = plane.normal;
-  Vector3d weight(n.dot(B.cross(C)), n.dot(C.cross(A)), n.dot(A.cross(B)));
-  weight = weight.cwiseMax(0.0);  // the origin may lie beside the face, at touch only
+  Vector3d weight = Weights(face, plane.normal).cwiseMax(0.0);  // beside the face at touch only
   if (!(weight.sum() > 0.0)) weight = Vector3d::Ones();
   weight /= weight.sum();
-  CoreDistance result{.distance = -plane.offset, .normal = -n, .gap = gap};
-  result.point_a = weight[0] * source_[a].a + weight[1] * source_[b].a + weight[2] * source_[c].a;
+  CoreDistance result{.distance = -plane.offset, .normal = -plane.normal, .gap = gap};
+  for (int i = 0; i < 3; ++i) result.point_a += weight[i] * source_[face[i]].a;
   result.point_b = result.point_a - result.distance * result.normal;
   return result;
 }

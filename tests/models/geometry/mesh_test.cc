@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "models/geometry/mesh.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "models/error.h"
+#include "tests/models/geometry/mesh_files.h"
+
+namespace oca::models {
+namespace {
+
+using Eigen::Vector3d;
+using testing::AllOf;
+using testing::HasSubstr;
+
+// By the divergence theorem; negative if the triangles face inwards.
+double Volume(const TriangleMesh& mesh) {
+  double volume = 0.0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    volume += mesh.vertices[a].dot(mesh.vertices[b].cross(mesh.vertices[c])) / 6.0;
+  }
+  return volume;
+}
+
+Vector3d High(const TriangleMesh& mesh) {
+  Vector3d high = mesh.vertices.at(0);
+  for (const Vector3d& p : mesh.vertices) high = high.cwiseMax(p);
+  return high;
+}
+
+Vector3d Low(const TriangleMesh& mesh) {
+  Vector3d low = mesh.vertices.at(0);
+  for (const Vector3d& p : mesh.vertices) low = low.cwiseMin(p);
+  return low;
+}
+
+void ExpectTetrahedron(const TriangleMesh& mesh, const Vector3d& high) {
+  EXPECT_EQ(mesh.triangles.size(), 4u);
+  EXPECT_TRUE(High(mesh).isApprox(high, 1e-6)) << High(mesh).transpose();
+  EXPECT_TRUE(Low(mesh).isZero(1e-6)) << Low(mesh).transpose();
+  EXPECT_NEAR(Volume(mesh), high.prod() / 6.0, 1e-6 * high.prod());
+}
+
+std::string RefusalOf(const std::filesystem::path& file, const Vector3d& scale = Vector3d::Ones()) {
+  try {
+    LoadConvexHull(file, scale);
+  } catch (const ModelError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr(file.string() + ": "), HasSubstr("; got "),
+                                    HasSubstr("; expected ")));
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(MeshTest, TextAndBinaryStlAndObjAreTheSameBody) {
+  const MeshFolder folder;
+  const Vector3d high(1, 2, 3);
+  ExpectTetrahedron(LoadMesh(folder.Write("a.stl", TextStl(Tetrahedron()))), high);
+  ExpectTetrahedron(LoadMesh(folder.Write("b.stl", BinaryStl(Tetrahedron()))), high);
+  ExpectTetrahedron(LoadMesh(folder.Write("c.obj", TextObj())), high);
+  ExpectTetrahedron(LoadMesh(folder.Write("D.STL", BinaryStl(Tetrahedron()))), high);
+}
+
+TEST(MeshTest, BinaryStlMayBeginWithSolid) {
+  const MeshFolder folder;
+  ExpectTetrahedron(LoadMesh(folder.Write("a.stl", BinaryStl(Tetrahedron(), "solid part"))),
+                    Vector3d(1, 2, 3));
+}
+
+TEST(MeshTest, PolygonsOfAnObjAreCutIntoTriangles) {
+  const MeshFolder folder;
+  const auto mesh = LoadMesh(
+      folder.Write("box.obj",
+                   "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+                   "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"));
+  EXPECT_EQ(mesh.triangles.size(), 12u);
+  EXPECT_NEAR(Volume(mesh), 1.0, 1e-6);
+}
+
+TEST(MeshTest, ColladaUnitIsAppliedAndUpAxisIsNot) {
+  const MeshFolder folder;
+  for (const char* up : {"X_UP", "Y_UP", "Z_UP"}) {
+    ExpectTetrahedron(LoadMesh(folder.Write("m.dae", Collada("1", up, ""))), Vector3d(1, 2, 3));
+    ExpectTetrahedron(LoadMesh(folder.Write("mm.dae", Collada("0.001", up, ""))),
+                      Vector3d(1e-3, 2e-3, 3e-3));
+  }
+}
+
+TEST(MeshTest, ColladaNodeTransformsAreApplied) {
+  const MeshFolder folder;
+  const auto moved =
+      LoadMesh(folder.Write("t.dae", Collada("0.5", "Z_UP", "<translate>10 20 30</translate>")));
+  EXPECT_TRUE(Low(moved).isApprox(Vector3d(5, 10, 15), 1e-6)) << Low(moved).transpose();
+  const auto mirrored =
+      LoadMesh(folder.Write("s.dae", Collada("1", "Z_UP", "<scale>-1 1 1</scale>")));
+  EXPECT_NEAR(Low(mirrored).x(), -1.0, 1e-6);
+  EXPECT_NEAR(Volume(mirrored), 1.0, 1e-6);
+}
+
+TEST(MeshTest, ScaleStretchesEachAxisAndAMirrorKeepsTheOutside) {
+  const MeshFolder folder;
+  const auto file = folder.Write("a.stl", BinaryStl(Tetrahedron()));
+  ExpectTetrahedron(LoadMesh(file, Vector3d(2, 1, 0.5)), Vector3d(2, 2, 1.5));
+  for (const Vector3d& scale : {Vector3d(-1, 1, 1), Vector3d(-1, -1, 1), Vector3d(-1, -1, -1)}) {
+    EXPECT_NEAR(Volume(LoadMesh(file, scale)), 1.0, 1e-6);
+    EXPECT_NEAR(LoadConvexHull(file, scale)->volume, 1.0, 1e-6);
+  }
+}
+
+TEST(MeshTest, HullIsNamedAfterTheFileAndContainsTheMesh) {
+  const MeshFolder folder;
+  const auto file = folder.Write("a.stl", BinaryStl(Tetrahedron()));
+  const auto hull = LoadConvexHull(file);
+  EXPECT_EQ(hull->name, file.string());
+  EXPECT_EQ(hull->vertices.size(), 4u);
+}
+
+TEST(MeshTest, VerticesThatNoTriangleUsesAreLeftOut) {
+  const MeshFolder folder;
+  const auto mesh = LoadMesh(folder.Write("a.obj",
+                                          "v 99 99 99\nv 0 0 0\nv 1 0 0\nv 0 2 0\n"
+                                          "v 0 0 3\nf 2 4 3\nf 2 3 5\nf 2 5 4\nf 3 4 5\n"));
+  ExpectTetrahedron(mesh, Vector3d(1, 2, 3));
+}
+
+TEST(MeshTest, RefusesAFileThatIsMissingEmptyOrAFolder) {
+  const MeshFolder folder;
+  EXPECT_THAT(RefusalOf(folder.path() / "no.stl"), HasSubstr("mesh not found"));
+  EXPECT_THAT(RefusalOf(folder.Write("e.stl", "")), HasSubstr("got 0 bytes"));
+  std::filesystem::create_directory(folder.path() / "d.stl");
+  EXPECT_THAT(RefusalOf(folder.path() / "d.stl"), HasSubstr("not a file"));
+}
+
+TEST(MeshTest, RefusesAnUnknownExtension) {
+  const MeshFolder folder;
+  EXPECT_THAT(RefusalOf(folder.Write("a.ply", "ply")), HasSubstr("got extension '.ply'"));
+  EXPECT_THAT(RefusalOf(folder.Write("a", "x")), HasSubstr("expected .stl, .obj, .dae"));
+}
+
+TEST(MeshTest, RefusesAFileAboveAHundredMegabytes) {
+  const MeshFolder folder;
+  const auto file = folder.Write("big.stl", "solid");
+  std::filesystem::resize_file(file, 100'000'001);
+  EXPECT_THAT(RefusalOf(file), HasSubstr("mesh too large; got 100 MB; expected at most 100 MB"));
+}
+
+TEST(MeshTest, RefusesBinaryJunkOfEveryKind) {
+  const MeshFolder folder;
+  std::mt19937 random(5);
+  for (const char* extension : {".stl", ".obj", ".dae"}) {
+    for (const int size : {1, 3, 83, 84, 134, 5'000, 300'000}) {
+      std::string junk(size, ' ');
+      for (char& c : junk) c = static_cast<char>(random());
+      EXPECT_NE(RefusalOf(folder.Write(std::string("junk") + extension, junk)), "accepted")
+          << extension << " of " << size << " bytes";
+    }
+  }
+}
+
+TEST(MeshTest, RefusesTruncatedFiles) {
+  const MeshFolder folder;
+  const std::string stl = BinaryStl(Tetrahedron());
+  const std::string dae = Collada("1", "Z_UP", "");
+  for (const double part : {0.2, 0.5, 0.7}) {
+    EXPECT_NE(RefusalOf(folder.Write("t.stl", stl.substr(0, part * stl.size()))), "accepted");
+    EXPECT_NE(RefusalOf(folder.Write("t.dae", dae.substr(0, part * dae.size()))), "accepted");
+  }
+}
+
+TEST(MeshTest, RefusesAMeshWithoutTriangles) {
+  const MeshFolder folder;
+  EXPECT_NE(RefusalOf(folder.Write("p.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2 3\n")), "accepted");
+  EXPECT_NE(RefusalOf(folder.Write("t.stl", "solid part\nendsolid part\n")), "accepted");
+  EXPECT_NE(RefusalOf(folder.Write("b.stl", BinaryStl({}))), "accepted");
+}
+
+TEST(MeshTest, RefusesFacesWithoutTheirVertices) {
+  const MeshFolder folder;
+  EXPECT_NE(RefusalOf(folder.Write("f.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 999999999\n")),
+            "accepted");
+}
+
+TEST(MeshTest, RefusesADegenerateMesh) {
+  const MeshFolder folder;
+  EXPECT_THAT(RefusalOf(folder.Write("flat.obj",
+                                     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n"
+                                     "f 1 2 3\nf 2 4 3\n")),
+              HasSubstr("one plane or line"));
+  EXPECT_NE(RefusalOf(folder.Write("one.stl", BinaryStl({Tetrahedron()[0]}))), "accepted");
+}
+
+TEST(MeshTest, RefusesVerticesThatAreNotFinite) {
+  const MeshFolder folder;
+  for (const float bad : {std::nanf(""), std::numeric_limits<float>::infinity()}) {
+    auto triangles = Tetrahedron();
+    triangles[2][1][1] = bad;
+    EXPECT_NE(RefusalOf(folder.Write("nan.stl", BinaryStl(triangles))), "accepted");
+  }
+}
+
+TEST(MeshTest, RefusesAScaleOfZeroOrNaN) {
+  const MeshFolder folder;
+  const auto file = folder.Write("a.stl", BinaryStl(Tetrahedron()));
+  for (const double bad : {0.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    EXPECT_THAT(RefusalOf(file, Vector3d(1, bad, 1)), HasSubstr("scale; got (1, "));
+  }
+}
+
+TEST(MeshTest, RefusesAColladaOfNothingButOpeningTags) {
+  const MeshFolder folder;
+  std::string bomb = "<?xml version=\"1.0\"?><COLLADA version=\"1.4.1\">";
+  for (int i = 0; i < 1'000'000; ++i) bomb += "<node>";
+  EXPECT_THAT(RefusalOf(folder.Write("bomb.dae", bomb)), HasSubstr("nested too deep"));
+}
+
+}  // namespace
+}  // namespace oca::models
