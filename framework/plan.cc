@@ -15,8 +15,9 @@ std::uint64_t Plan::ClassChanged(const Context& context, std::uint32_t source_cl
   auto& state = reinterpret_cast<ClassState*>(arena(context) + class_states_offset)[source_class];
   if (state.checked != context.header().epoch) {
     const std::uint64_t* version = versions(context);
-    std::uint64_t newest = 0;
+    std::uint64_t newest = 1;  // what reads nothing is computed once
     for (std::uint32_t i = classes[source_class].begin; i < classes[source_class].end; ++i) {
+      if (version[class_sources[i]] == 0) FailUnfixed(context, class_sources[i]);
       newest = std::max(newest, version[class_sources[i]]);
     }
     state = {newest, context.header().epoch};
@@ -78,15 +79,23 @@ int Plan::PortOf(std::uint32_t node) const {
 
 void Plan::FailNode(const Context& context, std::uint32_t index) const {
   const System* const system = nodes[index].system;
-  const auto& entries = inputs;
-  for (std::size_t i = 0; i < system->inputs().size(); ++i) {
-    const InputEntry& entry = entries[system->first_input_ + i];
-    if (entry.source >= 0 && versions(context)[entry.source] == 0) {
+  Fail(context, system, system->outputs()[PortOf(index)].name,
+       "the value is not finite (NaN or infinity)");
+}
+
+void Plan::FailUnfixed(const Context& context, std::uint32_t source) const {
+  for (const System* const system : systems) {
+    for (std::size_t i = 0; i < system->inputs().size(); ++i) {
+      if (inputs[system->first_input_ + i].source != static_cast<int>(source)) continue;
       Fail(context, system, system->inputs()[i].name, "the exported input has not been fixed");
     }
   }
-  Fail(context, system, system->outputs()[PortOf(index)].name,
-       "the value is not finite (NaN or infinity)");
+}
+
+void Plan::CheckInputsFixed(const Context& context) const {
+  for (const InputEntry& input : exported_inputs) {
+    if (versions(context)[input.source] == 0) FailUnfixed(context, input.source);
+  }
 }
 
 void Plan::Fail(const Context& context, const System* system, const std::string& port,

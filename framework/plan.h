@@ -16,7 +16,8 @@ namespace oca {
 /// discrete state, each fixed input. A source carries the epoch of its last change. A *node* is
 /// one output's calculation; it carries the epoch at which it was last computed, and nodes with
 /// the same set of sources share one *source class*, whose newest change is looked up once an
-/// epoch. A node is up to date when it was computed no earlier than its class changed.
+/// epoch. A node is up to date when it was computed no earlier than its class changed. Epoch 0 is
+/// before everything: a source still there is an exported input that nobody has fixed.
 class Plan {
  public:
   struct Node {
@@ -85,6 +86,8 @@ class Plan {
   }
   /// Brings the nodes in pulls[begin, end) up to date.
   void PullRange(const Context& context, std::uint32_t begin, std::uint32_t end) const;
+  /// throws SimulationError naming an exported input that has no value yet.
+  void CheckInputsFixed(const Context& context) const;
   /// Derivatives of all continuous state at the context's time and state, into `derivatives`.
   void EvaluateDerivatives(Context& context, double* derivatives) const;
   /// Runs one event; what it writes goes to the states' `next`.
@@ -168,6 +171,7 @@ class Plan {
   void Compute(const Context& context, std::uint32_t node) const;
   [[noreturn]] void Fail(const Context& context, const System* system, const std::string& port,
                          const char* what) const;
+  void FailUnfixed(const Context& context, std::uint32_t source) const;
   [[noreturn]] void FailNode(const Context& context, std::uint32_t node) const;
   void FailDerivative(const Context& context) const;
   int PortOf(std::uint32_t node) const;
