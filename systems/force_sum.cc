@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "systems/force_sum.h"
+
+namespace oca::systems {
+
+void ForceSum::Params::Describe(Fields<Params>& /*fields*/) {}
+
+ForceSum::ForceSum(const Params& /*params*/)
+    : forces0(DeclareInput<LinkForceSet>("forces0")),
+      forces1(DeclareInput<LinkForceSet>("forces1")),
+      forces(DeclareOutput<LinkForceSet, &ForceSum::CalcForces>("forces", {}, forces0, forces1)) {}
+
+void ForceSum::CalcForces(const LinkForceSet& first, const LinkForceSet& second,
+                          LinkForceSet& sum) const {
+  sum.forces.assign(first.forces.begin(), first.forces.end());
+  sum.forces.insert(sum.forces.end(), second.forces.begin(), second.forces.end());
+}
+
+}  // namespace oca::systems

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "framework/params.h"
+#include "systems/signals.h"
+
+namespace oca::systems {
+
+/// A pose as files give it; without rpy and quaternion it does not rotate.
+struct PoseParams {
+  Eigen::Vector3d xyz{Eigen::Vector3d::Zero()};
+  std::optional<Eigen::Vector3d> rpy;
+  std::optional<Eigen::VectorXd> quaternion;
+  static void Describe(Fields<PoseParams>& fields);
+
+  /// throws ConfigError naming `where` if it has both rotations, a quaternion that is not one, or
+  /// a number that is not finite
+  Eigen::Isometry3d Pose(const std::string& where) const;
+};
+
+enum class ShapeType { kSphere, kBox, kCylinder, kCapsule, kMesh };
+inline constexpr std::array kShapeTypeNames{"sphere", "box", "cylinder", "capsule", "mesh"};
+inline std::span<const char* const> EnumNames(ShapeType) { return kShapeTypeNames; }
+
+/// A shape as files and JSON give it: a type, and just those sizes that the type has.
+struct ShapeParams {
+  ShapeType type{ShapeType::kSphere};
+  std::optional<double> radius;
+  std::optional<double> length;
+  std::optional<Eigen::Vector3d> size;
+  std::optional<std::string> file;
+  static void Describe(Fields<ShapeParams>& fields);
+};
+
+/// Prepares an obstacle for distance queries; reads the mesh if it is one.
+/// throws ConfigError naming `where` for a missing, surplus or bad size, or a bad mesh
+std::shared_ptr<const ObstacleBody> MakeObstacleBody(const std::string& id,
+                                                     const ShapeParams& shape,
+                                                     const std::string& where);
+
+/// The inverse: the parameters that an obstacle was made from.
+ShapeParams ShapeParamsOf(const ObstacleBody& body);
+
+}  // namespace oca::systems

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "systems/jacobian_mapping.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "framework/error.h"
+#include "systems/json_fields.h"
+#include "systems/model_links.h"
+#include "systems/require.h"
+
+namespace oca::systems {
+namespace {
+
+constexpr std::array kStatusNames{"ok", "regularised", "not_finite"};
+
+models::MappingSettings Checked(const JacobianMapping::Params& params) {
+  RequireFinite("alpha", params.alpha);
+  RequireAtLeast("damping", params.damping, 0.0);
+  using Method = JacobianMapping::Method;
+  switch (params.method) {
+    case Method::kTranspose:
+      return {models::MappingMethod::kTranspose, params.alpha, 0.0};
+    case Method::kPseudoInverse:
+      return {models::MappingMethod::kPseudoInverse, params.alpha, 0.0};
+    case Method::kDamped:
+      RequireAbove("damping", params.damping, 0.0);
+      return {models::MappingMethod::kDamped, params.alpha, params.damping};
+  }
+  throw ConfigError("method: got no such method; expected transpose, pseudo_inverse or damped");
+}
+
+int FindLink(const models::RobotModel& model, models::Name name) {
+  const auto& links = model.links();
+  const auto found = std::find_if(links.begin(), links.end(),
+                                  [&](const models::Link& link) { return link.name == name; });
+  if (found != links.end()) return static_cast<int>(found - links.begin());
+  throw ConfigError(fmt::format("wrenches: got one on '{}'; expected a link of '{}'", name.text(),
+                                model.name().text()));
+}
+
+}  // namespace
+
+void JacobianMapping::Params::Describe(Fields<Params>& fields) {
+  fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
+  fields.Add("alpha", &Params::alpha, "", "factor of the delta; absorbs the unit of the wrench");
+  fields.Add("method", &Params::method, "", "how wrenches become joint offsets");
+  fields
+      .Add("damping", &Params::damping, "m", "lambda of the method damped, which needs more than 0")
+      .AtLeast(0.0);
+}
+
+JacobianMapping::JacobianMapping(const Params& params, const ModelSet& models)
+    : model_(MovableModel(models, params.model)),
+      settings_(Checked(params)),
+      wrenches(DeclareInput<WrenchSet>("wrenches")),
+      links(DeclareInput<LinkPoses>("links")),
+      solution(DeclareOutput<MappingSolution, &JacobianMapping::CalcSolution>("solution", {},
+                                                                              wrenches, links)),
+      delta(DeclareOutput<Vector, &JacobianMapping::CalcDelta>("delta", PositionSpec(*model_),
+                                                               solution)) {}
+
+void JacobianMapping::CalcSolution(const WrenchSet& wrench_set, const LinkPoses& poses,
+                                   MappingSolution& result) const {
+  if (!result.workspace) result.workspace.emplace(*model_);
+  result.delta.resize(model_->num_positions());
+  result.body_wrenches.assign(model_->bodies().size(), models::BodyWrench{});
+  const auto X_WL = PosesInOrder(*model_, poses, result.reordered);
+  for (const LinkWrench& wrench : wrench_set.wrenches) {
+    const int link = FindLink(*model_, wrench.link);
+    if (model_->body(link) < 0) continue;
+    const Eigen::Vector3d origin = X_WL[model_->body(link)].translation();
+    models::BodyWrench& sum = result.body_wrenches[model_->body_index(link)];
+    sum.force += wrench.force;
+    sum.torque += wrench.torque + (wrench.origin - origin).cross(wrench.force);
+  }
+  result.status = models::MapWrenches(*model_, X_WL, result.body_wrenches, settings_,
+                                      *result.workspace, result.delta);
+}
+
+void JacobianMapping::CalcDelta(const MappingSolution& result, MutableVectorView value) const {
+  value = result.delta;
+}
+
+}  // namespace oca::systems
+
+namespace oca {
+
+using systems::MappingSolution;
+
+bool Signal<MappingSolution>::Finite(const MappingSolution& value) {
+  return AllFinite(value.delta.data(), static_cast<std::size_t>(value.delta.size()));
+}
+
+void Signal<MappingSolution>::WriteJson(const MappingSolution& value, std::string& out) {
+  out += fmt::format(R"({{"status":"{}","delta":)",
+                     systems::kStatusNames[static_cast<int>(value.status)]);
+  WriteVectorJson(value.delta.data(), static_cast<std::size_t>(value.delta.size()), out);
+  out += '}';
+}
+
+MappingSolution Signal<MappingSolution>::ReadJson(std::string_view text) {
+  const systems::Json json = systems::ParseJson(text);
+  const systems::JsonReader reader(json, "solution");
+  reader.CheckKeys({"status", "delta"});
+  const std::string status = reader.At("status").Text();
+  const auto& names = systems::kStatusNames;
+  const auto found = std::find(names.begin(), names.end(), status);
+  if (found == names.end()) {
+    reader.At("status").Fail("'" + status + "'", "ok, regularised or not_finite");
+  }
+  MappingSolution solution;
+  solution.status = static_cast<models::MappingStatus>(found - names.begin());
+  solution.delta = ReadVectorJson(json["delta"].dump());
+  return solution;
+}
+
+}  // namespace oca

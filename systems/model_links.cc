@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "systems/model_links.h"
+
+#include <fmt/format.h>
+
+#include "framework/error.h"
+#include "models/robot/robot_model.h"
+
+namespace oca::systems {
+namespace {
+
+bool InOrder(const models::RobotModel& model, const LinkPoses& links) {
+  if (static_cast<int>(links.size()) != model.num_links()) return false;
+  for (int i = 0; i < model.num_links(); ++i) {
+    if (!(links.links[i] == model.links()[i].name)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::shared_ptr<const models::RobotModel> MovableModel(const ModelSet& models,
+                                                       const std::string& name) {
+  auto model = models.Get(name);
+  if (model->num_positions() > 0) return model;
+  throw ConfigError(fmt::format("model: got '{}', which has no movable joint; expected a robot",
+                                model->name().text()));
+}
+
+PortSpec PositionSpec(const models::RobotModel& model) {
+  const std::string_view unit = model.position_unit();
+  return {model.num_positions(), unit == "mixed" ? Unit::Any() : Unit(std::string(unit))};
+}
+
+void NameLinks(const models::RobotModel& model, LinkPoses& poses) {
+  for (int i = 0; i < model.num_links(); ++i) {
+    poses.links.push_back(model.links()[i].name);
+    poses.bodies.push_back(model.body(i));
+  }
+  poses.poses.resize(poses.links.size());
+}
+
+std::span<const Eigen::Isometry3d> PosesInOrder(const models::RobotModel& model,
+                                                const LinkPoses& links,
+                                                std::vector<Eigen::Isometry3d>& reordered) {
+  if (InOrder(model, links)) return links.poses;
+  reordered.resize(model.links().size());
+  std::size_t found = 0;
+  for (int i = 0; i < model.num_links(); ++i) {
+    const models::Link& link = model.links()[i];
+    const int index = links.Find(link.name, i);
+    if (index >= 0) {
+      reordered[i] = links.poses[index];
+      ++found;
+    } else if (link.parent_joint < 0) {
+      reordered[i] = model.X_WB();
+    } else if (const auto& joint = model.joints()[link.parent_joint]; !joint.movable()) {
+      reordered[i] = reordered[joint.parent_link] * joint.X_PJ;
+    } else {
+      throw ConfigError(fmt::format("links: got no pose of '{}'; expected one of each movable link",
+                                    link.name.text()));
+    }
+  }
+  if (found < links.size()) {
+    throw ConfigError(fmt::format("links: got a link that is not of '{}'; expected its own links",
+                                  model.name().text()));
+  }
+  return reordered;
+}
+
+}  // namespace oca::systems

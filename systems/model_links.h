@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "framework/port.h"
+#include "systems/model_set.h"
+#include "systems/signals.h"
+
+namespace oca::systems {
+
+// Between a robot model, which numbers its links, and LinkPoses, which names them.
+
+/// throws ConfigError if there is no such model or nothing of it moves
+std::shared_ptr<const models::RobotModel> MovableModel(const ModelSet& models,
+                                                       const std::string& name);
+
+/// Length and unit of the joint positions.
+PortSpec PositionSpec(const models::RobotModel& model);
+
+/// Fills in names and bodies, and as many poses.
+void NameLinks(const models::RobotModel& model, LinkPoses& poses);
+
+/// The poses in the order of the model. Those of `links` themselves if they are in this order,
+/// else `reordered`, which is then filled: a link that `links` lacks stands where its fixed joint
+/// puts it, or at the base if it is the root.
+/// throws ConfigError if a movable link is missing or a name is not one of the model's links
+std::span<const Eigen::Isometry3d> PosesInOrder(const models::RobotModel& model,
+                                                const LinkPoses& links,
+                                                std::vector<Eigen::Isometry3d>& reordered);
+
+}  // namespace oca::systems

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "framework/params.h"
+#include "framework/system.h"
+#include "systems/model_set.h"
+#include "systems/signals.h"
+
+namespace oca::systems {
+
+/// Poses of all links of a robot from the positions of its joints: X_WL = X_WB X_B1(q) ...
+/// Everything else that follows from a configuration (screws, Jacobians) follows from the poses.
+///
+/// in    position  n  rad, m   one a joint that has a position
+/// out   links     LinkPoses   all links, parents first
+/// state -
+/// throws ConfigError if there is no such model or it has no movable joint
+class RobotKinematics final : public System {
+ public:
+  static constexpr SystemDoc kDoc{"computes the poses of a robot's links",
+                                  "X_WL = X_WP X_PJ exp(axis q), from the base to the tips", ""};
+  struct Params {
+    std::string model{};
+    static void Describe(Fields<Params>& fields);
+  };
+  static Params Example() { return {}; }
+
+  RobotKinematics(const Params& params, const ModelSet& models);
+
+ private:
+  const std::shared_ptr<const models::RobotModel> model_;
+  void CalcLinks(VectorView q, LinkPoses& poses) const;
+
+ public:
+  const Input<Vector> position;
+  const Output<LinkPoses> links;
+};
+
+}  // namespace oca::systems

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "framework/signal.h"
+#include "models/geometry/collider.h"
+#include "models/name.h"
+
+namespace oca::systems {
+
+// The signals of an avoidance loop. All positions are in m, all vectors have world axes. Lists keep
+// their capacity over assignment, so copying one from tick to tick does not allocate.
+
+/// What an obstacle is, apart from where it is: shared by all its samples.
+struct ObstacleBody {
+  models::Name id;
+  std::shared_ptr<const models::Collider> collider;
+  std::string file;  ///< of a mesh, as the user wrote it
+};
+
+/// An obstacle at one instant. `linear` and `angular` velocity (m/s, rad/s) are those of its
+/// origin.
+struct Obstacle {
+  std::shared_ptr<const ObstacleBody> body;
+  Eigen::Isometry3d X_WO{Eigen::Isometry3d::Identity()};
+  Eigen::Vector3d linear{Eigen::Vector3d::Zero()};
+  Eigen::Vector3d angular{Eigen::Vector3d::Zero()};
+
+  /// Velocity of the point of the obstacle that is now at p_W, m/s.
+  Eigen::Vector3d VelocityAt(const Eigen::Vector3d& p_W) const {
+    return linear + angular.cross(p_W - X_WO.translation());
+  }
+};
+
+struct ObstacleSet {
+  std::vector<Obstacle> obstacles;
+};
+
+/// Poses X_WL of the links of a robot, in three columns of equal length so that kinematics writes
+/// the poses as they are. `bodies` holds for each link the index (into these columns) of the link
+/// that the last movable joint before it leads to: itself if its own joint moves, -1 if it cannot
+/// move.
+struct LinkPoses {
+  std::vector<models::Name> links;
+  std::vector<Eigen::Isometry3d> poses;
+  std::vector<int> bodies;
+
+  std::size_t size() const { return links.size(); }
+  /// -1 if there is none of that name. `hint` is looked at first.
+  int Find(models::Name link, int hint = 0) const;
+};
+
+/// Nearest points of one link and one obstacle. `distance` is signed (negative: penetration);
+/// `normal` is the unit vector from the obstacle to the link.
+struct Proximity {
+  models::Name link;
+  models::Name obstacle;
+  double distance{0.0};
+  Eigen::Vector3d point_on_link{Eigen::Vector3d::Zero()};
+  Eigen::Vector3d point_on_obstacle{Eigen::Vector3d::Zero()};
+  Eigen::Vector3d normal{Eigen::Vector3d::UnitX()};
+  /// Velocity of the obstacle at point_on_obstacle, m/s. JSON: optional on input, never written.
+  Eigen::Vector3d obstacle_velocity{Eigen::Vector3d::Zero()};
+};
+
+struct ProximitySet {
+  std::vector<Proximity> proximities;
+};
+
+/// A force (N) that acts on `link` at `point`, because of `obstacle`.
+struct LinkForce {
+  models::Name link;
+  models::Name obstacle;
+  Eigen::Vector3d force{Eigen::Vector3d::Zero()};
+  Eigen::Vector3d point{Eigen::Vector3d::Zero()};
+};
+
+struct LinkForceSet {
+  std::vector<LinkForce> forces;
+};
+
+/// Force (N) and torque (Nm) on `link`, the torque about `origin`.
+struct LinkWrench {
+  models::Name link;
+  Eigen::Vector3d force{Eigen::Vector3d::Zero()};
+  Eigen::Vector3d torque{Eigen::Vector3d::Zero()};
+  Eigen::Vector3d origin{Eigen::Vector3d::Zero()};
+};
+
+struct WrenchSet {
+  std::vector<LinkWrench> wrenches;
+};
+
+}  // namespace oca::systems
+
+namespace oca {
+
+// JSON of every signal is a list with an object an item: DESIGN.md, section 10. ReadJson refuses
+// unknown and missing keys, wrong lengths and numbers that are not finite, saying which item.
+
+template <>
+struct Signal<systems::ObstacleSet> {
+  static constexpr const char* kName = "ObstacleSet";
+  static bool Finite(const systems::ObstacleSet& value);
+  static void WriteJson(const systems::ObstacleSet& value, std::string& out);
+  static systems::ObstacleSet ReadJson(std::string_view text);
+};
+template <>
+struct Signal<systems::LinkPoses> {
+  static constexpr const char* kName = "LinkPoses";
+  static bool Finite(const systems::LinkPoses& value);
+  static void WriteJson(const systems::LinkPoses& value, std::string& out);
+  static systems::LinkPoses ReadJson(std::string_view text);
+};
+template <>
+struct Signal<systems::ProximitySet> {
+  static constexpr const char* kName = "ProximitySet";
+  static bool Finite(const systems::ProximitySet& value);
+  static void WriteJson(const systems::ProximitySet& value, std::string& out);
+  static systems::ProximitySet ReadJson(std::string_view text);
+};
+template <>
+struct Signal<systems::LinkForceSet> {
+  static constexpr const char* kName = "LinkForceSet";
+  static bool Finite(const systems::LinkForceSet& value);
+  static void WriteJson(const systems::LinkForceSet& value, std::string& out);
+  static systems::LinkForceSet ReadJson(std::string_view text);
+};
+template <>
+struct Signal<systems::WrenchSet> {
+  static constexpr const char* kName = "WrenchSet";
+  static bool Finite(const systems::WrenchSet& value);
+  static void WriteJson(const systems::WrenchSet& value, std::string& out);
+  static systems::WrenchSet ReadJson(std::string_view text);
+};
+
+}  // namespace oca

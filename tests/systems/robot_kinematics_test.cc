@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "systems/robot_kinematics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "framework/error.h"
+#include "models/robot/kinematics.h"
+#include "tests/system_bench.h"
+#include "tests/systems/test_models.h"
+
+namespace oca::systems {
+namespace {
+
+TEST(RobotKinematicsTest, PlacesTheLinksOfAPlanarArmByHand) {
+  SystemBench<RobotKinematics> bench(RobotKinematics::Params{}, TestModels("planar2"));
+  // Upper arm 0.5 m along y, forearm 0.4 m back along x.
+  bench->position.Fix(bench.context(), Eigen::Vector2d(std::acos(0.0), std::acos(0.0)));
+  const LinkPoses& links = bench->links.Eval(bench.context());
+  const int elbow = links.Find(models::Name("planar2_link_2"));
+  const int tip = links.Find(models::Name("planar2_tip"));
+  ASSERT_GE(elbow, 0);
+  ASSERT_GE(tip, 0);
+  EXPECT_NEAR((links.poses[elbow].translation() - Eigen::Vector3d(0.0, 0.5, 0.0)).norm(), 0, 1e-15);
+  EXPECT_NEAR((links.poses[tip].translation() - Eigen::Vector3d(-0.4, 0.5, 0.0)).norm(), 0, 1e-15);
+}
+
+TEST(RobotKinematicsTest, SaysWhichBodyCarriesEachLink) {
+  SystemBench<RobotKinematics> bench(RobotKinematics::Params{}, TestModels("planar2"));
+  bench->position.Fix(bench.context(), Eigen::Vector2d::Zero());
+  const LinkPoses& links = bench->links.Eval(bench.context());
+  EXPECT_EQ(links.bodies, (std::vector<int>{-1, 1, 2, 2}));
+}
+
+TEST(RobotKinematicsTest, FollowsThePositionFromTickToTick) {
+  SystemBench<RobotKinematics> bench(RobotKinematics::Params{.model = "lwr4"}, TestModels("lwr4"));
+  const auto model = LoadTestModel("lwr4");
+  for (const double angle : {0.0, 0.3, -0.7}) {
+    const Eigen::VectorXd q = Eigen::VectorXd::Constant(7, angle);
+    bench->position.Fix(bench.context(), q);
+    const LinkPoses& links = bench->links.Eval(bench.context());
+    const auto expected = models::LinkPoses(*model, q);
+    ASSERT_EQ(links.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      EXPECT_TRUE(links.poses[i].isApprox(expected[i], 1e-15));
+    }
+  }
+}
+
+TEST(RobotKinematicsTest, RefusesAModelThatDoesNotExistOrCannotMove) {
+  EXPECT_THROW(RobotKinematics(RobotKinematics::Params{.model = "lwr5"}, TestModels("lwr4")),
+               ConfigError);
+  EXPECT_THROW(RobotKinematics(RobotKinematics::Params{}, TestModels("table_frame")), ConfigError);
+}
+
+TEST(RobotKinematicsTest, RefusesAPositionOfAnotherLength) {
+  SystemBench<RobotKinematics> bench(RobotKinematics::Params{}, TestModels("planar2"));
+  EXPECT_THROW(bench->position.Fix(bench.context(), Eigen::Vector3d::Zero()), ConfigError);
+}
+
+}  // namespace
+}  // namespace oca::systems
