@@ -27,12 +27,14 @@ void CheckName(const std::string& name, const char* what) {
 Diagram::Diagram() = default;
 Diagram::~Diagram() = default;
 
-Context Diagram::MakeContext() const {
-  if (nested_) {
+const Plan& Diagram::plan() const {
+  if (own_plan_ == nullptr) {
     throw WiringError({"diagram: it is nested in another one, whose root makes the contexts"});
   }
-  return Context(own_plan_.get());
+  return *own_plan_;
 }
+
+Context Diagram::MakeContext() const { return Context(&plan()); }
 
 InputHandle Diagram::FindInput(const std::string& name) const { return System::FindInput(name); }
 
@@ -74,14 +76,17 @@ DiagramBuilder::~DiagramBuilder() = default;
 
 const System& DiagramBuilder::AddSystem(std::string name, std::unique_ptr<System> system) {
   CheckName(name, "system");
+  if (system == nullptr) {
+    throw WiringError({fmt::format("system '{}': got nothing; expected a system", name)});
+  }
   for (const Diagram::Child& child : diagram_->children_) {
     if (child.name == name) {
       throw WiringError({fmt::format("system name: '{}' is taken", name)});
     }
   }
   if (auto* nested = dynamic_cast<Diagram*>(system.get())) {
-    nested->nested_ = true;
     nested->own_plan_.reset();
+    nested->plan_ = nullptr;  // another plan may come to lie where that one was
   }
   const System& reference = *system;
   diagram_->children_.push_back({std::move(name), std::move(system)});
@@ -92,8 +97,11 @@ void DiagramBuilder::ConnectPorts(const OutputHandle& from, const InputHandle& t
   diagram_->connections_.push_back({from, to});
 }
 
-void DiagramBuilder::ExportInput(std::string name, const InputHandle& input) {
+void DiagramBuilder::ExportInput(std::string name, const InputHandle& input, int size) {
   CheckName(name, "input");
+  if (input.system == nullptr) {
+    throw WiringError({fmt::format("exported input '{}': its port belongs to no system", name)});
+  }
   auto& exported = diagram_->exported_inputs_;
   const auto same = std::find_if(exported.begin(), exported.end(),
                                  [&](const auto& other) { return other.name == name; });
@@ -103,7 +111,7 @@ void DiagramBuilder::ExportInput(std::string name, const InputHandle& input) {
   }
   diagram_->AddInput(input.system->inputs().at(input.index));
   diagram_->inputs_.back().name = name;
-  exported.push_back({std::move(name), {input}});
+  exported.push_back({std::move(name), {input}, size});
 }
 
 void DiagramBuilder::ExportOutput(std::string name, const OutputHandle& output) {
@@ -112,6 +120,9 @@ void DiagramBuilder::ExportOutput(std::string name, const OutputHandle& output) 
     if (other.first == name) {
       throw WiringError({fmt::format("output name: '{}' is exported twice", name)});
     }
+  }
+  if (output.system == nullptr) {
+    throw WiringError({fmt::format("exported output '{}': its port belongs to no system", name)});
   }
   const System::OutputInfo& inner = output.system->outputs().at(output.index);
   diagram_->AddOutput({name, inner.type, inner.spec, {}, -1});
@@ -123,11 +134,15 @@ std::unique_ptr<Diagram> DiagramBuilder::Build() {
   return std::exchange(diagram_, std::unique_ptr<Diagram>(new Diagram));
 }
 
-std::unique_ptr<Diagram> MakeDiagramOf(std::unique_ptr<System> system, const std::string& name) {
+std::unique_ptr<Diagram> MakeDiagramOf(std::unique_ptr<System> system,
+                                       const std::map<std::string, int>& sizes) {
   DiagramBuilder builder;
-  const System& added = builder.AddSystem(name, std::move(system));
+  const System& added = builder.AddSystem("system", std::move(system));
   for (const System::InputInfo& input : added.inputs()) {
-    if (!input.optional) builder.ExportInput(input.name, added.FindInput(input.name));
+    const auto size = sizes.find(input.name);
+    if (input.optional && size == sizes.end()) continue;
+    builder.ExportInput(input.name, added.FindInput(input.name),
+                        size == sizes.end() ? -1 : size->second);
   }
   for (const System::OutputInfo& output : added.outputs()) {
     builder.ExportOutput(output.name, added.FindOutput(output.name));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <type_traits>
@@ -31,6 +32,7 @@ class Diagram final : public System {
   struct ExportedInput {
     std::string name;
     std::vector<InputHandle> to;
+    int size{-1};  ///< of a Vector; -1: as the systems behind it settle it
   };
 
   ~Diagram() override;
@@ -60,7 +62,8 @@ class Diagram final : public System {
   }
   /// The system at a dot-separated path; nullptr if there is none.
   const System* FindSystem(const std::string& path) const;
-  const Plan& plan() const { return *own_plan_; }
+  /// throws WiringError if this diagram is nested in another one.
+  const Plan& plan() const;
 
  private:
   friend class DiagramBuilder;
@@ -74,8 +77,7 @@ class Diagram final : public System {
   std::vector<Connection> connections_;
   std::vector<ExportedInput> exported_inputs_;
   std::vector<std::pair<std::string, OutputHandle>> exported_outputs_;
-  std::unique_ptr<Plan> own_plan_;
-  bool nested_{false};
+  std::unique_ptr<Plan> own_plan_;  // of a root
 };
 
 /// Collects systems and connections; Build checks all of it and compiles the plan.
@@ -106,7 +108,8 @@ class DiagramBuilder {
   /// For wiring known only at run time; a difference in type is found at Build.
   void ConnectPorts(const OutputHandle& from, const InputHandle& to);
   /// Makes an input, or several that share a name, an input of the diagram.
-  void ExportInput(std::string name, const InputHandle& input);
+  /// `size` settles the length of a Vector input that the systems leave open.
+  void ExportInput(std::string name, const InputHandle& input, int size = -1);
   void ExportOutput(std::string name, const OutputHandle& output);
 
   /// The finished diagram; the builder is empty afterwards.
@@ -118,8 +121,9 @@ class DiagramBuilder {
   std::unique_ptr<Diagram> diagram_;
 };
 
-/// A root diagram of one system that exports all its ports under their own names.
+/// A root diagram of one system that exports its ports under their own names: all outputs, all
+/// required inputs, and the inputs that `sizes` names (lengths of Vectors, -1: not said).
 std::unique_ptr<Diagram> MakeDiagramOf(std::unique_ptr<System> system,
-                                       const std::string& name = "system");
+                                       const std::map<std::string, int>& sizes = {});
 
 }  // namespace oca

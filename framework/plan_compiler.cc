@@ -19,7 +19,12 @@ std::unique_ptr<Plan> PlanCompiler::Compile(Diagram& root) {
   compiler.IndexLeaves();
   compiler.MakeSources();
   compiler.OrderNodes();
-  if (!problems.empty()) throw WiringError(problems);
+  if (!problems.empty()) {
+    // The builder may try again; until then no handle may find a plan that is gone.
+    root.plan_ = nullptr;
+    for (auto& leaf : compiler.wiring_.leaves()) leaf.system->plan_ = nullptr;
+    throw WiringError(problems);
+  }
   compiler.LayOut();
   compiler.CompileNodes();
   compiler.CompileStates();

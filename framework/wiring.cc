@@ -30,6 +30,7 @@ struct RatedUnit {
   }
   std::string text() const {
     if (rates == 0) return base;
+    if (rates < 0) return rates == -1 ? base + " s" : fmt::format("{} s^{}", base, -rates);
     return rates == 1 ? base + "/s" : fmt::format("{}/s^{}", base, rates);
   }
 };
@@ -129,6 +130,7 @@ Wiring::Wiring(const Diagram& root) : root_(root) {
   Flatten(root, "");
   ConnectAll(root, "");
   ExportAll(root);
+  CheckExportedOutputs();
   CheckUnconnected();
   SettleSizes();
   SettleUnits();
@@ -202,7 +204,12 @@ void Wiring::ExportAll(const Diagram& root) {
   for (const Diagram::ExportedInput& exported : root.exported_inputs()) {
     exported_.emplace_back();
     for (const InputHandle& input : exported.to) {
-      for (const Target& target : TargetsOf(input)) {
+      const std::vector<Target> targets = TargetsOf(input);
+      if (targets.empty()) {
+        problems_.push_back(fmt::format(
+            "exported input '{}': an input of a system outside this diagram", exported.name));
+      }
+      for (const Target& target : targets) {
         Driver driver;
         driver.exported = static_cast<int>(exported_.size()) - 1;
         Drive(target, driver);
@@ -215,6 +222,14 @@ void Wiring::ExportAll(const Diagram& root) {
         }
       }
     }
+  }
+}
+
+void Wiring::CheckExportedOutputs() {
+  for (const auto& [name, output] : root_.exported_outputs()) {
+    if (index_.contains(output.system)) continue;
+    problems_.push_back(
+        fmt::format("exported output '{}': an output of a system outside this diagram", name));
   }
 }
 
@@ -308,6 +323,12 @@ void Wiring::CheckInitialValues() {
           problems_.push_back(fmt::format("{}: initial value; got {} numbers; expected {}", name,
                                           state.initial.values().size(), size));
         }
+      }
+      if (state.type == &kVectorType && !state.initial.values().allFinite()) {
+        problems_.push_back(
+            fmt::format("{}: initial value; got a NaN or an infinity; expected "
+                        "finite numbers",
+                        name));
       }
       if (state.continuous && state.derivative.function == nullptr) {
         problems_.push_back(fmt::format("{}: continuous state without a derivative", name));
