@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "systems/delta_limiter.h"
+
+#include <cmath>
+
+#include "systems/require.h"
+
+namespace oca::systems {
+namespace {
+
+DeltaLimiter::Params Checked(const DeltaLimiter::Params& params) {
+  RequireAbove("max_joint_velocity", params.max_joint_velocity, 0.0);
+  RequirePositive("period", params.period);
+  return params;
+}
+
+}  // namespace
+
+void DeltaLimiter::Params::Describe(Fields<Params>& fields) {
+  fields
+      .Add("max_joint_velocity", &Params::max_joint_velocity, "rad/s",
+           "largest rate of the delta, one number or one a joint")
+      .Above(0.0);
+  fields.Add("period", &Params::period, "s", "time between updates").Above(0.0).Required();
+  fields.Add("enabled", &Params::enabled, "", "false: the delta is held, but not limited");
+}
+
+DeltaLimiter::DeltaLimiter(const Params& params)
+    : params_(Checked(params)),
+      size_(DeclareSize({{"max_joint_velocity", &params_.max_joint_velocity}})),
+      unit_(DeclareUnit()),
+      x_(DeclareDiscreteState("x", {size_, unit_}, 0.0)),
+      delta(DeclareInput<Vector>("delta", {size_, unit_})),
+      limited_delta(DeclareStateOutput("limited_delta", x_)) {
+  DeclareUpdate<&DeltaLimiter::Update>(Every{params_.period}, Writes(x_), delta, x_);
+}
+
+void DeltaLimiter::Update(VectorView delta_value, VectorView x, MutableVectorView next) const {
+  if (!params_.enabled) {
+    next = delta_value;
+    return;
+  }
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const double step = params_.max_joint_velocity[i] * params_.period.seconds();
+    const double change = delta_value[i] - x[i];
+    // Within reach it becomes the delta itself, not x + (delta - x), which may round.
+    next[i] = std::fabs(change) <= step ? delta_value[i] : x[i] + std::copysign(step, change);
+  }
+}
+
+}  // namespace oca::systems

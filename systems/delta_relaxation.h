@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "framework/params.h"
+#include "framework/system.h"
+
+namespace oca::systems {
+
+/// First-order lag on the delta that calms the loop through the robot, tick by tick:
+///
+///     relaxed_delta = x + min(1, period / relaxation_time) (delta - x),   x_k = relaxed_delta
+///
+/// starting at x = 0. The output has feedthrough: whoever updates at the same tick reads the value
+/// of this tick, without a delay. (Between two ticks the output thus shows where the next tick
+/// would go.) `relaxation_time` 0 passes the delta through.
+///
+/// in    delta          n  u
+/// out   relaxed_delta  n  u
+/// state x              n  u    the relaxed delta of the last tick
+/// throws ConfigError if relaxation_time is negative or period is not positive
+/// source THEORY.md section 2: stable for relaxation_time > period (1 + g) / 2, g the loop's gain
+class DeltaRelaxation final : public System {
+ public:
+  static constexpr SystemDoc kDoc{
+      "first-order lag on the delta, against chatter",
+      "relaxed_delta = x + min(1, period / relaxation_time) (delta - x); x = last relaxed_delta",
+      ""};
+  struct Params {
+    double relaxation_time{0.0};
+    Period period{};
+    static void Describe(Fields<Params>& fields);
+  };
+  static Params Example() { return {.relaxation_time = 0.4, .period = Period(1, 100)}; }
+
+  explicit DeltaRelaxation(const Params& params);
+
+ private:
+  const double factor_;  ///< min(1, period / relaxation_time)
+  const Size size_;
+  const Unit unit_;
+  const DiscreteState<Vector> x_;
+  void CalcRelaxed(VectorView delta_value, VectorView x, MutableVectorView relaxed) const;
+  void Update(VectorView relaxed, MutableVectorView next) const;
+
+ public:
+  const Input<Vector> delta;
+  const Output<Vector> relaxed_delta;
+};
+
+}  // namespace oca::systems

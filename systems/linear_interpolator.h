@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "framework/params.h"
+#include "framework/system.h"
+#include "systems/key_points.h"
+#include "systems/trajectory.h"
+
+namespace oca::systems {
+
+/// The requested motion of the report's fake controller: straight lines between key points.
+///
+///     position = p_i + (p_{i+1} - p_i) (t - t_i) / (t_{i+1} - t_i)
+///
+/// The velocity is constant between key points, the acceleration 0. Ports, holding at the ends and
+/// sampling with `period` are those of SplineGenerator, so that one may replace the other; the
+/// velocities and accelerations of key points are accepted and not used.
+///
+/// in    -
+/// out   position      n  u
+///       velocity      n  u/s
+///       acceleration  n  u/s^2  0
+///       goal          n  u      position of the last key point
+/// state position, velocity, acceleration  n   if sampled
+/// throws ConfigError if the key points are none, not in order of time, of different lengths or
+///        not finite; if the file cannot be read; if period < 0
+/// source report section 4.1 (fake controller)
+class LinearInterpolator final : public System {
+ public:
+  static constexpr SystemDoc kDoc{"requested motion: straight lines between key points",
+                                  "position = p_i + (p_{i+1} - p_i) (t - t_i) / (t_{i+1} - t_i)",
+                                  "Jain, Sixt, Exner 2016, fake controller"};
+  struct Params {
+    std::vector<KeyPoint> key_points{};
+    std::string file{};
+    Period period{};
+    std::string unit{"rad"};
+    static void Describe(Fields<Params>& fields);
+  };
+  static Params Example();
+
+  explicit LinearInterpolator(const Params& params);
+
+ private:
+  const Params params_;
+  const Trajectory trajectory_;
+  const PortSpec spec_;       ///< of the position
+  const PortSpec rate_spec_;  ///< of the velocity
+  const PortSpec rate_rate_spec_;
+  const DiscreteState<Vector> sampled_position_;  ///< this and the next two if sampled
+  const DiscreteState<Vector> sampled_velocity_;
+  const DiscreteState<Vector> sampled_acceleration_;
+
+  DiscreteState<Vector> DeclareSample(const char* name, const PortSpec& spec, int derivative);
+  template <auto kMethod>
+  Output<Vector> DeclareMotion(const char* name, const PortSpec& spec,
+                               const DiscreteState<Vector>& sampled);
+  void CalcPosition(double time, MutableVectorView out) const;
+  void CalcVelocity(double time, MutableVectorView out) const;
+  void CalcAcceleration(double time, MutableVectorView out) const;
+  void CalcGoal(MutableVectorView out) const;
+  void Sample(double time, MutableVectorView next_position, MutableVectorView next_velocity,
+              MutableVectorView next_acceleration) const;
+
+ public:
+  const Output<Vector> position;
+  const Output<Vector> velocity;
+  const Output<Vector> acceleration;
+  const Output<Vector> goal;
+};
+
+}  // namespace oca::systems

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "systems/delta_limiter.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "framework/error.h"
+#include "tests/system_bench.h"
+
+namespace oca::systems {
+namespace {
+
+DeltaLimiter::Params Limit(const PerComponent& max_joint_velocity) {
+  return {.max_joint_velocity = max_joint_velocity, .period = Period(1, 100)};
+}
+
+/// The output after all updates up to number `tick`, which from now on see `raw`.
+Eigen::VectorXd After(SystemBench<DeltaLimiter>& bench, int tick, const Eigen::VectorXd& raw) {
+  bench->delta.Fix(bench.context(), raw);
+  bench.AdvanceTo(tick / 100.0);
+  return bench->limited_delta.Eval(bench.context());
+}
+
+TEST(DeltaLimiterTest, GivesTheGoldenValuesOfTheFirstTick) {
+  // One joint at a time: raw, limited (THEORY.md section 1).
+  const double golden[][2] = {{1, .006},    {-1, -.006},   {.003, .003}, {-.003, -.003},
+                              {.006, .006}, {.0061, .006}, {0, 0}};
+  for (const auto& [raw, limited] : golden) {
+    SystemBench<DeltaLimiter> fresh(Limit(0.6));
+    EXPECT_DOUBLE_EQ(After(fresh, 1, Eigen::VectorXd::Constant(1, raw))[0], limited) << raw;
+  }
+}
+
+TEST(DeltaLimiterTest, ReturnsToZeroNoFasterThanItLeft) {
+  SystemBench<DeltaLimiter> bench(Limit(0.6));
+  ASSERT_EQ(After(bench, 20, Eigen::VectorXd::Constant(1, 0.1))[0], 0.1);
+  EXPECT_DOUBLE_EQ(After(bench, 21, Eigen::VectorXd::Zero(1))[0], 0.094);
+}
+
+TEST(DeltaLimiterTest, LimitsEachJointByItsOwnVelocity) {
+  SystemBench<DeltaLimiter> bench(Limit(Eigen::VectorXd(Eigen::Vector2d(1.0, 2.0))));
+  const Eigen::VectorXd x = After(bench, 1, Eigen::Vector2d(5.0, -5.0));
+  EXPECT_DOUBLE_EQ(x[0], 0.01);
+  EXPECT_DOUBLE_EQ(x[1], -0.02);
+}
+
+TEST(DeltaLimiterTest, HoldsItsOutputWhileTheInputMoves) {
+  SystemBench<DeltaLimiter> bench(Limit(0.6));
+  After(bench, 1, Eigen::VectorXd::Constant(1, 1.0));
+  bench->delta.Fix(bench.context(), Eigen::VectorXd::Constant(1, -1.0));
+  EXPECT_DOUBLE_EQ(bench->limited_delta.Eval(bench.context())[0], 0.006);
+}
+
+TEST(DeltaLimiterTest, StartsAtZero) {
+  SystemBench<DeltaLimiter> bench(Limit(0.6));
+  EXPECT_EQ(bench->limited_delta.Eval(bench.context())[0], 0.0);
+}
+
+TEST(DeltaLimiterTest, PassesAnyDeltaWhenDisabled) {
+  auto params = Limit(0.6);
+  params.enabled = false;
+  SystemBench<DeltaLimiter> bench(params);
+  EXPECT_EQ(After(bench, 1, Eigen::VectorXd::Constant(1, 1e5))[0], 1e5);
+}
+
+TEST(DeltaLimiterTest, RefusesAVelocityThatWouldFreezeTheDelta) {
+  EXPECT_THROW(DeltaLimiter{Limit(0.0)}, ConfigError);
+  EXPECT_THROW(DeltaLimiter{Limit(std::numeric_limits<double>::quiet_NaN())}, ConfigError);
+  EXPECT_THROW(DeltaLimiter{Limit(Eigen::VectorXd())}, ConfigError);
+  EXPECT_NO_THROW(DeltaLimiter{Limit(1e-9)});
+}
+
+TEST(DeltaLimiterTest, RefusesPeriodZero) {
+  EXPECT_THROW(DeltaLimiter({.max_joint_velocity = 0.6, .period = Period()}), ConfigError);
+}
+
+}  // namespace
+}  // namespace oca::systems

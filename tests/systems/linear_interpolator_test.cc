@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "systems/linear_interpolator.h"
+
+#include <gtest/gtest.h>
+
+#include "framework/error.h"
+#include "tests/system_bench.h"
+
+namespace oca::systems {
+namespace {
+
+Eigen::VectorXd One(double value) { return Eigen::VectorXd::Constant(1, value); }
+
+/// Up 1 in 0.5 s, down 3 in 1 s.
+LinearInterpolator::Params UpAndDown() {
+  return {.key_points = {{.time = 0.5, .position = One(0.0), .velocity = One(9.0)},
+                         {.time = 1.0, .position = One(1.0)},
+                         {.time = 2.0, .position = One(-2.0)}}};
+}
+
+TEST(LinearInterpolatorTest, ConnectsKeyPointsByLines) {
+  SystemBench<LinearInterpolator> bench(UpAndDown());
+  const double expected[][3] = {// time, position, velocity
+                                {0.25, 0.0, 0.0}, {0.5, 0.0, 2.0},   {0.75, 0.5, 2.0},
+                                {1.0, 1.0, -3.0}, {1.5, -0.5, -3.0}, {2.5, -2.0, 0.0}};
+  for (const auto& [time, position, velocity] : expected) {
+    bench.AdvanceTo(time);
+    EXPECT_DOUBLE_EQ(bench->position.Eval(bench.context())[0], position) << time;
+    EXPECT_DOUBLE_EQ(bench->velocity.Eval(bench.context())[0], velocity) << time;
+    EXPECT_EQ(bench->acceleration.Eval(bench.context())[0], 0.0) << time;
+  }
+  EXPECT_EQ(bench->goal.Eval(bench.context())[0], -2.0);
+}
+
+TEST(LinearInterpolatorTest, SampledShowsTheRequestForTheEndOfThePeriod) {
+  auto params = UpAndDown();
+  params.period = Period(1, 4);
+  SystemBench<LinearInterpolator> bench(params);
+  bench.AdvanceTo(0.5);
+  EXPECT_EQ(bench->position.Eval(bench.context())[0], 0.0);
+  bench.AdvanceTo(0.51);
+  EXPECT_DOUBLE_EQ(bench->position.Eval(bench.context())[0], 0.5);
+  EXPECT_DOUBLE_EQ(bench->velocity.Eval(bench.context())[0], 2.0);
+}
+
+TEST(LinearInterpolatorTest, RefusesNoKeyPointsAndANegativePeriod) {
+  EXPECT_THROW(LinearInterpolator(LinearInterpolator::Params{}), ConfigError);
+  auto params = UpAndDown();
+  params.period = Period(-1, 4);
+  EXPECT_THROW(LinearInterpolator{params}, ConfigError);
+}
+
+}  // namespace
+}  // namespace oca::systems
