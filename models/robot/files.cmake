@@ -2,6 +2,7 @@
 list(APPEND headers
   robot/jacobian_mapping.h
   robot/kinematics.h
+  robot/pseudo_inverse.h
   robot/robot_model.h
   robot/urdf.h)
 list(APPEND sources
@@ -10,6 +11,7 @@ list(APPEND sources
   robot/kinematics.cc
   robot/mesh_path.cc
   robot/nearest_name.cc
+  robot/pseudo_inverse.cc
   robot/robot_model.cc
   robot/srdf.cc
   robot/urdf.cc

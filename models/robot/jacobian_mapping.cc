@@ -62,8 +62,8 @@ BodyWrench WrenchAbout(const Eigen::Vector3d& origin_W, const Eigen::Vector3d& p
 MappingWorkspace::MappingWorkspace(const RobotModel& model)
     : link_wrenches(model.links().size()),
       composites(model.links().size()),
-      normal(Eigen::MatrixXd::Zero(model.num_positions(), model.num_positions())),
-      factor(model.num_positions()) {}
+      normal(Eigen::MatrixXd::Identity(model.num_positions(), model.num_positions())),
+      factor(normal) {}
 
 void MultiplyTransposed(const RobotModel& model, std::span<const Eigen::Isometry3d> X_WL,
                         std::span<const BodyWrench> wrenches, MappingWorkspace& workspace,

@@ -2,6 +2,9 @@
 // Every refusal of a robot description, with the place it must name.
 #include <gmock/gmock.h>
 
+#include <fstream>
+#include <iterator>
+
 #include "models/error.h"
 #include "models/robot/urdf.h"
 #include "random_robot.h"
@@ -225,6 +228,27 @@ TEST(UrdfRefusalTest, ElementsThatAreMisspeltOrRepeated) {
   ExpectRefused(Joint("fixed", "<origin xzy='1 0 0'/>"), "'xzy'", "'elbow'");
   ExpectRefused(Joint("fixed", "<origin xyz='1 0 0'/><origin xyz='2 0 0'/>"), "a second one");
   EXPECT_NO_THROW(ParseUrdf(Link("<drake:proximity_properties/>"), "good.urdf"));
+}
+
+TEST(UrdfRefusalTest, DamagedTextIsReadOrRefusedButNeverCrashes) {
+  std::ifstream stream(ProductFile("robots/planar2/planar2.urdf"));
+  const std::string sound{std::istreambuf_iterator<char>(stream), {}};
+  ASSERT_GT(sound.size(), 1000u);
+  Random random(71);
+  int refused = 0;
+  for (int i = 0; i < 2000; ++i) {
+    std::string text = sound;
+    const auto place = [&] { return static_cast<std::size_t>(Uniform(random, 0, text.size())); };
+    if (i % 3 == 0) text.resize(place());
+    if (i % 3 == 1) text[place()] = static_cast<char>(Uniform(random, 0, 256));
+    if (i % 3 == 2) text.insert(place(), sound, place(), 40);
+    try {
+      EXPECT_EQ(ParseUrdf(text, "bad.urdf").name().empty(), false);
+    } catch (const ModelError&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 1000);
 }
 
 }  // namespace
