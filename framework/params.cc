@@ -408,6 +408,7 @@ void ReadFields(const Value& value, const std::vector<Field>& fields, const std:
       if (has_frequency) continue;
     }
     if (const Value* const given = value.Find(field.key)) {
+      if (given->null()) continue;  // whoever read the tree has said so
       field.type->Read(*given, field, prefix + field.key, field.member(params), problems);
     } else if (field.required) {
       problems.Add(value.location(), fmt::format("{}{}: missing; expected {}", prefix, field.key,

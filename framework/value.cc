@@ -55,6 +55,10 @@ void Problems::Add(const Location& location, const std::string& what) {
   all_.push_back(fmt::format("{}: error: {}", location.ToString(), what));
 }
 
+void Problems::Add(const Problems& others) {
+  all_.insert(all_.end(), others.all_.begin(), others.all_.end());
+}
+
 void Problems::Throw() const {
   if (!all_.empty()) throw ConfigError(fmt::format("{}", fmt::join(all_, "\n")));
 }

@@ -65,6 +65,8 @@ class Problems {
  public:
   /// Adds `location: error: what`.
   void Add(const Location& location, const std::string& what);
+  /// Adds the problems of another collection.
+  void Add(const Problems& others);
   bool empty() const { return all_.empty(); }
   const std::vector<std::string>& all() const { return all_; }
   /// throws ConfigError with all problems, a line each, if there are any.

@@ -277,6 +277,14 @@ void Wiring::SettleSizes() {
                               const PortSpec& to, int to_leaf, std::string to_name) {
     sizes.Add(term(from, from_leaf, std::move(from_name)), term(to, to_leaf, std::move(to_name)));
   });
+  for (std::size_t i = 0; i < exported_.size(); ++i) {
+    const Diagram::ExportedInput& exported = root_.exported_inputs()[i];
+    if (exported.size < 0 || exported_[i].empty()) continue;
+    const Target& target = exported_[i].front();
+    if (InfoOf(target).type != &kVectorType) continue;
+    sizes.Add({exported.size, -1, 0, exported.name},
+              term(InfoOf(target).spec, target.leaf, NameOfInput(target.leaf, target.input)));
+  }
   sizes.Settle();
   sizes.Report("size", problems_);
   for (std::size_t leaf = 0; leaf < leaves_.size(); ++leaf) {

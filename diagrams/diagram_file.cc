@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "diagrams/diagram_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include "diagrams/catalogue.h"
+
+namespace oca::diagrams {
+
+using nlohmann::ordered_json;
+
+void SimulatorParams::Describe(Fields<SimulatorParams>& fields) {
+  fields.Add("duration", &SimulatorParams::duration, "s", "how long to run")
+      .AtLeast(0.0)
+      .AtMost(1e7);
+  fields.Add("integrator", &SimulatorParams::integrator, "", "method for continuous state");
+  fields
+      .Add("relative_tolerance", &SimulatorParams::relative_tolerance, "",
+           "error a step, relative to the state")
+      .Above(0.0)
+      .AtMost(1.0);
+  fields
+      .Add("absolute_tolerance", &SimulatorParams::absolute_tolerance, "",
+           "error a step, in the unit of the state")
+      .Above(0.0);
+  fields.Add("max_step", &SimulatorParams::max_step, "s", "longest step of an adaptive integrator")
+      .Above(0.0);
+  fields
+      .Add("fixed_step", &SimulatorParams::fixed_step, "s",
+           "longest step of a fixed-step integrator")
+      .Above(0.0);
+  fields.Add("max_steps", &SimulatorParams::max_steps, "", "steps allowed between two events")
+      .AtLeast(1.0);
+  fields.Add("seed", &SimulatorParams::seed, "", "of everything random in the run").AtLeast(0.0);
+}
+
+void ToleranceParams::Describe(Fields<ToleranceParams>& fields) {
+  fields.Add("relative", &ToleranceParams::relative, "", "error a step, relative to the state")
+      .Above(0.0);
+  fields.Add("absolute", &ToleranceParams::absolute, "", "error a step, in the unit of the state")
+      .Above(0.0);
+}
+
+void ModelParams::Describe(Fields<ModelParams>& fields) {
+  fields.Add("urdf", &ModelParams::urdf, "", "robot description: a path or package://NAME/PATH")
+      .Required();
+  fields.Add("srdf", &ModelParams::srdf, "", "pairs of links that are not checked for collision");
+  fields.Add("base_pose", &ModelParams::base_pose, "", "pose of the root link in the world");
+  fields
+      .Add("acceleration_limits", &ModelParams::acceleration_limits, "rad/s^2",
+           "which URDF lacks; a number or one a joint")
+      .Above(0.0);
+  fields
+      .Add("jerk_limits", &ModelParams::jerk_limits, "rad/s^3",
+           "which URDF lacks; a number or one a joint")
+      .Above(0.0);
+}
+
+void ExpectParams::Describe(Fields<ExpectParams>& fields) {
+  fields.Add("at_least", &ExpectParams::at_least, "", "lower bound");
+  fields.Add("at_most", &ExpectParams::at_most, "", "upper bound");
+  fields.Add("equal", &ExpectParams::equal, "", "value, give or take `within`");
+  fields.Add("within", &ExpectParams::within, "", "distance from `equal` that is allowed")
+      .AtLeast(0.0);
+  fields.Add("at", &ExpectParams::at, "s", "when to look; the end of the run if left out")
+      .AtLeast(0.0);
+}
+
+const std::vector<Section>& Sections() {
+  static const std::vector<Section> sections = {
+      {"name", "short name of the diagram"},
+      {"description", "what it shows, in a sentence"},
+      {"include", "files to merge first; this file wins"},
+      {"parameters", "knobs of this file, used as ${name}"},
+      {"simulator", "duration, integrator, tolerances, seed"},
+      {"simulator_tolerances", "tolerances of single systems, by name"},
+      {"packages", "folders that package://NAME/ stands for"},
+      {"models", "robots and frames, by name"},
+      {"systems", "blocks, by name: type and parameters"},
+      {"connections", "list of `system.output -> system.input`"},
+      {"record", "signals to keep, with their rates in Hz"},
+      {"expect", "bounds on metrics and signals that the run must keep"},
+  };
+  return sections;
+}
+
+namespace {
+
+ordered_json SchemaOf(const ParamType& type) { return ordered_json::parse(type.Schema({})); }
+
+ordered_json MapOf(const ordered_json& items) {
+  return {{"type", "object"}, {"additionalProperties", items}};
+}
+
+/// Numbers and booleans may also be given as "${...}".
+void AllowExpressions(ordered_json& schema) {
+  if (schema.is_array()) {
+    for (auto& item : schema) AllowExpressions(item);
+    return;
+  }
+  if (!schema.is_object()) return;
+  for (auto& [key, item] : schema.items()) {
+    if (key != "default" && key != "enum") AllowExpressions(item);
+  }
+  const auto type = schema.find("type");
+  const bool plain = type != schema.end() && (*type == "number" || *type == "integer" ||
+                                              *type == "boolean" || *type == "array");
+  if (!plain && !schema.contains("enum")) return;
+  ordered_json description;
+  if (schema.contains("description")) description = schema["description"];
+  const ordered_json expression{{"type", "string"}, {"pattern", "\\$\\{.*\\}"}};
+  schema = {{"anyOf", ordered_json::array({schema, expression})}};
+  if (!description.is_null()) schema["description"] = description;
+}
+
+ordered_json SystemsSchema() {
+  ordered_json any = ordered_json::array();
+  for (const CatalogueRow& row : Catalogue()) {
+    ordered_json schema = ordered_json::parse(row.schema());
+    ordered_json properties{{"type", {{"const", row.type}, {"description", row.doc.summary}}}};
+    for (auto& [key, property] : schema["properties"].items()) {
+      AllowExpressions(property);
+      properties[key] = property;
+    }
+    schema["properties"] = properties;
+    schema["description"] = row.doc.summary;
+    ordered_json condition{{"properties", {{"type", {{"const", row.type}}}}}};
+    any.push_back({{"if", condition}, {"then", schema}});
+  }
+  ordered_json types = ordered_json::array();
+  for (const CatalogueRow& row : Catalogue()) types.push_back(row.type);
+  return MapOf({{"type", "object"},
+                {"required", {"type"}},
+                {"properties", {{"type", {{"enum", types}}}}},
+                {"allOf", any}});
+}
+
+}  // namespace
+
+std::string DiagramSchema() {
+  ordered_json sections;
+  const ordered_json text{{"type", "string"}};
+  sections["name"] = text;
+  sections["description"] = text;
+  sections["include"] = {{"type", "array"}, {"items", text}};
+  sections["parameters"] = {{"type", "object"}};
+  sections["simulator"] = SchemaOf(ParamTypeOf<SimulatorParams>());
+  sections["simulator_tolerances"] = MapOf(SchemaOf(ParamTypeOf<ToleranceParams>()));
+  sections["packages"] = MapOf(text);
+  sections["models"] = MapOf(SchemaOf(ParamTypeOf<ModelParams>()));
+  for (const char* key : {"simulator", "simulator_tolerances", "models"}) {
+    AllowExpressions(sections[key]);
+  }
+  sections["systems"] = SystemsSchema();
+  sections["connections"] = {{"type", "array"},
+                             {"items", {{"type", "string"}, {"pattern", "^\\S+ *-> *\\S+$"}}}};
+  const ordered_json rate{{"type", "number"}, {"exclusiveMinimum", 0}};
+  sections["record"] = {{"type", "object"},
+                        {"additionalProperties", false},
+                        {"properties", {{"signals", MapOf(rate)}, {"scene", rate}}}};
+  AllowExpressions(sections["record"]);
+  sections["expect"] = MapOf(SchemaOf(ParamTypeOf<ExpectParams>()));
+  AllowExpressions(sections["expect"]);
+  for (const Section& section : Sections()) sections[section.key]["description"] = section.meaning;
+  const ordered_json schema{{"$schema", "http://json-schema.org/draft-07/schema#"},
+                            {"title", "OCA diagram"},
+                            {"type", "object"},
+                            {"additionalProperties", false},
+                            {"properties", sections}};
+  return schema.dump(2);
+}
+
+}  // namespace oca::diagrams

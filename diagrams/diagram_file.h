@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/integrator.h"
+#include "framework/params.h"
+#include "systems/geometry_params.h"
+
+namespace oca::diagrams {
+
+/// Section `simulator`.
+struct SimulatorParams {
+  double duration{10.0};
+  IntegratorKind integrator{IntegratorKind::kErkDp5};
+  double relative_tolerance{1e-6};
+  double absolute_tolerance{1e-9};
+  std::optional<double> max_step;
+  double fixed_step{1e-3};
+  int max_steps{100000};
+  int seed{0};
+  static void Describe(Fields<SimulatorParams>& fields);
+};
+
+/// Tolerances of one system: an entry of `simulator_tolerances`.
+struct ToleranceParams {
+  double relative{1e-6};
+  double absolute{1e-9};
+  static void Describe(Fields<ToleranceParams>& fields);
+};
+
+/// An entry of `models`.
+struct ModelParams {
+  std::string urdf;
+  std::string srdf;
+  systems::PoseParams base_pose;
+  std::optional<PerComponent> acceleration_limits;
+  std::optional<PerComponent> jerk_limits;
+  static void Describe(Fields<ModelParams>& fields);
+};
+
+/// An entry of `expect`: a bound on a metric or a signal.
+struct ExpectParams {
+  std::optional<double> at_least;
+  std::optional<double> at_most;
+  std::optional<double> equal;
+  double within{0.0};
+  std::optional<double> at;
+  static void Describe(Fields<ExpectParams>& fields);
+};
+
+/// Keys of a diagram file with their meaning; their order is that of the schema.
+struct Section {
+  const char* key;
+  const char* meaning;
+};
+const std::vector<Section>& Sections();
+
+/// JSON Schema (draft 7) of diagram files, for editors.
+std::string DiagramSchema();
+
+}  // namespace oca::diagrams

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "framework/value.h"
+
+namespace oca::diagrams {
+
+/// `-s PATH=VALUE`: PATH is dot-separated keys, items of lists by index from 0; VALUE is YAML.
+struct Override {
+  std::string path;
+  std::string value;
+  /// throws ConfigError if `text` is not PATH=VALUE.
+  static Override Parse(const std::string& text);
+};
+
+/// A diagram file as one tree: the files it includes first, itself over them, overrides over all.
+///
+/// Maps are merged key by key, `connections` are appended, everything else is replaced. Included
+/// paths are relative to the file that includes. Problems of all files are added to `problems`.
+Value LoadDocument(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                   Problems& problems);
+
+}  // namespace oca::diagrams

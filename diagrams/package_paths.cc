@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "diagrams/package_paths.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <sstream>
+
+#include "framework/error.h"
+
+namespace oca::diagrams {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> PackageFolders() {
+  std::vector<fs::path> folders;
+  if (const char* const list = std::getenv("OCA_PACKAGE_PATH")) {
+    std::istringstream stream(list);
+    for (std::string folder; std::getline(stream, folder, ':');) {
+      if (!folder.empty()) folders.emplace_back(folder);
+    }
+  }
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  const fs::path installed = program.parent_path().parent_path() / OCA_INSTALLED_MODELS;
+  const fs::path built{OCA_SOURCE_MODELS};
+  for (const fs::path& models : {installed, built}) {
+    for (const char* const kind : {"robots", "worlds"}) {
+      if (fs::is_directory(models / kind, error)) folders.push_back(models / kind);
+    }
+  }
+  return folders;
+}
+
+fs::path ResolvePath(const std::string& name, const fs::path& folder,
+                     const std::map<std::string, fs::path>& packages) {
+  static const std::string kScheme = "package://";
+  if (!name.starts_with(kScheme))
+    return fs::path(name).is_absolute() ? fs::path(name) : folder / name;
+  const std::string rest = name.substr(kScheme.size());
+  const std::string package = rest.substr(0, rest.find('/'));
+  const fs::path inside = rest.size() > package.size() ? rest.substr(package.size() + 1) : "";
+  if (const auto found = packages.find(package); found != packages.end()) {
+    return found->second / inside;
+  }
+  std::string places;
+  for (const fs::path& place : PackageFolders()) {
+    std::error_code error;
+    if (fs::is_directory(place / package, error)) return place / package / inside;
+    places += (places.empty() ? "" : ", ") + place.string();
+  }
+  throw ConfigError(fmt::format("{}: no package '{}'; looked in packages, {}", name, package,
+                                places.empty() ? "OCA_PACKAGE_PATH" : places));
+}
+
+}  // namespace oca::diagrams

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "diagrams/run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "diagrams/signal_recorder.h"
+#include "framework/dynamic_port.h"
+#include "framework/error.h"
+
+namespace oca::diagrams {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::optional<double> ValueOf(const Expectation& expectation, const Context& context) {
+  if (expectation.member.empty()) {
+    return EvalVector(expectation.output, context)[expectation.index];
+  }
+  std::string text;
+  EvalJson(expectation.output, context, text);
+  const auto value = ordered_json::parse(text).value(expectation.member, ordered_json());
+  if (!value.is_number()) return std::nullopt;
+  return value.get<double>();
+}
+
+std::string BoundText(const ExpectParams& bound) {
+  std::vector<std::string> parts;
+  if (bound.at_least) parts.push_back(fmt::format(">= {}", *bound.at_least));
+  if (bound.at_most) parts.push_back(fmt::format("<= {}", *bound.at_most));
+  if (bound.equal) parts.push_back(fmt::format("= {} within {}", *bound.equal, bound.within));
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : " and ") + part;
+  return text;
+}
+
+bool Holds(const ExpectParams& bound, double value) {
+  return (!bound.at_least || value >= *bound.at_least) &&
+         (!bound.at_most || value <= *bound.at_most) &&
+         (!bound.equal || std::fabs(value - *bound.equal) <= bound.within);
+}
+
+/// The metrics of all arms as one: the nearest approach with its pair and time, the largest of
+/// everything else.
+ordered_json WorstOf(const ordered_json& one, const ordered_json& other) {
+  ordered_json worst = one;
+  const bool nearer = other["min_distance"].is_number() &&
+                      (!one["min_distance"].is_number() ||
+                       other["min_distance"].get<double>() < one["min_distance"].get<double>());
+  for (const auto& [key, value] : other.items()) {
+    const bool of_distance = key.starts_with("min_distance");
+    if (of_distance ? nearer
+                    : value.is_number() && (!worst[key].is_number() ||
+                                            value.get<double>() > worst[key].get<double>())) {
+      worst[key] = value;
+    }
+  }
+  const auto first = other["first_contact_time"];
+  if (first.is_number() && one["first_contact_time"].is_number()) {
+    worst["first_contact_time"] =
+        std::min(first.get<double>(), one["first_contact_time"].get<double>());
+  }
+  return worst;
+}
+
+std::string MetricsOf(const LoadedDiagram& loaded, const Context& context) {
+  ordered_json all = ordered_json::object();
+  for (const auto& [name, output] : loaded.metrics) {
+    std::string text;
+    EvalJson(output, context, text);
+    const auto metrics = ordered_json::parse(text);
+    all = all.empty() ? metrics : WorstOf(all, metrics);
+  }
+  return all.dump();
+}
+
+class Runner {
+ public:
+  Runner(const LoadedDiagram& loaded, const RunOptions& options)
+      : loaded_(loaded),
+        simulator_(*loaded.diagram, loaded.integrator),
+        duration_(options.duration.value_or(loaded.simulator.duration)) {
+    simulator_.SetLog(options.log);
+    if (!options.csv_folder.empty()) {
+      recorder_ = std::make_unique<SignalRecorder>(options.csv_folder, loaded.record, simulator_);
+    }
+    if (options.progress) {
+      simulator_.AddMonitor([progress = options.progress](const Context& context) {
+        return progress(context.time());
+      });
+    }
+    for (const Expectation& expectation : loaded.expectations) {
+      const double at = expectation.bound.at.value_or(duration_);
+      result_.expectations.push_back(
+          {expectation.name, std::nullopt, BoundText(expectation.bound), at, false});
+    }
+  }
+
+  RunResult Run() {
+    const auto start = std::chrono::steady_clock::now();
+    try {
+      simulator_.Initialize();
+      AdvanceThroughExpectations();
+    } catch (const SimulationError& error) {
+      result_.failure = error.what();
+    }
+    result_.wall_seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    result_.duration = simulator_.context().time();
+    result_.statistics = simulator_.statistics();
+    try {
+      result_.metrics = MetricsOf(loaded_, simulator_.context());
+    } catch (const SimulationError&) {
+      result_.metrics = "{}";  // what failed the run fails here again
+    }
+    if (recorder_) recorder_->Finish();
+    return std::move(result_);
+  }
+
+ private:
+  void AdvanceThroughExpectations() {
+    std::vector<double> stops{duration_};
+    for (const auto& expectation : result_.expectations) {
+      if (expectation.at < duration_) stops.push_back(expectation.at);
+    }
+    std::sort(stops.begin(), stops.end());
+    for (const double stop : stops) {
+      if (!simulator_.AdvanceTo(stop)) {
+        result_.interrupted = true;
+        return;
+      }
+      CheckAt(stop);
+    }
+  }
+
+  void CheckAt(double time) {
+    for (std::size_t i = 0; i < loaded_.expectations.size(); ++i) {
+      ExpectationResult& result = result_.expectations[i];
+      if (result.at != time || result.value) continue;
+      result.value = ValueOf(loaded_.expectations[i], simulator_.context());
+      result.ok = result.value && Holds(loaded_.expectations[i].bound, *result.value);
+    }
+  }
+
+  const LoadedDiagram& loaded_;
+  Simulator simulator_;
+  double duration_;
+  std::unique_ptr<SignalRecorder> recorder_;
+  RunResult result_{};
+};
+
+}  // namespace
+
+bool RunResult::ExpectationsMet() const {
+  return std::all_of(expectations.begin(), expectations.end(),
+                     [](const ExpectationResult& result) { return result.ok; });
+}
+
+RunResult Run(const LoadedDiagram& loaded, const RunOptions& options) {
+  if (options.duration && !(*options.duration >= 0.0 && *options.duration <= 1e7)) {
+    throw ConfigError(fmt::format("duration: got {} s; expected in [0, 1e7]", *options.duration));
+  }
+  return Runner(loaded, options).Run();
+}
+
+}  // namespace oca::diagrams

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagrams/loader.h"
+#include "framework/log.h"
+#include "framework/simulator.h"
+
+namespace oca::diagrams {
+
+struct RunOptions {
+  std::optional<double> duration;      ///< s; instead of the file's
+  std::filesystem::path csv_folder{};  ///< empty: nothing is recorded
+  Log* log{nullptr};                   ///< receives what systems log
+  /// Called after each step with the time; returning false interrupts the run.
+  std::function<bool(double time)> progress{};
+};
+
+/// How an expectation turned out.
+struct ExpectationResult {
+  std::string name;
+  std::optional<double> value;  ///< empty: the metric has no source, or the run ended before
+  std::string bound;            ///< as in `>= 0.02`
+  double at;                    ///< s
+  bool ok;
+};
+
+struct RunResult {
+  double duration;  ///< s, that was simulated
+  SimulatorStatistics statistics;
+  double wall_seconds;
+  std::string metrics;  ///< JSON object; `{}` without a MotionMetrics
+  std::vector<ExpectationResult> expectations;
+  bool interrupted{false};
+  std::string failure;  ///< why the run ended early; empty if it did not
+
+  bool ExpectationsMet() const;
+};
+
+/// Runs a loaded diagram from time 0. A calculation that fails ends the run with `failure`; what
+/// was recorded and measured up to there is kept.
+/// throws ConfigError if a record cannot be written or the simulator's options are wrong.
+RunResult Run(const LoadedDiagram& loaded, const RunOptions& options);
+
+}  // namespace oca::diagrams

@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "diagrams/yaml_reader.h"
+
+#include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/parser.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "framework/error.h"
+
+namespace oca::diagrams {
+namespace {
+
+constexpr int kDeepest = 64;
+
+bool IsDigit(char c) { return c >= '0' && c <= '9'; }
+
+/// YAML 1.2 core schema: [-+]? (digits [. digits*]? | . digits) ([eE] [-+]? digits)?
+bool LooksLikeNumber(std::string_view text) {
+  std::size_t i = 0;
+  const auto digits = [&] {
+    const std::size_t from = i;
+    while (i < text.size() && IsDigit(text[i])) ++i;
+    return i - from;
+  };
+  if (i < text.size() && (text[i] == '+' || text[i] == '-')) ++i;
+  std::size_t count = digits();
+  if (i < text.size() && text[i] == '.') {
+    ++i;
+    count += digits();
+  }
+  if (count == 0) return false;
+  if (i < text.size() && (text[i] == 'e' || text[i] == 'E')) {
+    ++i;
+    if (i < text.size() && (text[i] == '+' || text[i] == '-')) ++i;
+    if (digits() == 0) return false;
+  }
+  return i == text.size();
+}
+
+/// What a plain scalar means, or why it is refused.
+class PlainScalar {
+ public:
+  static Value::Data Read(const std::string& text, std::string& problem) {
+    if (text == "true") return true;
+    if (text == "false") return false;
+    if (text == "null" || text == "~" || text == "Null" || text == "NULL") {
+      problem = "got null; expected a value";
+      return {};
+    }
+    static constexpr std::array kAmbiguous = {"yes", "no",  "on",   "off",  "Yes",   "No",   "On",
+                                              "Off", "YES", "NO",   "ON",   "OFF",   "y",    "n",
+                                              "Y",   "N",   "True", "TRUE", "False", "FALSE"};
+    if (std::find(kAmbiguous.begin(), kAmbiguous.end(), text) != kAmbiguous.end()) {
+      problem =
+          fmt::format("got {0}; expected true or false, or '{0}' in quotes for the text", text);
+      return {};
+    }
+    return LooksLikeNumber(text) ? ReadNumber(text, problem) : Value::Data(text);
+  }
+
+ private:
+  static Value::Data ReadNumber(const std::string& text, std::string& problem) {
+    const char* first = text.data() + (text[0] == '+' ? 1 : 0);
+    const char* const last = text.data() + text.size();
+    const char* const digits = first + (*first == '-' ? 1 : 0);
+    if (last - digits > 1 && digits[0] == '0' && IsDigit(digits[1])) {
+      problem =
+          fmt::format("got {}; expected a number without leading zeros, or text in quotes", text);
+      return {};
+    }
+    std::int64_t whole = 0;
+    if (const auto [end, error] = std::from_chars(first, last, whole);
+        error == std::errc() && end == last) {
+      return whole;
+    }
+    double real = 0.0;
+    const auto [end, error] = std::from_chars(first, last, real);
+    if (error != std::errc() || end != last || !std::isfinite(real)) {
+      problem = fmt::format("got {}; expected a number that a double can hold", text);
+      return {};
+    }
+    return real;
+  }
+};
+
+/// Builds the tree from yaml-cpp's events, which carry true positions.
+class TreeBuilder final : public YAML::EventHandler {
+ public:
+  TreeBuilder(std::string_view text, std::shared_ptr<const std::string> name, Problems& problems)
+      : text_(text), name_(std::move(name)), problems_(problems) {}
+
+  Value Take() { return std::move(root_); }
+
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    if (documents_++ > 0) problems_.Add(At(mark), "a second document; expected one");
+  }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override {
+    if (stack_.empty()) return;  // an empty file: the reader of the tree says what it misses
+    problems_.Add(At(mark), stack_.back().has_key
+                                ? fmt::format("{}: no value; expected one", stack_.back().key)
+                                : std::string("an item without a value"));
+    Put(Value({}, At(mark)));
+  }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override {
+    problems_.Add(At(mark), "an alias; expected a value (parameters and ${name} serve repetition)");
+    Put(Value({}, At(mark)));
+  }
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                const std::string& value) override {
+    CheckPlainNode(mark, tag, anchor);
+    const bool quoted = tag == "!";
+    if (quoted) CheckClosed(mark);
+    if (ExpectsKey()) return TakeKey(mark, value);
+    std::string problem;
+    Value::Data data = quoted ? Value::Data(value) : PlainScalar::Read(value, problem);
+    if (!problem.empty()) problems_.Add(At(mark), Here() + problem);
+    Put(Value(std::move(data), At(mark)));
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value /*style*/) override {
+    Open(mark, tag, anchor, Value::List());
+  }
+  void OnSequenceEnd() override { Close(); }
+  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value /*style*/) override {
+    Open(mark, tag, anchor, Value::Map());
+  }
+  void OnMapEnd() override { Close(); }
+
+ private:
+  struct Frame {
+    Value value;
+    std::string key{};
+    Location key_location{};
+    bool has_key{false};
+    bool drop{false};  // a map as a key: its contents go nowhere
+  };
+
+  Location At(const YAML::Mark& mark) const { return {name_, mark.line + 1, mark.column + 1}; }
+  std::string Here() const {
+    return !stack_.empty() && stack_.back().has_key ? stack_.back().key + ": " : "";
+  }
+  bool ExpectsKey() const {
+    return !stack_.empty() && stack_.back().value.map() != nullptr && !stack_.back().has_key;
+  }
+
+  void CheckPlainNode(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
+    if (anchor != 0) problems_.Add(At(mark), "an anchor; expected a value without one");
+    if (!tag.empty() && tag != "?" && tag != "!") {
+      problems_.Add(At(mark), fmt::format("the tag '{}'; expected a value without one", tag));
+    }
+  }
+
+  /// yaml-cpp takes the end of the file for a closing quote.
+  void CheckClosed(const YAML::Mark& mark) {
+    std::size_t i = static_cast<std::size_t>(mark.pos);
+    if (i >= text_.size()) return;
+    const char quote = text_[i];
+    if (quote != '"' && quote != '\'') return;  // a block scalar
+    for (++i; i < text_.size(); ++i) {
+      if (quote == '"' && text_[i] == '\\') {
+        ++i;
+      } else if (text_[i] == quote) {
+        if (quote == '\'' && i + 1 < text_.size() && text_[i + 1] == quote) {
+          ++i;
+          continue;
+        }
+        return;
+      }
+    }
+    problems_.Add(At(mark), fmt::format("a quote {} that is not closed", quote));
+  }
+
+  void TakeKey(const YAML::Mark& mark, const std::string& key) {
+    Frame& frame = stack_.back();
+    frame.key = key;
+    frame.key_location = At(mark);
+    frame.has_key = true;
+    if (key == "<<") {
+      problems_.Add(At(mark), "the merge key '<<'; expected a plain key (include serves reuse)");
+    }
+    if (const Value* const before = frame.value.Find(key)) {
+      problems_.Add(At(mark), fmt::format("{}: duplicate key; the first is at {}", key,
+                                          before->location().ToString()));
+    }
+  }
+
+  void Open(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+            Value::Data data) {
+    CheckPlainNode(mark, tag, anchor);
+    if (stack_.size() >= kDeepest) {
+      throw YAML::ParserException(mark, fmt::format("nested deeper than {} levels", kDeepest));
+    }
+    const bool as_key = ExpectsKey();
+    if (as_key) problems_.Add(At(mark), "a map or list as a key; expected text");
+    Frame frame{Value(std::move(data), At(mark))};
+    frame.drop = as_key;
+    stack_.push_back(std::move(frame));
+  }
+
+  void Close() {
+    Frame frame = std::move(stack_.back());
+    stack_.pop_back();
+    if (frame.drop) {
+      stack_.back().key.clear();
+      stack_.back().has_key = true;
+      return;
+    }
+    Put(std::move(frame.value));
+  }
+
+  void Put(Value value) {
+    if (stack_.empty()) {
+      root_ = std::move(value);
+      return;
+    }
+    Frame& frame = stack_.back();
+    if (Value::List* const list = frame.value.list()) {
+      list->push_back(std::move(value));
+      return;
+    }
+    if (!frame.has_key) {  // a null as a key
+      frame.has_key = true;
+      return;
+    }
+    if (frame.value.Find(frame.key) == nullptr) {
+      frame.value.map()->push_back({frame.key, frame.key_location, std::move(value)});
+    }
+    frame.has_key = false;
+  }
+
+  std::string_view text_;
+  std::shared_ptr<const std::string> name_;
+  Problems& problems_;
+  std::vector<Frame> stack_;
+  Value root_;
+  int documents_{0};
+};
+
+/// yaml-cpp recurses a level; brackets that open deeper than any sane file are refused before.
+bool NestsTooDeep(std::string_view text, int& line) {
+  int depth = 0;
+  line = 1;
+  std::size_t dashes = 0;
+  for (const char c : text) {
+    if (c == '[' || c == '{') ++depth;
+    if ((c == ']' || c == '}') && depth > 0) --depth;
+    if (c == '-' || c == '?' || c == ':') ++dashes;
+    if (c != '-' && c != '?' && c != ':' && c != ' ') dashes = 0;
+    if (c == '\n') ++line;
+    if (depth > 4 * kDeepest || dashes > 4 * kDeepest) return true;
+  }
+  return false;
+}
+
+Value FromJson(const nlohmann::ordered_json& json, const Location& location, int depth) {
+  if (depth > kDeepest) throw ConfigError(fmt::format("nested deeper than {} levels", kDeepest));
+  if (json.is_boolean()) return Value(json.get<bool>(), location);
+  if (json.is_number_integer()) return Value(json.get<std::int64_t>(), location);
+  if (json.is_number()) return Value(json.get<double>(), location);
+  if (json.is_string()) return Value(json.get<std::string>(), location);
+  if (json.is_array()) {
+    Value::List list;
+    for (const auto& item : json) list.push_back(FromJson(item, location, depth + 1));
+    return Value(std::move(list), location);
+  }
+  if (json.is_object()) {
+    Value::Map map;
+    for (const auto& [key, item] : json.items()) {
+      map.push_back({key, location, FromJson(item, location, depth + 1)});
+    }
+    return Value(std::move(map), location);
+  }
+  throw ConfigError("null; expected a value");
+}
+
+}  // namespace
+
+Value ReadYaml(std::string_view text, const std::string& name, Problems& problems) {
+  const auto shared_name = std::make_shared<const std::string>(name);
+  int line = 0;
+  if (NestsTooDeep(text, line)) {
+    problems.Add({shared_name, line, 1}, fmt::format("nested deeper than {} levels", kDeepest));
+    return {};
+  }
+  TreeBuilder builder(text, shared_name, problems);
+  try {
+    std::istringstream stream{std::string(text)};
+    YAML::Parser parser(stream);
+    while (parser.HandleNextDocument(builder)) {
+    }
+  } catch (const YAML::Exception& error) {
+    problems.Add({shared_name, error.mark.line + 1, error.mark.column + 1}, error.msg);
+  }
+  return builder.Take();
+}
+
+std::string ReadTextFile(const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::is_directory(file, error)) {
+    throw ConfigError(fmt::format("{}: error: is a folder; expected a file", file.string()));
+  }
+  const auto size = std::filesystem::file_size(file, error);
+  if (error) {
+    throw ConfigError(fmt::format("{}: error: cannot be read: {}", file.string(), error.message()));
+  }
+  if (size > kLargestFile) {
+    throw ConfigError(fmt::format("{}: error: got {} bytes; expected at most {}", file.string(),
+                                  size, kLargestFile));
+  }
+  std::ifstream stream(file, std::ios::binary);
+  std::string text(size, '\0');
+  if (!stream.read(text.data(), static_cast<std::streamsize>(size))) {
+    throw ConfigError(fmt::format("{}: error: cannot be read", file.string()));
+  }
+  const auto control = [](unsigned char c) {
+    return (c < 0x20 && c != '\n' && c != '\r' && c != '\t') || c == 0x7f;
+  };
+  if (std::any_of(text.begin(), text.end(), control)) {
+    throw ConfigError(
+        fmt::format("{}: error: holds control characters; expected a text file", file.string()));
+  }
+  return text;
+}
+
+Value ReadJson(std::string_view text, const std::string& name) {
+  const Location location{std::make_shared<const std::string>(name), 0, 0};
+  try {
+    return FromJson(nlohmann::ordered_json::parse(text), location, 0);
+  } catch (const ConfigError& error) {
+    throw ConfigError(fmt::format("{}: error: {}", name, error.what()));
+  } catch (const nlohmann::json::exception& error) {
+    const std::string what = error.what();
+    const auto start = what.find("] ");
+    throw ConfigError(fmt::format("{}: error: {}", name,
+                                  start == std::string::npos ? what : what.substr(start + 2)));
+  }
+}
+
+}  // namespace oca::diagrams

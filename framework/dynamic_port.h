@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "framework/port.h"
+
+namespace oca {
+
+// Ports whose types are known only at run time: for files, recorders and `eval`.
+
+/// The type of a port.
+const SignalType& TypeOfPort(const OutputHandle& output);
+const SignalType& TypeOfPort(const InputHandle& input);
+
+/// The output as JSON, appended to `out`. throws SimulationError as Output::Eval does.
+void EvalJson(const OutputHandle& output, const Context& context, std::string& out);
+
+/// A Vector output's numbers, valid until the context changes.
+/// throws WiringError if the port is no Vector.
+std::span<const double> EvalVector(const OutputHandle& output, const Context& context);
+
+/// The length of a Vector output, without evaluating it.
+int VectorSize(const OutputHandle& output, const Context& context);
+
+/// Fixes an exported input from JSON. throws ConfigError if the text is not of the port's type.
+void FixJson(const InputHandle& input, Context& context, std::string_view json);
+
+/// True if the output shows a state, so that it changes only when an update or the integrator
+/// changes that state.
+bool ShowsState(const OutputHandle& output);
+
+}  // namespace oca

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace oca::tools {
+
+/// Exit statuses of `simulator`.
+enum ExitStatus {
+  kFine = 0,
+  kRunFailed = 1,
+  kBadInput = 2,
+  kExpectationNotMet = 3,
+  kUsage = 64,
+  kInterrupted = 130,
+};
+
+struct RunArguments {
+  std::string file;
+  std::vector<std::string> overrides;
+  std::optional<double> duration;
+  std::optional<int> seed;
+  std::string csv_folder;
+  bool json{false};
+  bool no_progress{false};
+  std::string log_level{"debug"};
+};
+int RunCommand(const RunArguments& arguments);
+
+int CheckCommand(const std::vector<std::string>& files);
+
+struct GraphArguments {
+  std::string file;
+  std::string format{"dot"};
+  std::vector<std::string> overrides;
+};
+int GraphCommand(const GraphArguments& arguments);
+
+int ListCommand();
+int DescribeCommand(const std::string& type);
+int SchemaCommand();
+
+struct EvalArguments {
+  std::string type;
+  std::string params{"{}"};
+  std::vector<std::string> models;  ///< NAME=URDF
+};
+/// Serves one JSON object a line from `in` until it ends.
+int EvalCommand(const EvalArguments& arguments, std::istream& in, std::ostream& out);
+
+}  // namespace oca::tools

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+#include <limits>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "diagrams/catalogue.h"
+#include "diagrams/package_paths.h"
+#include "diagrams/yaml_reader.h"
+#include "framework/dynamic_port.h"
+#include "framework/error.h"
+#include "framework/nearest.h"
+#include "framework/simulator.h"
+#include "models/robot/urdf.h"
+#include "tools/commands.h"
+
+namespace oca::tools {
+namespace {
+
+using nlohmann::ordered_json;
+
+systems::ModelSet LoadModels(const std::vector<std::string>& arguments) {
+  systems::ModelSet models;
+  for (const std::string& argument : arguments) {
+    const std::size_t equals = argument.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      throw ConfigError(fmt::format("--model: got '{}'; expected NAME=URDF", argument));
+    }
+    models::LoadOptions options;
+    options.package_directories = diagrams::PackageFolders();
+    models.Add(argument.substr(0, equals),
+               std::make_shared<const models::RobotModel>(models::LoadUrdf(
+                   diagrams::ResolvePath(argument.substr(equals + 1), {}, {}), options)));
+  }
+  return models;
+}
+
+/// One system on its own. A line's inputs are held; `time` moves the clock there first. If the
+/// system has discrete updates a line is one period: computed outputs are shown as the updates of
+/// the line's tick read them, held ones as the period leaves them.
+class Evaluator {
+ public:
+  Evaluator(const diagrams::CatalogueRow& row, const Value& params, systems::ModelSet models)
+      : row_(row), params_(params), models_(std::move(models)) {
+    const auto probe = Make();
+    for (const auto& input : probe->inputs()) input_names_.push_back(input.name);
+    for (const auto& event : probe->events()) {
+      if (event.stage == System::Stage::kUpdate || event.stage == System::Stage::kReset) {
+        period_ = std::min(period_, event.every.period.seconds());
+      }
+    }
+  }
+
+  ordered_json Serve(const std::string& line) {
+    const auto given = ordered_json::parse(line, nullptr, false);
+    if (!given.is_object()) throw ConfigError("got no JSON object; expected inputs by port name");
+    for (const auto& [key, value] : given.items()) {
+      if (key == "time" && !HasInput("time")) continue;
+      if (!HasInput(key)) {
+        throw ConfigError(fmt::format("no input port '{}'{}", key, DidYouMean(key, input_names_)));
+      }
+    }
+    // A line that is refused leaves everything as it was.
+    if (!simulator_) Start(given);
+    const Context before = simulator_->context();
+    try {
+      return Advance(given);
+    } catch (...) {
+      simulator_->context() = before;
+      if (!served_) simulator_.reset();
+      throw;
+    }
+  }
+
+ private:
+  bool HasInput(const std::string& name) const {
+    return std::find(input_names_.begin(), input_names_.end(), name) != input_names_.end();
+  }
+
+  std::unique_ptr<System> Make() const {
+    Problems problems;
+    auto system = row_.make(params_, "", models_, problems);
+    problems.Throw();
+    return system;
+  }
+
+  /// The first line settles lengths that the parameters leave open.
+  void Start(const ordered_json& given) {
+    std::map<std::string, int> sizes;
+    for (const auto& [key, value] : given.items()) {
+      if (HasInput(key)) sizes[key] = value.is_array() ? static_cast<int>(value.size()) : -1;
+    }
+    for (const auto& info : Make()->inputs()) {
+      if (info.type != &kVectorType && sizes.contains(info.name)) sizes[info.name] = -1;
+    }
+    diagram_ = MakeDiagramOf(Make(), sizes);
+    simulator_ = std::make_unique<Simulator>(*diagram_);
+  }
+
+  ordered_json Advance(const ordered_json& given) {
+    const auto time = given.find("time");
+    const bool timed = time != given.end() && !HasInput("time");
+    if (timed && !time->is_number()) throw ConfigError("time: expected a number of seconds");
+    if (timed && !served_) simulator_->context().SetTime(std::min(0.0, time->get<double>()));
+    if (timed && period_ < kNever && served_) simulator_->AdvanceTo(time->get<double>());
+    for (const auto& input : diagram_->inputs()) {
+      const auto value = given.find(input.name);
+      if (value == given.end()) {
+        if (served_ || input.optional) continue;
+        throw ConfigError(
+            fmt::format("input '{}': missing; expected {}", input.name, input.type->name));
+      }
+      try {
+        FixJson(diagram_->FindInput(input.name), simulator_->context(), value->dump());
+      } catch (const ConfigError& error) {
+        throw ConfigError(fmt::format("{}: {}", input.name, error.what()));
+      }
+    }
+    if (!served_) simulator_->Initialize();
+    if (timed && (period_ == kNever || !served_)) simulator_->AdvanceTo(time->get<double>());
+    ordered_json outputs = ordered_json::object();
+    for (const auto& output : diagram_->outputs()) Show(output.name, outputs, false);
+    if (period_ < kNever) simulator_->AdvanceTo(simulator_->context().time() + period_);
+    for (const auto& output : diagram_->outputs()) Show(output.name, outputs, true);
+    served_ = true;
+    return outputs;
+  }
+
+  void Show(const std::string& name, ordered_json& outputs, bool after) const {
+    const OutputHandle output = diagram_->FindOutput(name);
+    if (after && !ShowsState(output)) return;
+    std::string text;
+    EvalJson(output, simulator_->context(), text);
+    outputs[name] = ordered_json::parse(text);
+  }
+
+  static constexpr double kNever = std::numeric_limits<double>::infinity();
+
+  const diagrams::CatalogueRow& row_;
+  const Value params_;
+  const systems::ModelSet models_;
+  std::vector<std::string> input_names_;
+  double period_{kNever};
+  std::unique_ptr<Diagram> diagram_;
+  std::unique_ptr<Simulator> simulator_;
+  bool served_{false};
+};
+
+}  // namespace
+
+int EvalCommand(const EvalArguments& arguments, std::istream& in, std::ostream& out) {
+  const diagrams::CatalogueRow& row = diagrams::FindRow(arguments.type);
+  Evaluator evaluator(row, diagrams::ReadJson(arguments.params, "--params"),
+                      LoadModels(arguments.models));
+  for (std::string line; std::getline(in, line);) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    ordered_json answer;
+    try {
+      answer = evaluator.Serve(line);
+    } catch (const std::exception& error) {
+      answer = ordered_json{{"error", error.what()}};
+    }
+    out << answer.dump() << std::endl;
+  }
+  return kFine;
+}
+
+}  // namespace oca::tools

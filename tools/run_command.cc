@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "diagrams/run.h"
+#include "framework/error.h"
+#include "tools/commands.h"
+#include "tools/run_summary.h"
+#include "tools/terminal.h"
+
+namespace oca::tools {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+void Interrupt(int /*signal*/) { interrupted.store(true, std::memory_order_relaxed); }
+
+/// What systems log, on standard error.
+class StderrLog final : public Log {
+ public:
+  explicit StderrLog(const std::string& level)
+      : logger_("oca", std::make_shared<spdlog::sinks::stderr_color_sink_mt>()) {
+    logger_.set_level(spdlog::level::from_str(level));
+    logger_.set_pattern("%^%l%$ %v");
+  }
+  bool enabled(LogLevel level) const override { return logger_.should_log(Map(level)); }
+  void Write(LogLevel level, double time, std::string_view text) override {
+    logger_.log(Map(level), "t={:.4f} {}", time, text);
+  }
+
+ private:
+  static spdlog::level::level_enum Map(LogLevel level) {
+    switch (level) {
+      case LogLevel::kDebug:
+        return spdlog::level::debug;
+      case LogLevel::kInfo:
+        return spdlog::level::info;
+      default:
+        return spdlog::level::warn;
+    }
+  }
+  mutable spdlog::logger logger_;
+};
+
+ordered_json ToJson(const diagrams::LoadedDiagram& loaded, const diagrams::RunResult& result) {
+  ordered_json expectations = ordered_json::array();
+  for (const diagrams::ExpectationResult& expectation : result.expectations) {
+    expectations.push_back(
+        {{"name", expectation.name},
+         {"value", expectation.value ? ordered_json(*expectation.value) : ordered_json()},
+         {"bound", expectation.bound},
+         {"at", expectation.at},
+         {"ok", expectation.ok}});
+  }
+  const IntegratorStatistics& integrator = result.statistics.integrator;
+  ordered_json json{{"name", loaded.name},
+                    {"file", loaded.file},
+                    {"seed", loaded.simulator.seed},
+                    {"duration", result.duration},
+                    {"steps", result.statistics.steps},
+                    {"wall_seconds", result.wall_seconds},
+                    {"realtime_factor", result.duration / result.wall_seconds},
+                    {"metrics", ordered_json::parse(result.metrics)},
+                    {"expectations", expectations},
+                    {"integrator",
+                     {{"steps", integrator.steps},
+                      {"rejected_steps", integrator.rejected_steps},
+                      {"derivative_calls", integrator.derivative_calls},
+                      {"restarts", integrator.restarts}}},
+                    {"interrupted", result.interrupted}};
+  if (!result.failure.empty()) json["failure"] = result.failure;
+  return json;
+}
+
+ExitStatus StatusOf(const diagrams::RunResult& result) {
+  if (!result.failure.empty()) return kRunFailed;
+  if (result.interrupted) return kInterrupted;
+  return result.ExpectationsMet() ? kFine : kExpectationNotMet;
+}
+
+}  // namespace
+
+int RunCommand(const RunArguments& arguments) {
+  std::vector<diagrams::Override> overrides;
+  for (const std::string& text : arguments.overrides) {
+    overrides.push_back(diagrams::Override::Parse(text));
+  }
+  if (arguments.seed) overrides.push_back({"simulator.seed", std::to_string(*arguments.seed)});
+  const diagrams::LoadedDiagram loaded = diagrams::LoadDiagram(arguments.file, overrides);
+
+  StderrLog log(arguments.log_level);
+  diagrams::RunOptions options;
+  options.duration = arguments.duration;
+  options.csv_folder = arguments.csv_folder;
+  options.log = &log;
+  std::signal(SIGINT, Interrupt);
+  std::signal(SIGTERM, Interrupt);
+  std::optional<ProgressBar> bar;
+  if (!arguments.no_progress && IsTerminal(STDERR_FILENO)) {
+    bar.emplace(arguments.duration.value_or(loaded.simulator.duration));
+  }
+  options.progress = [&bar](double time) {
+    if (bar) bar->Show(time);
+    return !interrupted.load(std::memory_order_relaxed);
+  };
+  const diagrams::RunResult result = diagrams::Run(loaded, options);
+  bar.reset();
+
+  if (arguments.json) {
+    std::cout << ToJson(loaded, result).dump(2) << '\n';
+  } else {
+    std::cout << RunSummary(loaded, result, WantsColour(STDOUT_FILENO));
+  }
+  if (!result.failure.empty()) fmt::print(stderr, "error: {}\n", result.failure);
+  return StatusOf(result);
+}
+
+}  // namespace oca::tools

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "diagrams/run.h"
+
+namespace oca::tools {
+
+/// What a person wants to know of a run, in a few lines: clear or not and where it was closest,
+/// goal reached or not, how the motion was altered, expectations, time.
+std::string RunSummary(const diagrams::LoadedDiagram& loaded, const diagrams::RunResult& result,
+                       bool colour);
+
+}  // namespace oca::tools

@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs what is missing and builds. Usage: tools/setup.sh [PRESET [TARGET...]]
+set -euo pipefail
+cd "$(dirname "$0")/.."
+preset=${1:-release}
+[ $# -gt 0 ] && shift
+
+mapfile -t packages < <(grep -v '^#' tools/packages.txt)
+missing=()
+for package in "${packages[@]}"; do
+  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
+done
+if [ ${#missing[@]} -gt 0 ]; then
+  echo "Installing: ${missing[*]}" >&2
+  as_root=()
+  [ "$(id -u)" -eq 0 ] || as_root=(sudo)
+  "${as_root[@]}" apt-get update -qq
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
+fi
+
+[ -f "build/$preset/build.ninja" ] || cmake --preset "$preset" >&2
+if [ $# -gt 0 ]; then
+  cmake --build --preset "$preset" --target "$@" >&2
+else
+  cmake --build --preset "$preset" >&2
+fi

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <functional>
+#include <iostream>
+
+#include "framework/error.h"
+#include "framework/nearest.h"
+#include "models/error.h"
+#include "tools/commands.h"
+
+namespace oca::tools {
+namespace {
+
+/// The command line: one subcommand, whose arguments are bound to the structs of commands.h.
+class CommandLine {
+ public:
+  CommandLine() {
+    app_.require_subcommand(1);
+    app_.set_version_flag("--version", "simulator (OCA) " OCA_VERSION);
+    AddRun();
+    AddOthers();
+  }
+
+  int Main(int argc, char** argv) {
+    try {
+      app_.parse(argc, argv);
+    } catch (const CLI::Success& help_or_version) {
+      return app_.exit(help_or_version);
+    } catch (const CLI::ParseError& error) {
+      return Usage(error, argc, argv);
+    }
+    try {
+      return command_();
+    } catch (const SimulationError& error) {
+      fmt::print(stderr, "error: {}\n", error.what());
+      return kRunFailed;
+    } catch (const Error& error) {
+      fmt::print(stderr, "{}\n", error.what());
+    } catch (const models::ModelError& error) {
+      fmt::print(stderr, "{}\n", error.what());
+    }
+    return kBadInput;
+  }
+
+ private:
+  void AddRun() {
+    CLI::App* const run = app_.add_subcommand("run", "run a diagram file and judge the motion");
+    run->add_option("FILE", run_.file, "diagram file")->required();
+    run->add_option("-s,--set", run_.overrides, "PATH=VALUE: override a value of the file")
+        ->allow_extra_args(false);
+    run->add_option("-t,--duration", run_.duration, "seconds to simulate, instead of the file's");
+    run->add_option("--seed", run_.seed, "seed of everything random")
+        ->check(CLI::NonNegativeNumber);
+    run->add_option("--csv", run_.csv_folder, "folder to write the recorded signals to");
+    run->add_flag("--json", run_.json, "print one JSON object instead of the summary");
+    run->add_flag("--no-progress", run_.no_progress, "no progress bar");
+    run->add_option("--log-level", run_.log_level, "least level that is logged")
+        ->check(CLI::IsMember({"debug", "info", "warning", "off"}));
+    run->callback([this] { command_ = [this] { return RunCommand(run_); }; });
+  }
+
+  void AddOthers() {
+    CLI::App* const check = app_.add_subcommand("check", "find all errors of diagram files");
+    check->add_option("FILE", check_files_, "diagram files")->required();
+    check->callback([this] { command_ = [this] { return CheckCommand(check_files_); }; });
+
+    CLI::App* const graph = app_.add_subcommand("graph", "draw a diagram file");
+    graph->add_option("FILE", graph_.file, "diagram file")->required();
+    graph->add_option("--format", graph_.format, "dot, svg or mermaid")
+        ->check(CLI::IsMember({"dot", "svg", "mermaid"}));
+    graph->add_option("-s,--set", graph_.overrides, "PATH=VALUE: override a value of the file")
+        ->allow_extra_args(false);
+    graph->callback([this] { command_ = [this] { return GraphCommand(graph_); }; });
+
+    app_.add_subcommand("list", "the system types, a line each")->callback([this] {
+      command_ = ListCommand;
+    });
+    CLI::App* const describe =
+        app_.add_subcommand("describe", "ports, parameters, equation and source of a system type");
+    describe->add_option("TYPE", described_, "system type")->required();
+    describe->callback([this] { command_ = [this] { return DescribeCommand(described_); }; });
+    app_.add_subcommand("schema", "JSON Schema of diagram files, for editors")->callback([this] {
+      command_ = SchemaCommand;
+    });
+
+    CLI::App* const eval = app_.add_subcommand(
+        "eval", "feed one system JSON lines of inputs, get JSON lines of outputs");
+    eval->add_option("TYPE", eval_.type, "system type")->required();
+    eval->add_option("--params", eval_.params, "its parameters as JSON");
+    eval->add_option("--model", eval_.models, "NAME=URDF: a robot that parameters name")
+        ->allow_extra_args(false);
+    eval->callback(
+        [this] { command_ = [this] { return EvalCommand(eval_, std::cin, std::cout); }; });
+  }
+
+  /// CLI11 says little of misspelt words; name the nearest ones.
+  int Usage(const CLI::ParseError& error, int argc, char** argv) {
+    std::vector<std::string> commands;
+    for (const CLI::App* command : app_.get_subcommands([](CLI::App*) { return true; })) {
+      commands.push_back(command->get_name());
+    }
+    const std::string first = argc > 1 ? argv[1] : "";
+    std::string what = error.what();
+    if (std::find(commands.begin(), commands.end(), first) != commands.end()) {
+      what = ExplainOption(*app_.get_subcommand(first), what, argc, argv);
+    } else if (argc > 1 && !first.starts_with("-")) {
+      what = fmt::format("unknown command '{}'{}", first, DidYouMean(first, commands));
+    }
+    fmt::print(stderr,
+               "error: {}\nusage: simulator COMMAND ...; commands: {}; `simulator COMMAND "
+               "--help` tells more\n",
+               what, fmt::join(commands, ", "));
+    return kUsage;
+  }
+
+  static std::string ExplainOption(const CLI::App& command, const std::string& what, int argc,
+                                   char** argv) {
+    std::vector<std::string> options;
+    for (const CLI::Option* option : command.get_options()) {
+      for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+    }
+    for (int i = 2; i < argc; ++i) {
+      const std::string word(argv[i]);
+      const std::string name = word.substr(0, word.find('='));
+      if (!name.starts_with("--") || name == "--") continue;
+      if (std::find(options.begin(), options.end(), name) != options.end()) continue;
+      return fmt::format("unknown option '{}'{}", name, DidYouMean(name, options));
+    }
+    return what;
+  }
+
+  CLI::App app_{"OCA: online collision avoidance of robot arms, from a diagram file", "simulator"};
+  std::function<int()> command_;
+  RunArguments run_;
+  std::vector<std::string> check_files_;
+  GraphArguments graph_;
+  std::string described_;
+  EvalArguments eval_;
+};
+
+}  // namespace
+}  // namespace oca::tools
+
+int main(int argc, char** argv) {
+  try {
+    return oca::tools::CommandLine().Main(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return oca::tools::kRunFailed;
+  }
+}
