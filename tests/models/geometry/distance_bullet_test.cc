@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Against Bullet's own pair detector, apart and in overlap. It is off by up to centimetres in one
-// of a thousand pairs; there the support function decides: no direction of Bullet's may separate
-// more.
+// Against Bullet's own pair detector, apart and in overlap. Now and then it is off by centimetres;
+// there the support function decides: no direction of its own may separate more than ours.
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletCollision/CollisionShapes/btCapsuleShape.h>
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>

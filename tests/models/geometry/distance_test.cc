@@ -180,6 +180,16 @@ TEST(DistanceTest, FlatPlatesAndNeedlesAreNoSpecialCase) {
   EXPECT_NEAR(Distance(*needle, At(0, 0, -0.9), *plate, At(0, 0, 0)).distance, -0.1 - 5e-7, 1e-10);
 }
 
+TEST(DistanceTest, ASmallPartAboveAWideFloor) {
+  const auto floor = Make(Box{Vector3d(1000.0, 1000.0, 1.0)});
+  const auto pin = Make(Cylinder{1e-3, 4e-3});
+  for (const double gap : {0.01, 1e-4, -1e-3}) {
+    const auto result = Distance(*pin, At(30.0, 400.0, 0.5 + 2e-3 + gap), *floor, At(0, 0, 0));
+    EXPECT_NEAR(result.distance, gap, 1e-7);
+    EXPECT_NEAR(result.normal.z(), 1.0, 1e-6);
+  }
+}
+
 TEST(DistanceTest, StopsAtMaxDistanceAndNotBefore) {
   const auto box = Make(kUnitBox);
   const auto status = [&](const Shape& shape, double max_distance) {
