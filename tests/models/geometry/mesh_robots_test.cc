@@ -83,8 +83,8 @@ TEST_F(MeshRobotsTest, EveryHullContainsEveryVertexOfItsMesh) {
   EXPECT_EQ(meshes, 41);
 }
 
-// The wrist of the LWR: facts of the file, read off with an independent program once.
-TEST_F(MeshRobotsTest, LwrHullsHaveTheirKnownSizes) {
+// Pinned as first loaded: whoever changes the hull of a known link shall notice.
+TEST_F(MeshRobotsTest, HullOfAKnownLinkStaysAsItIs) {
   const auto hull = LoadConvexHull(kRobots / "kuka_lwr/meshes_arm/arm_segment_a.stl");
   EXPECT_EQ(hull->vertices.size(), 253u);
   EXPECT_NEAR(hull->volume, 0.003240, 1e-6);
