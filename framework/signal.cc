@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -31,7 +32,15 @@ bool AllFinite(const double* values, std::size_t n) {
 void WriteVectorJson(const double* values, std::size_t n, std::string& out) {
   out += '[';
   for (std::size_t i = 0; i < n; ++i) {
-    fmt::format_to(std::back_inserter(out), "{}{}", i == 0 ? "" : ",", values[i]);
+    if (i > 0) out += ',';
+    // "-0" would be read back as the integer zero, which has no sign.
+    if (values[i] == 0.0) {
+      out += std::signbit(values[i]) ? "-0.0" : "0";
+    } else if (std::isfinite(values[i])) {
+      fmt::format_to(std::back_inserter(out), "{}", values[i]);
+    } else {
+      out += "null";
+    }
   }
   out += ']';
 }

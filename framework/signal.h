@@ -110,7 +110,7 @@ struct ViewOf<Vector> {
 /// True if none of the `n` doubles is a NaN or an infinity.
 bool AllFinite(const double* values, std::size_t n);
 
-/// A vector as a JSON array of shortest round-trip numbers.
+/// A vector as a JSON array of shortest round-trip numbers; null stands for NaN and infinity.
 void WriteVectorJson(const double* values, std::size_t n, std::string& out);
 /// throws ConfigError unless `text` is a JSON array of finite numbers.
 Eigen::VectorXd ReadVectorJson(std::string_view text);
