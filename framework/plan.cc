@@ -113,6 +113,8 @@ void Plan::EvaluateDerivatives(Context& context, double* result) const {
   for (const Derivative& derivative : derivatives) {
     try {
       derivative.function(*derivative.system, arena(context), &slots[derivative.first_slot]);
+    } catch (const SimulationError&) {
+      throw;
     } catch (const std::exception& error) {
       Fail(context, derivative.system, derivative.state, error.what());
     }

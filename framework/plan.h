@@ -100,6 +100,8 @@ class Plan {
   double& integrator_step(Context& context) const { return context.header().integrator_step; }
 
   void MarkChanged(Context& context, int source) const {
+    // A jump of the state makes the step that the integrator would try next worthless.
+    if (source == kContinuousSource) context.header().integrator_step = 0.0;
     versions(context)[source] = ++context.header().epoch;
   }
   /// Throws WiringError if the handle's system is not part of this plan or the context not its.

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -19,6 +21,13 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Ticks of the common clock up to which a double divided by a double is the nearest time.
 constexpr std::int64_t kMostTicks = std::int64_t{1} << 53;
+/// The clock stays exact at least so long: more than a day.
+constexpr std::int64_t kLeastSeconds = 100000;
+
+Log& SilentLog() {
+  static Log log;
+  return log;
+}
 
 }  // namespace
 
@@ -31,20 +40,27 @@ class Simulator::Clock {
   };
 
   void Add(const Every& every) {
-    everies_.push_back(every);
+    std::int64_t rate = rate_;
     for (const std::int64_t denominator :
          {every.period.denominator(), every.offset.denominator()}) {
-      const std::int64_t factor = denominator / std::gcd(rate_, denominator);
-      if (rate_ > kMostTicks / (factor * 100000)) {
+      const std::int64_t factor = denominator / std::gcd(rate, denominator);
+      if (factor > kMostTicks / kLeastSeconds / rate) {
         throw ConfigError(fmt::format(
-            "simulator: the period {} shares no clock with the others; expected periods with "
-            "small common multiples",
+            "simulator: period; got {}, which shares no clock with the others; expected periods "
+            "with small common multiples",
             every.period.ToString()));
       }
-      rate_ *= factor;
+      rate *= factor;
     }
-    beats_.clear();
-    for (const Every& each : everies_) beats_.push_back({Ticks(each.offset), Ticks(each.period)});
+    std::vector<Every> everies = everies_;
+    everies.push_back(every);
+    std::vector<Beat> beats;
+    for (const Every& each : everies) {
+      beats.push_back({Ticks(each.offset, rate), Ticks(each.period, rate)});
+    }
+    rate_ = rate;
+    everies_ = std::move(everies);
+    beats_ = std::move(beats);
   }
   double Time(std::size_t beat, std::int64_t count) const {
     return static_cast<double>(beats_[beat].offset + count * beats_[beat].period) /
@@ -52,17 +68,35 @@ class Simulator::Clock {
   }
   /// The first count whose time is not before `time`.
   std::int64_t FirstCount(std::size_t beat, double time) const {
-    auto count = static_cast<std::int64_t>(
-        std::floor((time * static_cast<double>(rate_) - static_cast<double>(beats_[beat].offset)) /
-                   static_cast<double>(beats_[beat].period)));
+    const double ticks = time * static_cast<double>(rate_);
+    if (!(std::fabs(ticks) <= static_cast<double>(kMostTicks))) {
+      throw ConfigError(fmt::format("simulator: time; got {} s; expected at most {} s", time,
+                                    kMostTicks / rate_));
+    }
+    auto count =
+        static_cast<std::int64_t>(std::floor((ticks - static_cast<double>(beats_[beat].offset)) /
+                                             static_cast<double>(beats_[beat].period)));
     count = std::max<std::int64_t>(count - 1, 0);
     while (Time(beat, count) < time) ++count;
     return count;
   }
+  /// `count` as long as `time` lies between it and the one before; else the first not before
+  /// `time`.
+  std::int64_t Follow(std::size_t beat, std::int64_t count, double time) const {
+    const bool behind = Time(beat, count) < time;
+    const bool ahead = count > 0 && Time(beat, count - 1) > time;
+    return behind || ahead ? FirstCount(beat, time) : count;
+  }
 
  private:
-  std::int64_t Ticks(const Period& period) const {
-    return period.numerator() * (rate_ / period.denominator());
+  static std::int64_t Ticks(const Period& period, std::int64_t rate) {
+    const std::int64_t factor = rate / period.denominator();
+    if (std::abs(period.numerator()) > kMostTicks / factor) {
+      throw ConfigError(
+          fmt::format("simulator: period; got {}; expected at most {} s beside the others",
+                      period.ToString(), kMostTicks / rate));
+    }
+    return period.numerator() * factor;
   }
 
   std::int64_t rate_{1};  // ticks a second
@@ -76,6 +110,7 @@ Simulator::Simulator(const Diagram& diagram, const IntegratorOptions& options)
 Simulator::Simulator(const Diagram& diagram, Context context, const IntegratorOptions& options)
     : diagram_(diagram), context_(std::move(context)), clock_(std::make_unique<Clock>()) {
   const Plan& plan = diagram_.plan();
+  CheckContext();
   for (const Plan::Group& group : plan.groups) clock_->Add(group.every);
   integrator_ = MakeIntegrator(plan, options);
   due_.reserve(plan.events.size());
@@ -88,6 +123,7 @@ void Simulator::AddPublish(const Period& period, Publish publish) {
   if (!period.positive()) {
     throw ConfigError(fmt::format("publish: period; got {}; expected > 0 s", period.ToString()));
   }
+  if (initialized_) throw ConfigError("publish: got one after Initialize; expected it before");
   clock_->Add({period, {}});
   publishes_.push_back({0, std::move(publish)});
 }
@@ -95,20 +131,28 @@ void Simulator::AddPublish(const Period& period, Publish publish) {
 void Simulator::AddMonitor(Monitor monitor) { monitors_.push_back(std::move(monitor)); }
 
 void Simulator::SetLog(Log* log) {
-  static Log silent;
-  context_.header().log = log == nullptr ? &silent : log;
+  log_ = log;
+  ConnectLog();
+}
+
+void Simulator::ConnectLog() { context_.header().log = log_ == nullptr ? &SilentLog() : log_; }
+
+void Simulator::CheckContext() const {
+  if (context_.plan_ == &diagram_.plan() && context_.arena_ != nullptr) return;
+  throw WiringError({"simulator: context; got one of another diagram; expected one of its own"});
 }
 
 void Simulator::Initialize() {
   const Plan& plan = diagram_.plan();
+  CheckContext();
+  ConnectLog();
+  plan.CheckInputsFixed(context_);
+  initialized_ = true;
   const double start = context_.time();
   const bool resumed = context_.header().initialized != 0;
-  initialized_ = true;
   for (std::size_t i = 0; i < publishes_.size(); ++i) {
     publishes_[i].count = clock_->FirstCount(plan.groups.size() + i, start);
-    if (resumed && clock_->Time(plan.groups.size() + i, publishes_[i].count) == start) {
-      ++publishes_[i].count;
-    }
+    if (resumed) SkipPublished(i);
   }
   if (resumed) return;
   for (std::size_t i = 0; i < plan.groups.size(); ++i) {
@@ -120,14 +164,42 @@ void Simulator::Initialize() {
   RunPublishes();
 }
 
+void Simulator::SkipPublished(std::size_t i) {
+  const std::size_t beat = diagram_.plan().groups.size() + i;
+  if (clock_->Time(beat, publishes_[i].count) == context_.time()) ++publishes_[i].count;
+}
+
+void Simulator::FollowTime() {
+  const Plan& plan = diagram_.plan();
+  const double now = context_.time();
+  for (std::size_t i = 0; i < plan.groups.size(); ++i) {
+    std::int64_t& count = plan.group_counts(context_)[i];
+    count = clock_->Follow(i, count, now);
+  }
+  for (std::size_t i = 0; i < publishes_.size(); ++i) {
+    const std::int64_t followed = clock_->Follow(plan.groups.size() + i, publishes_[i].count, now);
+    if (followed == publishes_[i].count) continue;
+    publishes_[i].count = followed;
+    SkipPublished(i);
+  }
+}
+
 bool Simulator::AdvanceTo(double time) {
-  if (!initialized_) Initialize();
+  CheckContext();
   if (!std::isfinite(time) || time < context_.time()) {
     throw ConfigError(fmt::format("simulator: time to advance to; got {}; expected at least {}",
                                   time, context_.time()));
   }
+  if (!initialized_ || context_.header().initialized == 0) {
+    Initialize();
+  } else {
+    ConnectLog();
+    diagram_.plan().CheckInputsFixed(context_);
+  }
+  FollowTime();
+  RunPublishes();  // what failed at this instant is still due
   // Fixed inputs and states may have been set since the last call.
-  restart_ = jumped_ = true;
+  restart_ = true;
   while (context_.time() < time) {
     RunStage(System::Stage::kReset);
     RunStage(System::Stage::kUpdate);
@@ -200,6 +272,7 @@ double Simulator::NextEventTime() const {
 }
 
 void Simulator::Integrate(double to) {
+  const Plan& plan = diagram_.plan();
   const double from = context_.time();
   // A step so small is the rounding of an event's time, not motion; integrators refuse it.
   const double smallest = 4.0 * (std::nextafter(std::fabs(from), kInfinity) - std::fabs(from));
@@ -212,8 +285,7 @@ void Simulator::Integrate(double to) {
   try {
     integrator_->IntegrateTo(context_, to);
   } catch (...) {
-    context_.SetTime(from);
-    context_.SetContinuousState(saved_state_);
+    plan.SetTimeAndState(context_, from, saved_state_.data());
     throw;
   }
 }

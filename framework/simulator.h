@@ -36,19 +36,25 @@ class Simulator {
   using Publish = std::function<void(const Context&)>;
 
   /// Makes a Context of its own. The diagram must outlive the simulator.
-  /// throws ConfigError if the options are out of bounds or the periods share no clock.
+  /// throws ConfigError if the options are out of bounds or the periods share no clock, WiringError
+  /// if the diagram is nested.
   explicit Simulator(const Diagram& diagram, const IntegratorOptions& options = {});
-  /// Continues `context`, which a simulator of the same diagram may have advanced before.
+  /// Continues `context`, which a simulator of the same diagram may have advanced before. If it
+  /// was saved between two calls of AdvanceTo, or in a monitor at an instant whose updates restart
+  /// the integrator, the run goes on with the same bits.
+  /// throws WiringError if another diagram made the context.
   Simulator(const Diagram& diagram, Context context, const IntegratorOptions& options = {});
   ~Simulator();
   Simulator(const Simulator&) = delete;
   Simulator& operator=(const Simulator&) = delete;
 
+  /// May be assigned a saved Context of the same diagram, or given another time; events that lie
+  /// before the new time are skipped.
   Context& context() { return context_; }
   const Context& context() const { return context_; }
 
-  /// Called at 0, period, 2 period, ... after the diagram's own publish events. Add before
-  /// Initialize.
+  /// Called at 0, period, 2 period, ... after the diagram's own publish events.
+  /// throws ConfigError if the period is not positive or the simulator is already initialized.
   void AddPublish(const Period& period, Publish publish);
   /// Called after every step.
   void AddMonitor(Monitor monitor);
@@ -61,7 +67,8 @@ class Simulator {
   void Initialize();
   /// Advances to `time` (s). Returns false if a monitor ended it earlier.
   /// throws ConfigError if `time` is not finite or lies in the past, SimulationError if a
-  /// calculation fails; the context then holds the last state before the failure.
+  /// calculation fails; the context then holds the last state before the failure, and a further
+  /// call tries again from there.
   bool AdvanceTo(double time);
 
   const SimulatorStatistics& statistics() const { return statistics_; }
@@ -73,6 +80,10 @@ class Simulator {
     Publish publish;
   };
 
+  void CheckContext() const;
+  void ConnectLog();
+  void FollowTime();
+  void SkipPublished(std::size_t own_publish);
   void RunStage(System::Stage stage);
   void RunPublishes();
   double NextEventTime() const;
@@ -85,8 +96,9 @@ class Simulator {
   std::vector<OwnPublish> publishes_;
   std::vector<Monitor> monitors_;
   std::vector<int> due_;  ///< events of the present stage
+  Log* log_{nullptr};
   bool restart_{true};
-  bool jumped_{true};
+  bool jumped_{false};
   bool initialized_{false};
   Eigen::VectorXd saved_state_;  ///< at the start of an integration, in case it fails
   SimulatorStatistics statistics_;
