@@ -179,8 +179,8 @@ TEST(CachingTest, ACopiedContextKeepsItsCacheAndGoesItsOwnWay) {
 }
 
 TEST(CachingTest, AnExportedInputThatNobodyFixedIsNamedWhateverItsType) {
-  const auto map = MakeDiagramOf(std::make_unique<blocks::Map>([](double) { return 0.0; }), "map");
-  const auto sink = MakeDiagramOf(std::make_unique<blocks::LabelSink>(), "sink");
+  const auto map = MakeDiagramOf(std::make_unique<blocks::Map>([](double) { return 0.0; }));
+  const auto sink = MakeDiagramOf(std::make_unique<blocks::LabelSink>());
   const auto text_of = [](const auto& call) -> std::string {
     try {
       call();
@@ -190,9 +190,9 @@ TEST(CachingTest, AnExportedInputThatNobodyFixedIsNamedWhateverItsType) {
     return "";
   };
   EXPECT_EQ(text_of([&] { map->GetOutput<Vector>("out").Eval(map->MakeContext()); }),
-            "map.in at t = 0 s: the exported input has not been fixed");
+            "system.in at t = 0 s: the exported input has not been fixed");
   EXPECT_EQ(text_of([&] { sink->GetOutput<Label>("out").Eval(sink->MakeContext()); }),
-            "sink.in at t = 0 s: the exported input has not been fixed");
+            "system.in at t = 0 s: the exported input has not been fixed");
 }
 
 }  // namespace
