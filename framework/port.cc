@@ -52,6 +52,10 @@ void CheckVector(const double* values, Eigen::Index size, Slot slot) {
   }
 }
 
+void ThrowNotFinite(const char* type) {
+  throw ConfigError(fmt::format("{}: got a NaN or an infinity; expected finite numbers", type));
+}
+
 }  // namespace internal
 
 VectorView ContinuousState::Get(const Context& context) const {

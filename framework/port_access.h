@@ -20,6 +20,8 @@ void MarkChanged(const InputHandle& input, Context& context);
 void MarkChanged(const StateHandle& state, Context& context);
 /// throws ConfigError unless the vector has the slot's length and is finite.
 void CheckVector(const double* values, Eigen::Index size, Slot slot);
+/// throws ConfigError.
+[[noreturn]] void ThrowNotFinite(const char* type);
 
 template <class T, class Value>
 void Assign(Location at, const Value& value) {
@@ -28,7 +30,9 @@ void Assign(Location at, const Value& value) {
     CheckVector(vector.data(), vector.size(), at.slot);
     ViewOf<Vector>::Write(at.arena, at.slot) = vector;
   } else {
-    ViewOf<T>::Write(at.arena, at.slot) = value;
+    const T& object = value;
+    if (!Signal<T>::Finite(object)) ThrowNotFinite(Signal<T>::kName);
+    ViewOf<T>::Write(at.arena, at.slot) = object;
   }
 }
 
