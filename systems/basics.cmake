@@ -1,13 +1,24 @@
 # SPDX-License-Identifier: BSD-3-Clause
 set(basics
+  constant
+  delay
+  delay_line
   delta_limiter
   delta_overlay
   delta_relaxation
+  first_order_lag
   gain
+  integrator
   integrator_plant
   joint_servo
   key_points
   linear_interpolator
+  ramp_source
   require
+  saturation
+  sine_source
   spline_generator
-  trajectory)
+  step_source
+  sum
+  trajectory
+  zero_order_hold)

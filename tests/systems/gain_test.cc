@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "framework/error.h"
 #include "tests/system_bench.h"
 
@@ -24,6 +26,10 @@ TEST(GainTest, MultipliesEachComponentByItsOwnFactor) {
 TEST(GainTest, RefusesAnInputOfAnotherLength) {
   SystemBench<Gain> bench(Gain::Params{.gain = Eigen::VectorXd(Eigen::Vector2d(1.0, 2.0))});
   EXPECT_THROW(bench->in.Fix(bench.context(), Eigen::Vector3d::Ones()), ConfigError);
+}
+
+TEST(GainTest, RefusesAGainThatIsNotFinite) {
+  EXPECT_THROW(Gain({.gain = std::numeric_limits<double>::quiet_NaN()}), ConfigError);
 }
 
 }  // namespace

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "systems/delay_line.h"
+
+#include "framework/error.h"
+
+namespace oca::systems {
+
+void DelayLine::Fill(std::size_t steps, const Eigen::Ref<const Eigen::VectorXd>& initial) {
+  size_ = initial.size();
+  next_ = 0;
+  values_.clear();
+  for (std::size_t step = 0; step < steps; ++step) {
+    values_.insert(values_.end(), initial.data(), initial.data() + size_);
+  }
+}
+
+void DelayLine::Push(const Eigen::Ref<const Eigen::VectorXd>& sample) {
+  MutableVectorView(values_.data() + next_ * size_, size_) = sample;
+  next_ = (next_ + 1) * size_ == static_cast<Eigen::Index>(values_.size()) ? 0 : next_ + 1;
+}
+
+}  // namespace oca::systems
+
+namespace oca {
+
+bool Signal<systems::DelayLine>::Finite(const systems::DelayLine& line) {
+  return AllFinite(line.values().data(), line.values().size());
+}
+
+void Signal<systems::DelayLine>::WriteJson(const systems::DelayLine& line, std::string& out) {
+  WriteVectorJson(line.values().data(), line.values().size(), out);
+}
+
+systems::DelayLine Signal<systems::DelayLine>::ReadJson(std::string_view /*text*/) {
+  throw ConfigError("DelayLine: internal state; got JSON; expected none");
+}
+
+}  // namespace oca

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "systems/first_order_lag.h"
+
+#include "systems/require.h"
+
+namespace oca::systems {
+namespace {
+
+FirstOrderLag::Params Checked(const FirstOrderLag::Params& params) {
+  RequireAbove("time_constant", params.time_constant, 0.0);
+  RequireFinite("initial", params.initial);
+  return params;
+}
+
+}  // namespace
+
+void FirstOrderLag::Params::Describe(Fields<Params>& fields) {
+  fields.Add("time_constant", &Params::time_constant, "s", "time to cover 63 % of a step")
+      .Above(0.0)
+      .Required();
+  fields.Add("initial", &Params::initial, "", "output at the start");
+}
+
+FirstOrderLag::FirstOrderLag(const Params& params)
+    : params_(Checked(params)),
+      size_(
+          DeclareSize({{"time_constant", &params_.time_constant}, {"initial", &params_.initial}})),
+      unit_(DeclareUnit()),
+      x_(DeclareContinuousState("x", {size_, unit_}, params_.initial)),
+      in(DeclareInput<Vector>("in", {size_, unit_})),
+      out(DeclareStateOutput("out", x_)) {
+  DeclareDerivative<&FirstOrderLag::CalcDerivative>(x_, in, x_);
+}
+
+void FirstOrderLag::CalcDerivative(VectorView in_value, VectorView x,
+                                   MutableVectorView derivative) const {
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    derivative[i] = (in_value[i] - x[i]) / params_.time_constant[i];
+  }
+}
+
+}  // namespace oca::systems
