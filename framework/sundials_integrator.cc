@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <exception>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -79,6 +80,10 @@ class SundialsIntegrator : public Integrator {
     auto& integrator = *static_cast<SundialsIntegrator*>(self);
     // SUNDIALS may retry hundreds of times after a failure.
     if (integrator.failure_) return -1;
+    if (integrator.context_ == nullptr) {  // warming up
+      N_VConst(0.0, ydot);
+      return 0;
+    }
     try {
       integrator.plan_.SetTimeAndState(*integrator.context_, t, NV_DATA_S(y));
       integrator.plan_.EvaluateDerivatives(*integrator.context_, NV_DATA_S(ydot));
@@ -96,6 +101,34 @@ class SundialsIntegrator : public Integrator {
     for (std::size_t i = 0; i < integrator.state_.size(); ++i) {
       w[i] = 1.0 / (integrator.relative_[i] * std::fabs(x[i]) + integrator.absolute_[i]);
     }
+    return 0;
+  }
+
+  /// Forward differences, column by column. SUNDIALS has its own, which takes memory from the heap
+  /// for every Jacobian.
+  ///
+  /// source Dennis and Schnabel 1983, section 5.4: increments of sqrt(epsilon) times the size of
+  ///        the state, which is typically no less than where the absolute tolerance takes over
+  static int DenseJacobian(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix jacobian, void* self,
+                           N_Vector moved, N_Vector f_moved, N_Vector /*unused*/) {
+    auto& integrator = *static_cast<SundialsIntegrator*>(self);
+    const double root_epsilon = std::sqrt(std::numeric_limits<double>::epsilon());
+    double* x = NV_DATA_S(moved);
+    const double* f = NV_DATA_S(fy);
+    const double* f_of_x = NV_DATA_S(f_moved);
+    const std::size_t n = integrator.state_.size();
+    std::copy_n(NV_DATA_S(y), n, x);
+    for (std::size_t j = 0; j < n; ++j) {
+      const double at = x[j];
+      const double typical = integrator.absolute_[j] / integrator.relative_[j];
+      x[j] += root_epsilon * std::max(std::fabs(at), typical);
+      const double increment = x[j] - at;  // as it was rounded
+      if (const int flag = RightHandSide(t, moved, f_moved, self); flag != 0) return flag;
+      double* column = SUNDenseMatrix_Column(jacobian, static_cast<sunindextype>(j));
+      for (std::size_t i = 0; i < n; ++i) column[i] = (f_of_x[i] - f[i]) / increment;
+      x[j] = at;
+    }
+    integrator.statistics_.derivative_calls += static_cast<std::int64_t>(n);
     return 0;
   }
 
@@ -161,6 +194,7 @@ class ErkIntegrator final : public SundialsIntegrator {
     if (std::isfinite(options.max_step)) {
       CheckFlag(ERKStepSetMaxStep(memory_, options.max_step), "ERKStepSetMaxStep");
     }
+    WarmUp();
   }
   ~ErkIntegrator() override { ERKStepFree(&memory_); }
 
@@ -197,6 +231,15 @@ class ErkIntegrator final : public SundialsIntegrator {
   }
 
  private:
+  /// The first step takes memory; it is made here, at rest, so that no later one does.
+  void WarmUp() {
+    if (state_.empty()) return;
+    double reached = 0.0;
+    CheckFlag(ERKStepEvolve(memory_, 1.0, y_, &reached, ARK_ONE_STEP), "ERKStepEvolve");
+    ForgetCounters();
+    statistics_ = {};
+  }
+
   void CheckFlag(int flag, const char* call) {
     if (flag >= 0 && !failure_) return;
     char* name = ERKStepGetReturnFlagName(flag);
@@ -233,7 +276,9 @@ class CvodeIntegrator final : public SundialsIntegrator {
       jacobian_ = SUNDenseMatrix(n, n, sundials_);
       solver_ = SUNLinSol_Dense(y_, jacobian_, sundials_);
       CheckFlag(CVodeSetLinearSolver(memory_, solver_, jacobian_), "CVodeSetLinearSolver");
+      CheckFlag(CVodeSetJacFn(memory_, DenseJacobian), "CVodeSetJacFn");
     }
+    WarmUp();
   }
   ~CvodeIntegrator() override {
     CVodeFree(&memory_);
@@ -268,6 +313,15 @@ class CvodeIntegrator final : public SundialsIntegrator {
   }
 
  private:
+  /// The first step takes memory; it is made here, at rest, so that no later one does.
+  void WarmUp() {
+    if (state_.empty()) return;
+    double reached = 0.0;
+    CheckFlag(CVode(memory_, 1.0, y_, &reached, CV_ONE_STEP), "CVode");
+    ForgetCounters();
+    statistics_ = {};
+  }
+
   void CheckFlag(int flag, const char* call) {
     if (flag >= 0 && !failure_) return;
     char* name = CVodeGetReturnFlagName(flag);
