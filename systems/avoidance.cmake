@@ -1,11 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 set(avoidance
   attractive_field
+  avoidance_log
+  bullet_distance
   force_sum
   jacobian_mapping
+  motion_metrics
+  obstacle_motion
+  obstacle_source
   repulsive_field
   robot_kinematics
   signals
   wrench_transform)
-set(avoidance_headers geometry_params.h model_links.h rotation.h)
-set(avoidance_sources geometry_params.cc json_fields.cc model_links.cc rotation.cc)
+set(avoidance_headers geometry_params.h link_colliders.h model_links.h motion_metrics_value.h
+    rotation.h)
+set(avoidance_sources geometry_params.cc json_fields.cc link_colliders.cc model_links.cc
+    motion_metrics_value.cc motion_tally.cc rotation.cc waypoint_table.cc)

@@ -12,6 +12,7 @@ ForceSum::ForceSum(const Params& /*params*/)
 
 void ForceSum::CalcForces(const LinkForceSet& first, const LinkForceSet& second,
                           LinkForceSet& sum) const {
+  sum.forces.reserve(first.forces.capacity() + second.forces.capacity());
   sum.forces.assign(first.forces.begin(), first.forces.end());
   sum.forces.insert(sum.forces.end(), second.forces.begin(), second.forces.end());
 }

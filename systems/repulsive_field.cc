@@ -49,6 +49,7 @@ double RepulsiveField::Magnitude(double distance) const {
 
 void RepulsiveField::CalcForces(const ProximitySet& proximity_set, LinkForceSet& force_set) const {
   force_set.forces.clear();
+  force_set.forces.reserve(proximity_set.proximities.capacity());  // so no later tick allocates
   for (const Proximity& proximity : proximity_set.proximities) {
     force_set.forces.push_back({proximity.link, proximity.obstacle,
                                 Magnitude(proximity.distance) * proximity.normal,

@@ -23,6 +23,7 @@ void WrenchTransform::CalcWrenches(const LinkForceSet& force_set, const LinkPose
                                    WrenchSet& wrench_set) const {
   auto& all = wrench_set.wrenches;
   all.clear();
+  all.reserve(poses.size());
   int index = 0;  // the next force is often on the same link or a later one
   for (const LinkForce& force : force_set.forces) {
     index = poses.Find(force.link, index);
@@ -48,6 +49,7 @@ void WrenchTransform::CalcWrenches(const LinkForceSet& force_set, const LinkPose
 void WrenchTransform::CalcInLink(const WrenchSet& in_world, const LinkPoses& poses,
                                  WrenchSet& in_link) const {
   in_link.wrenches.clear();
+  in_link.wrenches.reserve(poses.size());
   int index = 0;
   for (const LinkWrench& wrench : in_world.wrenches) {
     index = poses.Find(wrench.link, index);

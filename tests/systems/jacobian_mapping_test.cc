@@ -4,13 +4,43 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>
+#include <cmath>
+#include <cstdlib>
 
 #include "framework/error.h"
 #include "models/robot/kinematics.h"
+#include "systems/bullet_distance.h"
 #include "systems/model_links.h"
+#include "systems/obstacle_source.h"
+#include "systems/repulsive_field.h"
+#include "systems/robot_kinematics.h"
 #include "systems/wrench_transform.h"
 #include "tests/system_bench.h"
 #include "tests/systems/test_models.h"
+
+// Every malloc is counted: operator new and Eigen take their memory there. Sanitizers bring a
+// malloc of their own; there the test is skipped.
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+constexpr bool kCounting = true;
+static thread_local int allocations = 0;
+
+extern "C" {
+void* __libc_malloc(std::size_t bytes);
+void* __libc_memalign(std::size_t alignment, std::size_t bytes);
+
+void* malloc(std::size_t bytes) {
+  ++allocations;
+  return __libc_malloc(bytes);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t bytes) {
+  ++allocations;
+  return __libc_memalign(alignment, bytes);
+}
+}
+#else
+constexpr bool kCounting = false;
+static int allocations = 0;
+#endif
 
 namespace oca::systems {
 namespace {
@@ -154,6 +184,92 @@ TEST(JacobianMappingTest, RefusesParametersThatMakeNoMapping) {
   EXPECT_THROW(JacobianMapping(Params{.method = Method::kDamped, .damping = 0.0}, models),
                ConfigError);
   EXPECT_NO_THROW(JacobianMapping(Params{.damping = 0.0}, models));
+}
+
+/// The report's chain from the position to the delta, with a ball that comes near and one that
+/// appears later.
+class ChainTest : public ::testing::Test {
+ protected:
+  ChainTest() {
+    const ModelSet models = TestModels("lwr4");
+    DiagramBuilder builder;
+    ObstacleSource::Params source = ObstacleSource::Example();
+    for (const char* id : {"ball", "guest"}) {
+      ObstacleSource::ObstacleParams ball;
+      ball.id = id;
+      ball.shape.radius = 0.1;
+      ball.pose = PoseParams{Eigen::Vector3d(1.5, 0.1, 0.8), {}, {}};
+      ball.motion.emplace();
+      ball.motion->type = MotionType::kLinear;
+      ball.motion->velocity = Eigen::Vector3d(-0.5, 0.0, 0.0);
+      source.obstacles.push_back(ball);
+    }
+    source.obstacles.back().appear = 1.0;
+    const auto& obstacles = builder.Add<ObstacleSource>("obstacles", source);
+    kinematics_ = &builder.Add<RobotKinematics>("kinematics", RobotKinematics::Params{}, models);
+    const auto& distance = builder.Add<BulletDistance>(
+        "distance", BulletDistance::Params{.max_distance = 0.3, .self_collision = true}, models);
+    field_ = &builder.Add<RepulsiveField>("field", RepulsiveField::Params{});
+    const auto& wrenches = builder.Add<WrenchTransform>("wrenches", WrenchTransform::Params{});
+    mapping_ = &builder.Add<JacobianMapping>("mapping", JacobianMapping::Params{}, models);
+    builder.ExportInput("position", kinematics_->position);
+    builder.Connect(kinematics_->links, distance.links);
+    builder.Connect(obstacles.obstacles, distance.obstacles);
+    builder.Connect(distance.proximities, field_->proximities);
+    builder.Connect(field_->forces, wrenches.forces);
+    builder.Connect(kinematics_->links, wrenches.links);
+    builder.Connect(wrenches.wrenches, mapping_->wrenches);
+    builder.Connect(kinematics_->links, mapping_->links);
+    diagram_ = builder.Build();
+  }
+  VectorView DeltaAt(Context& context, double time) const {
+    Eigen::Matrix<double, 7, 1> q;
+    q << 0.3 * std::sin(time), 1.2, 0.0, -0.9, 0.1 * time, 0.5, 0.0;
+    diagram_->GetInput<Vector>("position").Fix(context, q);
+    context.SetTime(time);
+    return mapping_->delta.Eval(context);
+  }
+  const RobotKinematics* kinematics_;
+  const RepulsiveField* field_;
+  const JacobianMapping* mapping_;
+  std::unique_ptr<Diagram> diagram_;
+};
+
+TEST_F(ChainTest, TakesNoMemoryAfterTheFirstTick) {
+  if (!kCounting) GTEST_SKIP() << "malloc is not ours to count here";
+  Context context = diagram_->MakeContext();
+  DeltaAt(context, 0.0);
+  const std::size_t forces_at_first = field_->forces.Eval(context).forces.size();
+  double largest = 0.0;
+  std::size_t most_forces = 0;
+  // The names of ports are looked up before counting starts.
+  const auto position = diagram_->GetInput<Vector>("position");
+  Eigen::Matrix<double, 7, 1> q;
+  const int before = allocations;
+  for (int tick = 1; tick <= 300; ++tick) {
+    const double time = 0.01 * tick;
+    q << 0.3 * std::sin(time), 1.2, 0.0, -0.9, 0.1 * time, 0.5, 0.0;
+    position.Fix(context, q);
+    context.SetTime(time);
+    largest = std::max(largest, mapping_->delta.Eval(context).norm());
+    most_forces = std::max(most_forces, field_->forces.Eval(context).forces.size());
+  }
+  EXPECT_EQ(allocations, before);
+  EXPECT_GT(largest, 1.0);
+  EXPECT_GE(most_forces, forces_at_first + 2);
+}
+
+TEST_F(ChainTest, AClonedContextGoesOnWithTheSameBits) {
+  Context context = diagram_->MakeContext();
+  DeltaAt(context, 1.7);
+  Context clone = context;
+  for (const double time : {1.8, 2.2}) {
+    const Eigen::VectorXd expected = DeltaAt(context, time);
+    EXPECT_EQ(DeltaAt(clone, time), expected);
+    Context fresh = diagram_->MakeContext();
+    EXPECT_EQ(DeltaAt(fresh, time), expected);
+    EXPECT_GT(expected.norm(), 0.0);
+  }
 }
 
 }  // namespace

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "systems/bullet_distance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "framework/error.h"
+#include "models/error.h"
+#include "models/robot/kinematics.h"
+#include "systems/model_links.h"
+#include "systems/require.h"
+
+namespace oca::systems {
+namespace {
+
+constexpr std::size_t kMostMoving = 3;
+
+double CheckedMaxDistance(double max_distance) {
+  RequireAbove("max_distance", max_distance, 0.0);
+  return max_distance;
+}
+
+// An empty name stands for the only model there is.
+std::string NameOfModel(const ModelSet& models, const std::string& name) {
+  return name.empty() && models.all().size() == 1 ? models.all().begin()->first : name;
+}
+
+bool Moves(const models::RobotModel& model) { return model.num_positions() > 0; }
+
+int LowestMovable(const models::RobotModel& model) {
+  return model.bodies().empty() ? -1 : model.bodies().front();
+}
+
+Proximity ToProximity(models::Name link, models::Name obstacle,
+                      const models::SignedDistance& found) {
+  return {link,          obstacle,     found.distance,         found.point_a,
+          found.point_b, found.normal, Eigen::Vector3d::Zero()};
+}
+
+}  // namespace
+
+void BulletDistance::Params::Describe(Fields<Params>& fields) {
+  fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
+  fields.Add("max_distance", &Params::max_distance, "m", "distance beyond which pairs are left out")
+      .Above(0.0);
+  fields.Add("ignore", &Params::ignore, "", "pairs [link, obstacle] that are left out");
+  fields.Add("calculate_link_forces", &Params::calculate_link_forces, "",
+             "whether links of other robots and frames count as obstacles");
+  fields.Add("self_collision", &Params::self_collision, "",
+             "whether links of the robot itself count as obstacles, but for adjacent ones and "
+             "those disabled in the SRDF");
+  fields.Add("others", &Params::others, "", "models whose links count as obstacles");
+}
+
+BulletDistance::BulletDistance(const Params& params, const ModelSet& models)
+    : name_(NameOfModel(models, params.model)),
+      model_(MovableModel(models, params.model)),
+      max_distance_(CheckedMaxDistance(params.max_distance)),
+      self_collision_(params.self_collision),
+      link_forces_(params.calculate_link_forces),
+      movable_(MakeMovable()),
+      own_(self_collision_ ? MakeNeighbours(name_, *model_) : std::vector<Neighbour>()),
+      others_(MakeOthers(params, models)),
+      moving_others_(std::count_if(others_.begin(), others_.end(),
+                                   [](const Other& other) { return Moves(*other.model); })),
+      ignored_(MakeIgnored(params)),
+      links(DeclareInput<LinkPoses>("links")),
+      obstacles(DeclareInput<ObstacleSet>("obstacles")),
+      links_of_others(DeclareOtherLinks()),
+      proximities(DeclareProximities()) {}
+
+std::vector<LinkCollider> BulletDistance::MakeMovable() const {
+  std::vector<LinkCollider> colliders = MakeLinkColliders(*model_);
+  std::erase_if(colliders, [&](const LinkCollider& link) { return model_->body(link.number) < 0; });
+  return colliders;
+}
+
+std::vector<BulletDistance::Neighbour> BulletDistance::MakeNeighbours(
+    const std::string& name, const models::RobotModel& model) {
+  std::vector<Neighbour> neighbours;
+  std::vector<Eigen::Isometry3d> X_WL;
+  if (!Moves(model)) X_WL = models::LinkPoses(model, Eigen::VectorXd(0));
+  for (LinkCollider& collider : MakeLinkColliders(model)) {
+    const int link = collider.number;
+    const models::Name full_name(name + "/" + collider.link.text());
+    const bool lowest =
+        Moves(model) && (model.body(link) < 0 || model.body(link) == LowestMovable(model));
+    neighbours.push_back({std::move(collider), full_name, lowest,
+                          X_WL.empty() ? Eigen::Isometry3d::Identity() : X_WL[link]});
+  }
+  return neighbours;
+}
+
+std::vector<BulletDistance::Other> BulletDistance::MakeOthers(const Params& params,
+                                                              const ModelSet& models) {
+  std::vector<Other> others;
+  for (const std::string& name : params.others) {
+    const auto model = models.Get(name);
+    const bool again = std::any_of(others.begin(), others.end(),
+                                   [&](const Other& other) { return other.name == name; });
+    if (name.empty() || again || name == NameOfModel(models, params.model)) {
+      throw ConfigError(
+          fmt::format("others: got '{}'; expected each other model once by its name", name));
+    }
+    others.push_back({name, model, MakeNeighbours(name, *model)});
+  }
+  std::stable_partition(others.begin(), others.end(),
+                        [](const Other& other) { return Moves(*other.model); });
+  return others;
+}
+
+std::vector<std::pair<models::Name, models::Name>> BulletDistance::MakeIgnored(
+    const Params& params) const {
+  std::vector<std::pair<models::Name, models::Name>> ignored;
+  for (std::size_t i = 0; i < params.ignore.size(); ++i) {
+    const auto& pair = params.ignore[i];
+    if (pair.size() != 2) {
+      throw ConfigError(
+          fmt::format("ignore[{}]: got {} names; expected 2: [link, obstacle]", i, pair.size()));
+    }
+    try {
+      model_->FindLink(pair[0]);
+    } catch (const models::ModelError& error) {
+      throw ConfigError(fmt::format("ignore[{}]: {}", i, error.what()));
+    }
+    ignored.emplace_back(pair[0], pair[1]);
+  }
+  return ignored;
+}
+
+std::vector<Input<LinkPoses>> BulletDistance::DeclareOtherLinks() {
+  if (moving_others_ > kMostMoving) {
+    throw ConfigError(
+        fmt::format("others: got {} that move; expected at most {}", moving_others_, kMostMoving));
+  }
+  std::vector<Input<LinkPoses>> inputs;
+  for (std::size_t i = 0; i < moving_others_; ++i) {
+    inputs.push_back(DeclareInput<LinkPoses>("links_" + others_[i].name));
+  }
+  return inputs;
+}
+
+Output<ProximitySet> BulletDistance::DeclareProximities() {
+  using L = LinkPoses;
+  using B = BulletDistance;
+  const auto& of = links_of_others;
+  // What is not looked at is not read: the inputs of `others` stay, whatever the switch says.
+  switch (link_forces_ ? moving_others_ : 0) {
+    case 1:
+      return DeclareOutput<ProximitySet, &B::CalcProximities<L>>("proximities", {}, links,
+                                                                 obstacles, of[0]);
+    case 2:
+      return DeclareOutput<ProximitySet, &B::CalcProximities<L, L>>("proximities", {}, links,
+                                                                    obstacles, of[0], of[1]);
+    case 3:
+      return DeclareOutput<ProximitySet, &B::CalcProximities<L, L, L>>(
+          "proximities", {}, links, obstacles, of[0], of[1], of[2]);
+    default:
+      return DeclareOutput<ProximitySet, &B::CalcProximities<>>("proximities", {}, links,
+                                                                obstacles);
+  }
+}
+
+template <class... Poses>
+void BulletDistance::CalcProximities(const LinkPoses& poses, const ObstacleSet& set,
+                                     const Poses&... others, ProximitySet& result) const {
+  const std::array<const LinkPoses*, sizeof...(Poses) + 1> poses_of_others{&others..., nullptr};
+  CheckNames(poses);
+  std::size_t most = set.obstacles.capacity() + own_.size();
+  for (const Other& other : others_) most += other.links.size();
+  result.proximities.clear();
+  result.proximities.reserve(movable_.size() * most);  // so that no pair that comes near allocates
+  for (const LinkCollider& link : movable_) {
+    const int index = poses.Find(link.link, link.number);
+    if (index >= 0) AddLink(link, poses, index, set, poses_of_others.data(), result);
+  }
+}
+
+void BulletDistance::AddLink(const LinkCollider& link, const LinkPoses& poses, int index,
+                             const ObstacleSet& set, const LinkPoses* const* others,
+                             ProximitySet& result) const {
+  const Eigen::Isometry3d& X_WL = poses.poses[index];
+  for (const Obstacle& obstacle : set.obstacles) {
+    if (Ignored(link.link, obstacle.body->id)) continue;
+    const auto found =
+        DistanceToBody(link, X_WL, *obstacle.body->collider, obstacle.X_WO, max_distance_);
+    if (found.status == models::DistanceStatus::kBeyond) continue;
+    result.proximities.push_back(ToProximity(link.link, obstacle.body->id, found));
+    result.proximities.back().obstacle_velocity = obstacle.VelocityAt(found.point_b);
+  }
+  for (const Neighbour& own : own_) {
+    if (model_->adjacent(link.number, own.collider.number) ||
+        model_->collision_disabled(link.number, own.collider.number)) {
+      continue;
+    }
+    const int at = poses.Find(own.collider.link, own.collider.number);
+    if (at >= 0) AddOther(link, X_WL, own, poses.poses[at], result);
+  }
+  if (!link_forces_) return;
+  const bool lowest = model_->body(link.number) == LowestMovable(*model_);
+  for (std::size_t i = 0; i < others_.size(); ++i) {
+    for (const Neighbour& other : others_[i].links) {
+      if (lowest && other.lowest) continue;
+      if (i >= moving_others_) {
+        AddOther(link, X_WL, other, other.X, result);
+        continue;
+      }
+      const int at = others[i]->Find(other.collider.link, other.collider.number);
+      if (at >= 0) AddOther(link, X_WL, other, others[i]->poses[at], result);
+    }
+  }
+}
+
+void BulletDistance::AddOther(const LinkCollider& link, const Eigen::Isometry3d& X_WL,
+                              const Neighbour& other, const Eigen::Isometry3d& X_WO,
+                              ProximitySet& result) const {
+  if (Ignored(link.link, other.name)) return;
+  const auto found = DistanceToLink(link, X_WL, other.collider, X_WO, max_distance_);
+  if (found.status == models::DistanceStatus::kBeyond) return;
+  result.proximities.push_back(ToProximity(link.link, other.name, found));
+}
+
+bool BulletDistance::Ignored(models::Name link, models::Name obstacle) const {
+  return std::any_of(ignored_.begin(), ignored_.end(), [&](const auto& pair) {
+    return pair.first == link && pair.second == obstacle;
+  });
+}
+
+void BulletDistance::CheckNames(const LinkPoses& poses) const {
+  const auto& own = model_->links();
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (i < own.size() && own[i].name == poses.links[i]) continue;
+    const bool known = std::any_of(own.begin(), own.end(), [&](const models::Link& link) {
+      return link.name == poses.links[i];
+    });
+    if (known) continue;
+    throw ConfigError(fmt::format("links: got '{}'; expected a link of model '{}'",
+                                  poses.links[i].text(), name_));
+  }
+}
+
+}  // namespace oca::systems

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "framework/params.h"
+#include "framework/system.h"
+#include "systems/link_colliders.h"
+#include "systems/model_set.h"
+#include "systems/signals.h"
+
+namespace oca::systems {
+
+/// Signed distances of the movable links of a robot to what is around them, nearest points and
+/// normals: one proximity for each link and obstacle, the least over the link's solids; in the
+/// order of the model's links, and for each link first obstacles, then, with self_collision, links
+/// of the same model, then, with calculate_link_forces, links of `others`. Pairs farther apart than
+/// max_distance are left out, as are links whose pose does not come in.
+///
+/// Links count as obstacles named <model>/<link>, at rest. Left out are the pairs of `ignore`; of
+/// the same model those that are adjacent or disabled in the SRDF; and the lowest pair of two arms,
+/// which cannot avoid each other: the lowest movable link against the other arm's lowest movable
+/// link and what of the other arm cannot move.
+///
+/// Every tick is computed afresh: warm starts would let the last bits depend on which ticks were
+/// looked at before.
+///
+/// in    links         LinkPoses    of `model`
+/// in    obstacles     ObstacleSet
+/// in    links_<name>  LinkPoses    for each of `others` that has movable joints
+/// out   proximities   ProximitySet
+/// state -
+/// throws ConfigError if a model or a link of `ignore` does not exist, a pair is no pair,
+///        max_distance is not positive, or more than 3 of `others` move; while running if a link
+///        comes in that is not of the model
+/// source report section 3.2, Algorithm 2; THEORY.md section 1
+class BulletDistance final : public System {
+ public:
+  static constexpr SystemDoc kDoc{
+      "finds the nearest points of a robot's links and the obstacles",
+      "distance = min |p_link - p_obstacle|, or minus the depth of penetration",
+      "Jain, Sixt, Exner 2016, Algorithm 2"};
+  struct Params {
+    std::string model{};
+    double max_distance{0.3};
+    std::vector<std::vector<std::string>> ignore{};
+    bool calculate_link_forces{false};
+    bool self_collision{false};
+    std::vector<std::string> others{};
+    static void Describe(Fields<Params>& fields);
+  };
+  static Params Example() { return {}; }
+
+  BulletDistance(const Params& params, const ModelSet& models);
+
+ private:
+  /// A link that others keep away from.
+  struct Neighbour {
+    LinkCollider collider;
+    models::Name name;    ///< <model>/<link>
+    bool lowest;          ///< of an arm: the lowest that moves, or one that cannot
+    Eigen::Isometry3d X;  ///< in the world, if its model has no movable joint
+  };
+  struct Other {
+    std::string name;
+    std::shared_ptr<const models::RobotModel> model;
+    std::vector<Neighbour> links;
+  };
+  static std::vector<Neighbour> MakeNeighbours(const std::string& name,
+                                               const models::RobotModel& model);
+  static std::vector<Other> MakeOthers(const Params& params, const ModelSet& models);
+  std::vector<LinkCollider> MakeMovable() const;
+  std::vector<std::pair<models::Name, models::Name>> MakeIgnored(const Params& params) const;
+  std::vector<Input<LinkPoses>> DeclareOtherLinks();
+  Output<ProximitySet> DeclareProximities();
+
+  template <class... Poses>
+  void CalcProximities(const LinkPoses& poses, const ObstacleSet& set, const Poses&... others,
+                       ProximitySet& result) const;
+  void AddLink(const LinkCollider& link, const LinkPoses& poses, int index, const ObstacleSet& set,
+               const LinkPoses* const* others, ProximitySet& result) const;
+  void AddOther(const LinkCollider& link, const Eigen::Isometry3d& X_WL, const Neighbour& other,
+                const Eigen::Isometry3d& X_WO, ProximitySet& result) const;
+  bool Ignored(models::Name link, models::Name obstacle) const;
+  void CheckNames(const LinkPoses& poses) const;
+
+  const std::string name_;
+  const std::shared_ptr<const models::RobotModel> model_;
+  const double max_distance_;
+  const bool self_collision_;
+  const bool link_forces_;
+  const std::vector<LinkCollider> movable_;
+  const std::vector<Neighbour> own_;  ///< empty without self_collision
+  const std::vector<Other> others_;   ///< those that move first
+  const std::size_t moving_others_;
+  const std::vector<std::pair<models::Name, models::Name>> ignored_;
+
+ public:
+  const Input<LinkPoses> links;
+  const Input<ObstacleSet> obstacles;
+  const std::vector<Input<LinkPoses>> links_of_others;
+  const Output<ProximitySet> proximities;
+};
+
+}  // namespace oca::systems

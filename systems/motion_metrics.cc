@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "systems/motion_metrics.h"
+
+#include "systems/require.h"
+
+namespace oca::systems {
+
+void MotionMetrics::Params::Describe(Fields<Params>& fields) {
+  fields.Add("period", &Params::period, "s", "time between samples; that of control")
+      .Above(0.0)
+      .Required();
+}
+
+MotionMetrics::MotionMetrics(const Params& params)
+    : period_(params.period.seconds()),
+      spec_{DeclareSize(), DeclareUnit()},
+      x_(DeclareDiscreteState<MotionTally>("x", {})),
+      position(DeclareOptionalInput<Vector>("position", spec_)),
+      request(DeclareOptionalInput<Vector>("request", spec_)),
+      goal(DeclareOptionalInput<Vector>("goal", spec_)),
+      delta(DeclareOptionalInput<Vector>("delta", spec_)),
+      proximities(DeclareOptionalInput<ProximitySet>("proximities")),
+      tally(DeclareOutput<MotionTally, &MotionMetrics::CalcTally>(
+          "tally", {}, kTime, position, request, goal, delta, proximities, x_)),
+      metrics(DeclareOutput<MotionMetricsValue, &MotionMetrics::CalcMetrics>(
+          "metrics", {}, kTime, position, request, goal, delta, proximities, tally)) {
+  RequirePositive("period", params.period);
+  DeclareUpdate<&MotionMetrics::Update>(Every{params.period}, Writes(x_), kTime, position, request,
+                                        goal, delta, proximities);
+}
+
+void MotionMetrics::Update(double time, OptionalVector position_value, OptionalVector request_value,
+                           OptionalVector goal_value, OptionalVector delta_value,
+                           const ProximitySet* proximity_set, MotionTally& next) const {
+  next.Add({time, position_value, request_value, goal_value, delta_value, proximity_set});
+}
+
+void MotionMetrics::CalcTally(double time, OptionalVector position_value,
+                              OptionalVector request_value, OptionalVector goal_value,
+                              OptionalVector delta_value, const ProximitySet* proximity_set,
+                              const MotionTally& x, MotionTally& value) const {
+  value = x;
+  // Times of ticks are rationals rounded to doubles, so their differences are off by a little.
+  const bool pending = x.samples() == 0 || time - x.last_time() > 0.999999 * period_;
+  if (!pending) return;
+  value.Add({time, position_value, request_value, goal_value, delta_value, proximity_set});
+}
+
+void MotionMetrics::CalcMetrics(double time, OptionalVector position_value,
+                                OptionalVector request_value, OptionalVector goal_value,
+                                OptionalVector delta_value, const ProximitySet* proximity_set,
+                                const MotionTally& complete, MotionMetricsValue& value) const {
+  value =
+      complete.At({time, position_value, request_value, goal_value, delta_value, proximity_set});
+}
+
+}  // namespace oca::systems

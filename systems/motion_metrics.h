@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "framework/params.h"
+#include "framework/system.h"
+#include "systems/motion_metrics_value.h"
+
+namespace oca::systems {
+
+/// Measures a run: how near it came, how hard it was pushed, how smoothly it moved and whether it
+/// arrived. Samples are taken every `period`, which should be that of control, at the state before
+/// the updates of the instant:
+///
+///     min_distance                   least distance of all samples, its pair and its time
+///     contact_time                   sum of the times from samples at distance <= 0 to the next
+///     one first_contact_time             time of the first sample at distance <= 0 max_abs_delta
+///     largest |delta| of any joint final_error                    max_i |position_i - goal_i| now;
+///     without a goal, the request delta_sign_changes_per_second  reversals of the change of delta
+///     from sample to sample, if
+///                                    above 1e-6, a joint and s
+///     total_variation_ratio          sum |d position| / sum |d request| over joints and samples
+///     max_joint_speed                largest |d position| / period
+///     max_joint_acceleration         largest |change of d position| / period^2
+///
+/// The output at a sampling instant whose update is pending has its sample in it, so the end of a
+/// run counts, once. A metric whose inputs are not connected or without a value is null.
+///
+/// in    position, request, goal, delta  n  u   optional; n and u are common
+/// in    proximities  ProximitySet              optional
+/// out   metrics      MotionMetrics
+/// out   tally        MotionTally   the sums behind them, the present sample included
+/// state x            MotionTally
+/// throws ConfigError if period is not positive
+class MotionMetrics final : public System {
+ public:
+  static constexpr SystemDoc kDoc{"measures nearness, contact, smoothness and arrival of a run",
+                                  "extremes, sums and rates over samples taken every period", ""};
+  struct Params {
+    Period period{};
+    static void Describe(Fields<Params>& fields);
+  };
+  static Params Example() { return {.period = Period(1, 100)}; }
+
+  explicit MotionMetrics(const Params& params);
+
+ private:
+  using OptionalVector = std::optional<VectorView>;
+  const double period_;  // s
+  const PortSpec spec_;
+  const DiscreteState<MotionTally> x_;
+  void Update(double time, OptionalVector position_value, OptionalVector request_value,
+              OptionalVector goal_value, OptionalVector delta_value,
+              const ProximitySet* proximity_set, MotionTally& next) const;
+  void CalcTally(double time, OptionalVector position_value, OptionalVector request_value,
+                 OptionalVector goal_value, OptionalVector delta_value,
+                 const ProximitySet* proximity_set, const MotionTally& x, MotionTally& value) const;
+  void CalcMetrics(double time, OptionalVector position_value, OptionalVector request_value,
+                   OptionalVector goal_value, OptionalVector delta_value,
+                   const ProximitySet* proximity_set, const MotionTally& complete,
+                   MotionMetricsValue& value) const;
+
+ public:
+  const OptionalInput<Vector> position;
+  const OptionalInput<Vector> request;
+  const OptionalInput<Vector> goal;
+  const OptionalInput<Vector> delta;
+  const OptionalInput<ProximitySet> proximities;
+  const Output<MotionTally> tally;
+  const Output<MotionMetricsValue> metrics;
+};
+
+}  // namespace oca::systems

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "systems/motion_metrics_value.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "systems/json_fields.h"
+
+namespace oca {
+
+using systems::Json;
+using systems::JsonReader;
+using systems::MotionMetricsValue;
+using systems::MotionTally;
+
+namespace {
+
+using Member = std::optional<double> MotionMetricsValue::*;
+
+struct NumberField {
+  const char* key;
+  Member member;
+};
+
+// In the order of the JSON; the pair stands after the first.
+constexpr std::array kNumbers{
+    NumberField{"min_distance", &MotionMetricsValue::min_distance},
+    NumberField{"min_distance_time", &MotionMetricsValue::min_distance_time},
+    NumberField{"contact_time", &MotionMetricsValue::contact_time},
+    NumberField{"first_contact_time", &MotionMetricsValue::first_contact_time},
+    NumberField{"max_abs_delta", &MotionMetricsValue::max_abs_delta},
+    NumberField{"final_error", &MotionMetricsValue::final_error},
+    NumberField{"delta_sign_changes_per_second",
+                &MotionMetricsValue::delta_sign_changes_per_second},
+    NumberField{"total_variation_ratio", &MotionMetricsValue::total_variation_ratio},
+    NumberField{"max_joint_speed", &MotionMetricsValue::max_joint_speed},
+    NumberField{"max_joint_acceleration", &MotionMetricsValue::max_joint_acceleration}};
+
+constexpr const char* kPair = "min_distance_pair";
+
+}  // namespace
+
+bool Signal<MotionMetricsValue>::Finite(const MotionMetricsValue& value) {
+  return std::all_of(kNumbers.begin(), kNumbers.end(), [&](const NumberField& field) {
+    const auto& number = value.*field.member;
+    return !number || AllFinite(&*number, 1);
+  });
+}
+
+void Signal<MotionMetricsValue>::WriteJson(const MotionMetricsValue& value, std::string& out) {
+  Json json;
+  for (const auto& [key, member] : kNumbers) {
+    const auto& number = value.*member;
+    json[key] = number ? Json(*number) : Json();
+    if (member != &MotionMetricsValue::min_distance) continue;
+    json[kPair] =
+        number ? Json{value.min_distance_link.text(), value.min_distance_obstacle.text()} : Json();
+  }
+  out += json.dump();
+}
+
+MotionMetricsValue Signal<MotionMetricsValue>::ReadJson(std::string_view text) {
+  const Json json = systems::ParseJson(text);
+  const JsonReader reader(json, "metrics");
+  reader.CheckKeys({"min_distance", kPair, "min_distance_time", "contact_time",
+                    "first_contact_time", "max_abs_delta", "final_error",
+                    "delta_sign_changes_per_second", "total_variation_ratio", "max_joint_speed",
+                    "max_joint_acceleration"});
+  MotionMetricsValue value;
+  for (const auto& [key, member] : kNumbers) {
+    if (!json[key].is_null()) value.*member = reader.At(key).Number();
+  }
+  if (!json[kPair].is_null()) {
+    std::array<std::string, 2> names;
+    std::size_t count = 0;
+    reader.At(kPair).ForEach([&](const JsonReader& item) {
+      if (count < names.size()) names[count] = item.Label();
+      ++count;
+    });
+    if (count != names.size()) reader.At(kPair).Fail("another length", "[link, obstacle]");
+    value.min_distance_link = models::Name(names[0]);
+    value.min_distance_obstacle = models::Name(names[1]);
+  }
+  return value;
+}
+
+bool Signal<MotionTally>::Finite(const MotionTally& value) {
+  const auto finite = [](const Eigen::VectorXd& vector) {
+    return AllFinite(vector.data(), static_cast<std::size_t>(vector.size()));
+  };
+  const std::array numbers{value.last_time_,     value.min_distance_.value_or(0.0),
+                           value.contact_time_,  value.max_abs_delta_,
+                           value.position_path_, value.request_path_,
+                           value.max_speed_,     value.max_acceleration_};
+  return AllFinite(numbers.data(), numbers.size()) && finite(value.position_) &&
+         finite(value.velocity_) && finite(value.request_) && finite(value.delta_);
+}
+
+void Signal<MotionTally>::WriteJson(const MotionTally& value, std::string& out) {
+  out += fmt::format(R"({{"samples":{},"time":{}}})", value.samples_, value.last_time_);
+}
+
+MotionTally Signal<MotionTally>::ReadJson(std::string_view text) {
+  const Json json = systems::ParseJson(text);
+  const JsonReader reader(json, "tally");
+  reader.CheckKeys({"samples", "time"});
+  MotionTally tally;
+  tally.samples_ = static_cast<int>(reader.At("samples").Number());
+  tally.last_time_ = reader.At("time").Number();
+  return tally;
+}
+
+}  // namespace oca

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "framework/signal.h"
+#include "models/name.h"
+#include "systems/signals.h"
+
+namespace oca::systems {
+
+/// What a run has been like so far; a metric without a source has no value. JSON: an object with
+/// every metric, null where there is no value; min_distance_pair is [link, obstacle].
+struct MotionMetricsValue {
+  std::optional<double> min_distance;  ///< signed, m
+  models::Name min_distance_link;
+  models::Name min_distance_obstacle;
+  std::optional<double> min_distance_time;              ///< s
+  std::optional<double> contact_time;                   ///< total time at distance <= 0, s
+  std::optional<double> first_contact_time;             ///< s; none if there was no contact
+  std::optional<double> max_abs_delta;                  ///< of the applied delta; rad, m
+  std::optional<double> final_error;                    ///< max norm against the goal; rad, m
+  std::optional<double> delta_sign_changes_per_second;  ///< mean over joints; 1/s
+  std::optional<double> total_variation_ratio;  ///< path of q over path of the request, joint space
+  std::optional<double> max_joint_speed;        ///< rad/s, m/s
+  std::optional<double> max_joint_acceleration;  ///< rad/s^2, m/s^2
+};
+
+/// What the signals were at one instant; those that do not exist are empty.
+struct MotionSample {
+  double time;
+  std::optional<VectorView> position;
+  std::optional<VectorView> request;
+  std::optional<VectorView> goal;
+  std::optional<VectorView> delta;
+  const ProximitySet* proximities;
+};
+
+/// The sums behind the metrics, sample by sample in the order of time. Nothing allocates after the
+/// first samples. JSON: {"samples", "time"}, which is all that is read back.
+class MotionTally {
+ public:
+  int samples() const { return samples_; }
+  double last_time() const { return last_time_; }
+
+  void Add(const MotionSample& sample);
+  /// The metrics at `now`, which is not before the last sample; only the final error reads more of
+  /// it than the time.
+  MotionMetricsValue At(const MotionSample& now) const;
+
+ private:
+  friend struct Signal<MotionTally>;
+  void AddDistance(const MotionSample& sample);
+  void AddPosition(VectorView position, double step);
+  void AddDelta(VectorView delta);
+
+  int samples_{0};
+  double first_time_{0.0};
+  double last_time_{0.0};
+  std::optional<double> min_distance_;
+  models::Name min_distance_link_;
+  models::Name min_distance_obstacle_;
+  double min_distance_time_{0.0};
+  bool in_contact_{false};
+  double contact_time_{0.0};
+  std::optional<double> first_contact_time_;
+  double max_abs_delta_{0.0};
+  double reversals_{0.0};
+  double position_path_{0.0};
+  double request_path_{0.0};
+  double max_speed_{0.0};
+  double max_acceleration_{0.0};
+  Eigen::VectorXd position_;         // of the last sample
+  Eigen::VectorXd velocity_;         // between the last two samples
+  Eigen::VectorXd request_;          // of the last sample
+  Eigen::VectorXd delta_;            // of the last sample
+  Eigen::VectorXd delta_direction_;  // sign of the last change of each delta; 0 none yet
+};
+
+}  // namespace oca::systems
+
+namespace oca {
+
+template <>
+struct Signal<systems::MotionMetricsValue> {
+  static constexpr const char* kName = "MotionMetrics";
+  static bool Finite(const systems::MotionMetricsValue& value);
+  static void WriteJson(const systems::MotionMetricsValue& value, std::string& out);
+  static systems::MotionMetricsValue ReadJson(std::string_view text);
+};
+template <>
+struct Signal<systems::MotionTally> {
+  static constexpr const char* kName = "MotionTally";
+  static bool Finite(const systems::MotionTally& value);
+  static void WriteJson(const systems::MotionTally& value, std::string& out);
+  static systems::MotionTally ReadJson(std::string_view text);
+};
+
+}  // namespace oca

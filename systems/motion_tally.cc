@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+
+#include "systems/motion_metrics_value.h"
+
+namespace oca::systems {
+namespace {
+
+// A change of the delta below this is none, so that rounding does not count as chatter.
+constexpr double kLeastChange = 1e-6;
+
+double MaxNorm(const Eigen::Ref<const Eigen::VectorXd>& values) {
+  return values.size() == 0 ? 0.0 : values.cwiseAbs().maxCoeff();
+}
+
+std::optional<double> FinalError(const MotionSample& now) {
+  const auto& goal = now.goal ? now.goal : now.request;
+  if (!now.position || !goal) return std::nullopt;
+  double error = 0.0;
+  for (Eigen::Index i = 0; i < goal->size(); ++i) {
+    error = std::max(error, std::fabs((*now.position)[i] - (*goal)[i]));
+  }
+  return error;
+}
+
+}  // namespace
+
+void MotionTally::Add(const MotionSample& sample) {
+  const double step = sample.time - last_time_;  // without meaning in the first sample
+  if (samples_ == 0) first_time_ = sample.time;
+  if (samples_ > 0 && in_contact_) contact_time_ += step;
+  AddDistance(sample);
+  if (sample.position) AddPosition(*sample.position, step);
+  if (sample.request) {
+    if (samples_ > 0) request_path_ += (*sample.request - request_).lpNorm<1>();
+    request_ = *sample.request;
+  }
+  if (sample.delta) AddDelta(*sample.delta);
+  last_time_ = sample.time;
+  ++samples_;
+}
+
+void MotionTally::AddDistance(const MotionSample& sample) {
+  in_contact_ = false;
+  if (sample.proximities == nullptr) return;
+  for (const Proximity& proximity : sample.proximities->proximities) {
+    in_contact_ |= proximity.distance <= 0.0;
+    if (min_distance_ && proximity.distance >= *min_distance_) continue;
+    min_distance_ = proximity.distance;
+    min_distance_link_ = proximity.link;
+    min_distance_obstacle_ = proximity.obstacle;
+    min_distance_time_ = sample.time;
+  }
+  if (in_contact_ && !first_contact_time_) first_contact_time_ = sample.time;
+}
+
+void MotionTally::AddPosition(VectorView position, double step) {
+  if (samples_ == 0) {
+    velocity_.resize(position.size());
+  } else {
+    position_path_ += (position - position_).lpNorm<1>();
+    for (Eigen::Index i = 0; i < position.size(); ++i) {
+      const double velocity = (position[i] - position_[i]) / step;
+      max_speed_ = std::max(max_speed_, std::fabs(velocity));
+      if (samples_ > 1) {
+        max_acceleration_ = std::max(max_acceleration_, std::fabs(velocity - velocity_[i]) / step);
+      }
+      velocity_[i] = velocity;
+    }
+  }
+  position_ = position;
+}
+
+void MotionTally::AddDelta(VectorView delta) {
+  max_abs_delta_ = std::max(max_abs_delta_, MaxNorm(delta));
+  if (samples_ == 0) {
+    delta_direction_ = Eigen::VectorXd::Zero(delta.size());
+  } else {
+    for (Eigen::Index i = 0; i < delta.size(); ++i) {
+      const double change = delta[i] - delta_[i];
+      if (std::fabs(change) <= kLeastChange) continue;
+      const double direction = change > 0.0 ? 1.0 : -1.0;
+      if (direction == -delta_direction_[i]) reversals_ += 1.0;
+      delta_direction_[i] = direction;
+    }
+  }
+  delta_ = delta;
+}
+
+MotionMetricsValue MotionTally::At(const MotionSample& now) const {
+  MotionMetricsValue value;
+  value.final_error = FinalError(now);
+  if (samples_ == 0) return value;
+  const double duration = now.time - first_time_;
+  value.min_distance = min_distance_;
+  if (min_distance_) {
+    value.min_distance_link = min_distance_link_;
+    value.min_distance_obstacle = min_distance_obstacle_;
+    value.min_distance_time = min_distance_time_;
+  }
+  if (now.proximities != nullptr) {
+    value.contact_time = contact_time_ + (in_contact_ ? now.time - last_time_ : 0.0);
+    value.first_contact_time = first_contact_time_;
+  }
+  if (now.delta) {
+    value.max_abs_delta = max_abs_delta_;
+    if (duration > 0.0 && now.delta->size() > 0) {
+      value.delta_sign_changes_per_second =
+          reversals_ / (static_cast<double>(now.delta->size()) * duration);
+    }
+  }
+  if (now.position && samples_ > 1) value.max_joint_speed = max_speed_;
+  if (now.position && samples_ > 2) value.max_joint_acceleration = max_acceleration_;
+  if (now.position && request_path_ > 0.0) {
+    value.total_variation_ratio = position_path_ / request_path_;
+  }
+  return value;
+}
+
+}  // namespace oca::systems

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "systems/obstacle_source.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "framework/error.h"
+#include "systems/require.h"
+
+namespace oca::systems {
+namespace {
+
+constexpr const char* kWorld = "world";
+
+using FramePoses = std::map<std::string, Eigen::Isometry3d>;
+
+const Eigen::Isometry3d& FindFrame(const FramePoses& frames, const std::string& name,
+                                   const std::string& where) {
+  const auto found = frames.find(name.empty() ? kWorld : name);
+  if (found != frames.end()) return found->second;
+  throw ConfigError(
+      fmt::format("{}: got '{}'; expected world or a frame listed before", where, name));
+}
+
+FramePoses MakeFrames(const std::vector<ObstacleSource::Frame>& frames) {
+  FramePoses poses{{kWorld, Eigen::Isometry3d::Identity()}};
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const std::string where = fmt::format("frames[{}]", i);
+    const Eigen::Isometry3d X_WP = FindFrame(poses, frames[i].parent, where + ".parent");
+    if (frames[i].name.empty() ||
+        !poses.emplace(frames[i].name, X_WP * frames[i].pose.Pose(where + ".pose")).second) {
+      throw ConfigError(fmt::format("{}.name: got '{}'; expected a name that is not taken", where,
+                                    frames[i].name));
+    }
+  }
+  return poses;
+}
+
+bool HasOwnPositions(const std::optional<MotionParams>& motion) {
+  return motion && (motion->type == MotionType::kWaypoints || motion->type == MotionType::kCsv);
+}
+
+Eigen::Isometry3d StartPose(const ObstacleSource::ObstacleParams& params,
+                            const std::string& where) {
+  const bool positions_elsewhere = HasOwnPositions(params.motion);
+  if (!params.pose && !positions_elsewhere) {
+    throw ConfigError(where + ": got none; expected one, {xyz, rpy}");
+  }
+  const PoseParams pose = params.pose.value_or(PoseParams{});
+  if (positions_elsewhere && !pose.xyz.isZero(0.0)) {
+    throw ConfigError(where + ".xyz: got a position; expected none, the waypoints give it");
+  }
+  return pose.Pose(where);
+}
+
+}  // namespace
+
+void ObstacleSource::Frame::Describe(Fields<Frame>& fields) {
+  fields.Add("name", &Frame::name, "", "what obstacles and later frames call it").Required();
+  fields.Add("pose", &Frame::pose, "", "in the parent frame").Required();
+  fields.Add("parent", &Frame::parent, "", "a frame listed before; the world if left out");
+}
+
+void ObstacleSource::ObstacleParams::Describe(Fields<ObstacleParams>& fields) {
+  using P = ObstacleParams;
+  fields.Add("id", &P::id, "", "unique name").Required();
+  fields.Add("shape", &P::shape, "", "about its own origin").Required();
+  fields.Add("pose", &P::pose, "", "where it starts; with waypoints only its rotation counts");
+  fields.Add("frame", &P::frame, "", "frame of pose and motion; the world if left out");
+  fields.Add("motion", &P::motion, "", "how it moves; it stands if left out");
+  fields.Add("appear", &P::appear, "s", "from when it is there; always if left out");
+  fields.Add("disappear", &P::disappear, "s", "from when it is gone; never if left out");
+}
+
+void ObstacleSource::Params::Describe(Fields<Params>& fields) {
+  fields.Add("period", &Params::period, "s", "time between samples; 0: moves continuously")
+      .AtLeast(0.0);
+  fields.Add("frames", &Params::frames, "", "frames at rest that poses may be given in");
+  fields.Add("obstacles", &Params::obstacles, "", "what is in the robot's way");
+}
+
+ObstacleSource::Params ObstacleSource::Example() {
+  ObstacleParams box;
+  box.id = "box";
+  box.shape = {ShapeType::kBox, {}, {}, Eigen::Vector3d(0.2, 0.2, 0.2), {}};
+  box.pose = PoseParams{{0.0, 0.6, 1.0}, {}, {}};
+  return {.period = Period(1, 100), .frames = {}, .obstacles = {box}};
+}
+
+ObstacleSource::ObstacleSource(const Params& params)
+    : period_(params.period), entries_(MakeEntries(params)), obstacles(DeclareObstacles(params)) {}
+
+std::vector<ObstacleSource::Entry> ObstacleSource::MakeEntries(const Params& params) {
+  RequireNotNegative("period", params.period);
+  const FramePoses frames = MakeFrames(params.frames);
+  std::set<std::string> ids;
+  std::vector<Entry> entries;
+  for (std::size_t i = 0; i < params.obstacles.size(); ++i) {
+    const ObstacleParams& obstacle = params.obstacles[i];
+    if (obstacle.id.empty() || !ids.insert(obstacle.id).second) {
+      throw ConfigError(fmt::format("obstacles[{}].id: got '{}'; expected an id that is not taken",
+                                    i, obstacle.id));
+    }
+    const std::string where = fmt::format("obstacles[{}] '{}'", i, obstacle.id);
+    entries.push_back(MakeEntry(obstacle, FindFrame(frames, obstacle.frame, where + ".frame")));
+  }
+  return entries;
+}
+
+ObstacleSource::Entry ObstacleSource::MakeEntry(const ObstacleParams& params,
+                                                const Eigen::Isometry3d& X_WF) {
+  const std::string where = fmt::format("obstacle '{}'", params.id);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Entry entry{MakeObstacleBody(params.id, params.shape, where + ".shape"),
+              X_WF,
+              {},
+              params.appear.value_or(-kInfinity),
+              params.disappear.value_or(kInfinity)};
+  entry.motion = MakeMotion(params.motion.value_or(MotionParams{}),
+                            StartPose(params, where + ".pose"), where + ".motion");
+  if (!(entry.appear < entry.disappear)) {
+    throw ConfigError(fmt::format("{}.disappear: got {} s; expected more than appear, {} s", where,
+                                  entry.disappear, entry.appear));
+  }
+  return entry;
+}
+
+Output<ObstacleSet> ObstacleSource::DeclareObstacles(const Params& params) {
+  const bool stands =
+      std::all_of(params.obstacles.begin(), params.obstacles.end(), [](const ObstacleParams& o) {
+        return (!o.motion || o.motion->type == MotionType::kStatic) && !o.appear && !o.disappear;
+      });
+  // What does not depend on the time is computed once.
+  if (stands) return DeclareOutput<ObstacleSet, &ObstacleSource::CalcStanding>("obstacles", {});
+  return DeclareOutput<ObstacleSet, &ObstacleSource::CalcObstacles>("obstacles", {}, kTime);
+}
+
+double ObstacleSource::SampleTime(double time) const {
+  if (!period_.positive()) return time;
+  const auto numerator = static_cast<double>(period_.numerator());
+  const auto denominator = static_cast<double>(period_.denominator());
+  const double ticks = time * denominator / numerator;
+  const double nearest = std::round(ticks);
+  // A tick's time is the rational rounded to a double, so `ticks` may miss the integer by a little.
+  constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
+  const bool on_tick = std::fabs(ticks - nearest) <= kRounding * std::fabs(nearest);
+  return (on_tick ? nearest : std::floor(ticks)) * numerator / denominator;
+}
+
+void ObstacleSource::CalcObstacles(double time, ObstacleSet& set) const {
+  const double sample_time = SampleTime(time);
+  set.obstacles.reserve(entries_.size());  // so that no obstacle that appears allocates
+  std::size_t count = 0;
+  for (const Entry& entry : entries_) {
+    if (sample_time < entry.appear || sample_time >= entry.disappear) continue;
+    if (count == set.obstacles.size()) set.obstacles.emplace_back();
+    Obstacle& obstacle = set.obstacles[count++];
+    if (obstacle.body != entry.body) obstacle.body = entry.body;
+    const MotionState state = entry.motion(sample_time);
+    obstacle.X_WO = entry.X_WF * state.X_FO;
+    obstacle.linear = entry.X_WF.linear() * state.linear;
+    obstacle.angular = entry.X_WF.linear() * state.angular;
+  }
+  set.obstacles.resize(count);
+}
+
+void ObstacleSource::CalcStanding(ObstacleSet& set) const { CalcObstacles(0.0, set); }
+
+}  // namespace oca::systems

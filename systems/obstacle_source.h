@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/params.h"
+#include "framework/system.h"
+#include "systems/geometry_params.h"
+#include "systems/obstacle_motion.h"
+#include "systems/signals.h"
+
+namespace oca::systems {
+
+/// Obstacles that stand or move by script. At time t the output holds each obstacle that is there,
+/// appear <= s < disappear, with its pose and twist in the world at the sample time
+///
+///     s = period floor(t / period), or t itself if period is 0.
+///
+/// s is computed from t alone and not stored: whatever else happens at a tick sees the obstacles
+/// of that tick, not of the one before. Poses and motions are given in a frame, by default the
+/// world; frames are at rest.
+///
+/// in    -
+/// out   obstacles  ObstacleSet  in the order of the parameter
+/// state -
+/// throws ConfigError for ids or frames that are empty or taken, unknown frames, bad shapes, poses,
+///        motions and times, a negative period; files are relative to the working directory
+/// source report section 3.2, Algorithm 1
+class ObstacleSource final : public System {
+ public:
+  static constexpr SystemDoc kDoc{
+      "holds obstacles that stand or move by script",
+      "pose = motion(s) for appear <= s < disappear, s = period floor(t / period)",
+      "Jain, Sixt, Exner 2016, Algorithm 1"};
+  struct Frame {
+    std::string name{};
+    PoseParams pose{};
+    std::string parent{};
+    static void Describe(Fields<Frame>& fields);
+  };
+  struct ObstacleParams {
+    std::string id{};
+    ShapeParams shape{};
+    std::optional<PoseParams> pose{};
+    std::string frame{};
+    std::optional<MotionParams> motion{};
+    std::optional<double> appear{};
+    std::optional<double> disappear{};
+    static void Describe(Fields<ObstacleParams>& fields);
+  };
+  struct Params {
+    Period period{};
+    std::vector<Frame> frames{};
+    std::vector<ObstacleParams> obstacles{};
+    static void Describe(Fields<Params>& fields);
+  };
+  static Params Example();
+
+  explicit ObstacleSource(const Params& params);
+
+ private:
+  struct Entry {
+    std::shared_ptr<const ObstacleBody> body;
+    Eigen::Isometry3d X_WF;
+    Motion motion;
+    double appear;
+    double disappear;
+  };
+  static std::vector<Entry> MakeEntries(const Params& params);
+  static Entry MakeEntry(const ObstacleParams& params, const Eigen::Isometry3d& X_WF);
+
+  const Period period_;
+  const std::vector<Entry> entries_;
+  Output<ObstacleSet> DeclareObstacles(const Params& params);
+  double SampleTime(double time) const;
+  void CalcObstacles(double time, ObstacleSet& set) const;
+  void CalcStanding(ObstacleSet& set) const;
+
+ public:
+  const Output<ObstacleSet> obstacles;
+};
+
+}  // namespace oca::systems
