@@ -19,13 +19,26 @@ Period::Period(std::int64_t numerator, std::int64_t denominator) {
   denominator_ = denominator / divisor;
 }
 
+namespace {
+
+constexpr double kNanosecondsPerSecond = 1e9;
+
+/// Two roundings (the division in the file and this one) may each cost half a unit.
+bool Rounds(double ratio, double seconds) {
+  return std::fabs(ratio - seconds) <= 2.3e-16 * std::fabs(seconds);
+}
+
+}  // namespace
+
 Period Period::FromSeconds(double seconds) {
   constexpr double kLargest = 1e9;
   if (!std::isfinite(seconds) || std::fabs(seconds) > kLargest) {
     throw ConfigError(
-        fmt::format("period: got {}; expected a finite number of seconds below 1e9", seconds));
+        fmt::format("period: got {}; expected a finite number of seconds up to 1e9", seconds));
   }
   // Convergents p/q of the continued fraction: the first that rounds to `seconds` is the simplest.
+  // Beyond the limit several ratios round to one double, and which was meant cannot be known.
+  constexpr double kLargestDenominator = 1e6;
   const double magnitude = std::fabs(seconds);
   double rest = magnitude;
   double p0 = 0.0, q0 = 1.0, p1 = 1.0, q1 = 0.0;
@@ -33,9 +46,8 @@ Period Period::FromSeconds(double seconds) {
     const double whole = std::floor(rest);
     const double p2 = whole * p1 + p0;
     const double q2 = whole * q1 + q0;
-    if (q2 > kLargest) break;
-    // Two roundings (the division in the file and this one) may each cost half a unit.
-    if (std::fabs(p2 / q2 - magnitude) <= 2.3e-16 * magnitude) {
+    if (q2 > kLargestDenominator) break;
+    if (Rounds(p2 / q2, magnitude)) {
       const auto numerator = static_cast<std::int64_t>(p2);
       return Period(seconds < 0 ? -numerator : numerator, static_cast<std::int64_t>(q2));
     }
@@ -43,8 +55,15 @@ Period Period::FromSeconds(double seconds) {
     if (rest == whole) break;
     rest = 1.0 / (rest - whole);
   }
+  const double nanoseconds = std::round(seconds * kNanosecondsPerSecond);
+  if (nanoseconds != 0.0 && Rounds(nanoseconds / kNanosecondsPerSecond, seconds)) {
+    return Period(static_cast<std::int64_t>(nanoseconds),
+                  static_cast<std::int64_t>(kNanosecondsPerSecond));
+  }
   throw ConfigError(fmt::format(
-      "period: got {:.17g} s; expected a ratio of integers with a denominator up to 1e9", seconds));
+      "period: got {:.17g} s; expected a ratio of integers with a denominator up to 1e6, or whole "
+      "nanoseconds",
+      seconds));
 }
 
 std::string Period::ToString() const {

@@ -15,8 +15,8 @@ class Period {
   constexpr Period() = default;
   /// throws ConfigError if `denominator` is not positive.
   Period(std::int64_t numerator, std::int64_t denominator);
-  /// The rational with the smallest denominator (at most 10^9) that rounds to `seconds`:
-  /// 0.01 becomes 1/100 and 0.016666666666666666 becomes 1/60.
+  /// The rational with the smallest denominator (at most 10^6) that rounds to `seconds`, else the
+  /// whole nanoseconds that do: 0.01 becomes 1/100 and 0.016666666666666666 becomes 1/60.
   /// throws ConfigError if `seconds` is not finite or no such rational exists.
   static Period FromSeconds(double seconds);
 
