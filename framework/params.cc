@@ -60,6 +60,11 @@ ordered_json NumberSchema(const FieldInfo& field, const char* type = "number") {
   return schema;
 }
 
+/// Infinity and NaN, which mean none and unset, are null: JSON has no word for them.
+std::string ShowNumber(double number) {
+  return std::isfinite(number) ? fmt::format("{}", number) : "null";
+}
+
 class NumberType final : public ParamType {
  public:
   std::string Name() const override { return "number"; }
@@ -68,7 +73,7 @@ class NumberType final : public ParamType {
     ReadNumber(value, field, where, *static_cast<double*>(target), problems);
   }
   std::string Show(const void* value) const override {
-    return fmt::format("{}", *static_cast<const double*>(value));
+    return ShowNumber(*static_cast<const double*>(value));
   }
   std::string Schema(const FieldInfo& field) const override { return NumberSchema(field).dump(); }
 };
@@ -192,7 +197,7 @@ class PerComponentType final : public ParamType {
   }
   std::string Show(const void* value) const override {
     const auto& values = *static_cast<const PerComponent*>(value);
-    return values.scalar() ? fmt::format("{}", values[0])
+    return values.scalar() ? ShowNumber(values[0])
                            : ShowNumbers(values.values().data(), values.values().size());
   }
   std::string Schema(const FieldInfo& field) const override {
@@ -366,7 +371,13 @@ const ParamType& Shared() {
 bool ReadFrequency(const Value& map, const Field& field, const std::string& prefix, void* params,
                    Problems& problems) {
   const Value* const value = map.Find("frequency");
-  if (value == nullptr || map.Find(field.key) != nullptr) return false;
+  if (value == nullptr) return false;
+  if (map.Find(field.key) != nullptr) {
+    problems.Add(
+        value->location(),
+        fmt::format("{}frequency: got it beside {}; expected one of the two", prefix, field.key));
+    return true;
+  }
   FieldInfo info{"frequency", "Hz", "", false, {.lower = 0.0, .above = true}};
   double hertz = 0.0;
   if (!ReadNumber(*value, info, prefix + "frequency", hertz, problems)) return true;
@@ -399,13 +410,11 @@ void ReadFields(const Value& value, const std::vector<Field>& fields, const std:
     return AddMismatch(value, where.empty() ? "parameters" : where, "a map", problems);
   }
   std::vector<std::string> keys;
-  bool has_frequency = false;
   for (const Field& field : fields) {
     keys.push_back(field.key);
     if (field.key == "period" && field.type == &ParamTypeOf<Period>()) {
-      has_frequency = ReadFrequency(value, field, prefix, params, problems);
-      if (has_frequency) keys.emplace_back("frequency");
-      if (has_frequency) continue;
+      keys.emplace_back("frequency");
+      if (ReadFrequency(value, field, prefix, params, problems)) continue;
     }
     if (const Value* const given = value.Find(field.key)) {
       if (given->null()) continue;  // whoever read the tree has said so
@@ -445,8 +454,9 @@ std::string SchemaOfFields(const std::vector<Field>& fields, const void* default
     if (field.required) {
       required.push_back(field.key);
     } else {
-      schema["default"] =
+      const auto shown =
           ordered_json::parse(field.type->Show(field.member(const_cast<void*>(defaults))));
+      if (!shown.is_null()) schema["default"] = shown;
     }
     properties[field.key] = std::move(schema);
     if (field.key == "period" && field.type == &ParamTypeOf<Period>()) {

@@ -49,7 +49,7 @@ class ParamType {
   /// Reads `value` into `*target`, adding to `problems` what is wrong, `where` saying which field.
   virtual void Read(const Value& value, const FieldInfo& field, const std::string& where,
                     void* target, Problems& problems) const = 0;
-  /// The value as JSON text.
+  /// The value as JSON text; null if JSON cannot say it.
   virtual std::string Show(const void* value) const = 0;
   /// JSON Schema, without the description.
   virtual std::string Schema(const FieldInfo& field) const = 0;
