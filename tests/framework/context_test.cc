@@ -199,7 +199,7 @@ TEST(ContextValueTest, RefusesStatesOfAnotherLengthOrThatAreNotFinite) {
   builder.Connect(counter.value, ode.in);
   const auto diagram = builder.Build();
   Context context = diagram->MakeContext();
-  for (const auto& bad : {Vec({1.0, 2.0}), Vec({std::nan("")}), Vec({INFINITY})}) {
+  for (const auto& bad : {Vec({1.0, 2.0}), Vec({std::nan("")}), Vec({HUGE_VAL})}) {
     EXPECT_THROW(context.SetContinuousState(bad), ConfigError);
     EXPECT_THROW(ode.x.Set(context, bad), ConfigError);
     EXPECT_THROW(counter.count.Set(context, bad), ConfigError);

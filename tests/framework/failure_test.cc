@@ -222,7 +222,7 @@ TEST(FailureOfStartTest, AnObjectThatSaysItIsNotFiniteIsRefused) {
 TEST(FailureOfStartTest, AVectorThatIsNotFiniteIsRefusedWhereItIsFixed) {
   const auto diagram = MakeDiagramOf(std::make_unique<blocks::Map>());
   Context context = diagram->MakeContext();
-  EXPECT_THROW(diagram->GetInput<Vector>("in").Fix(context, Vec({INFINITY})), ConfigError);
+  EXPECT_THROW(diagram->GetInput<Vector>("in").Fix(context, Vec({HUGE_VAL})), ConfigError);
   EXPECT_THROW(diagram->GetInput<Vector>("in").Fix(context, Vec({std::nan("")})), ConfigError);
 }
 
