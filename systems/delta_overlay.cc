@@ -32,7 +32,9 @@ DeltaOverlay::DeltaOverlay(const Params& params)
       position(DeclareOutput<Vector, &DeltaOverlay::CalcPosition>("position", {size_, unit_},
                                                                   position_in, delta)),
       velocity(DeclareOutput<Vector, &DeltaOverlay::CalcVelocity>("velocity", {size_, unit_.Rate()},
-                                                                  velocity_in, delta, x_)) {
+                                                                  velocity_in, delta, x_)),
+      applied_delta(DeclareOutput<Vector, &DeltaOverlay::CalcApplied>("applied_delta",
+                                                                      {size_, unit_}, delta)) {
   if (!params_.period.positive()) return;
   DeclareUpdate<&DeltaOverlay::Update>(Every{params_.period}, Writes(x_), delta);
 }
@@ -52,6 +54,14 @@ void DeltaOverlay::CalcVelocity(std::optional<VectorView> request, VectorView de
   }
   if (params_.enabled && params_.period.positive()) {
     sum += (delta_value - x) / params_.period.seconds();
+  }
+}
+
+void DeltaOverlay::CalcApplied(VectorView delta_value, MutableVectorView applied) const {
+  if (params_.enabled) {
+    applied = delta_value;
+  } else {
+    applied.setZero();
   }
 }
 

@@ -18,8 +18,9 @@ namespace oca::systems {
 /// in    position  n  u
 ///       velocity  n  u/s   optional; absent counts as 0
 ///       delta     n  u
-/// out   position  n  u
-///       velocity  n  u/s
+/// out   position       n  u
+///       velocity       n  u/s
+///       applied_delta  n  u    what was added: delta, or 0 if not enabled
 /// state x         n  u     delta before the last tick, starting at 0
 /// throws ConfigError if period is negative
 /// source report section 3.4 (which adds to positions only); THEORY.md section 1
@@ -46,6 +47,7 @@ class DeltaOverlay final : public System {
   void CalcPosition(VectorView request, VectorView delta_value, MutableVectorView sum) const;
   void CalcVelocity(std::optional<VectorView> request, VectorView delta_value, VectorView x,
                     MutableVectorView sum) const;
+  void CalcApplied(VectorView delta_value, MutableVectorView applied) const;
   void Update(VectorView delta_value, MutableVectorView next) const;
 
  public:
@@ -54,6 +56,7 @@ class DeltaOverlay final : public System {
   const Input<Vector> delta;
   const Output<Vector> position;
   const Output<Vector> velocity;
+  const Output<Vector> applied_delta;
 };
 
 }  // namespace oca::systems

@@ -74,6 +74,15 @@ TEST(DeltaOverlayTest, CountsAnAbsentVelocityAsZero) {
   EXPECT_DOUBLE_EQ(bench->velocity.Eval(bench.context())[0], 2.0);
 }
 
+TEST(DeltaOverlayTest, ShowsTheDeltaItAppliesAndNoneWhenDisabled) {
+  for (const bool enabled : {true, false}) {
+    OverlayBench bench({.period = Period(1, 100), .enabled = enabled});
+    bench.Fix("delta", 0.5);
+    EXPECT_EQ(bench.overlay->applied_delta.Eval(bench.simulator->context())[0],
+              enabled ? 0.5 : 0.0);
+  }
+}
+
 TEST(DeltaOverlayTest, RefusesANegativePeriod) {
   EXPECT_THROW(DeltaOverlay({.period = Period(-1, 100)}), ConfigError);
 }
