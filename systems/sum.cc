@@ -14,7 +14,9 @@ template <std::size_t>
 using ViewAt = VectorView;
 
 Eigen::VectorXd SignsOf(const Sum::Params& params) {
-  const Eigen::Index count = params.signs.size() > 0 ? params.signs.size() : params.inputs;
+  // Neither given: two inputs, the common case.
+  const Eigen::Index unsigned_count = params.inputs == 0 ? 2 : params.inputs;
+  const Eigen::Index count = params.signs.size() > 0 ? params.signs.size() : unsigned_count;
   if (params.signs.size() > 0 && params.inputs != 0) {
     throw ConfigError("inputs: given twice; got signs too; expected one of the two");
   }
@@ -35,7 +37,7 @@ Eigen::VectorXd SignsOf(const Sum::Params& params) {
 
 void Sum::Params::Describe(Fields<Params>& fields) {
   fields.Add("signs", &Params::signs, "", "+1 or -1 for each input").AtLeast(-1.0).AtMost(1.0);
-  fields.Add("inputs", &Params::inputs, "", "number of inputs, all counted +1, instead of signs")
+  fields.Add("inputs", &Params::inputs, "", "number of inputs, all counted +1, instead of signs; 0: two")
       .AtLeast(0)
       .AtMost(kMostInputs);
 }

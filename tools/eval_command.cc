@@ -94,11 +94,15 @@ class Evaluator {
     for (const auto& [key, value] : given.items()) {
       if (HasInput(key)) sizes[key] = value.is_array() ? static_cast<int>(value.size()) : -1;
     }
-    for (const auto& info : Make()->inputs()) {
+    auto system = Make();
+    for (const auto& info : system->inputs()) {
       if (info.type != &kVectorType && sizes.contains(info.name)) sizes[info.name] = -1;
     }
-    diagram_ = MakeDiagramOf(Make(), sizes);
-    simulator_ = std::make_unique<Simulator>(*diagram_);
+    diagram_ = MakeDiagramOf(std::move(system), sizes);
+    IntegratorOptions options;  // for comparison with other software, not for speed
+    options.relative_tolerance = 1e-10;
+    options.absolute_tolerance = 1e-12;
+    simulator_ = std::make_unique<Simulator>(*diagram_, options);
   }
 
   ordered_json Advance(const ordered_json& given) {
