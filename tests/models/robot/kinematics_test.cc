@@ -59,6 +59,16 @@ TEST(KinematicsTest, PosesAreRotations) {
   }
 }
 
+TEST(KinematicsTest, WhatThePosesHeldBeforeDoesNotMatter) {
+  const RobotModel model = Planar3();
+  const Eigen::Vector3d q(0.1, 0.2, 0.3);
+  std::vector<Eigen::Isometry3d> X_WL(model.num_links());
+  for (auto& X : X_WL) X.matrix().setConstant(std::nan(""));
+  ForwardKinematics(model, q, X_WL);
+  const auto expected = LinkPoses(model, q);
+  for (int i = 0; i < model.num_links(); ++i) EXPECT_EQ(X_WL[i].matrix(), expected[i].matrix());
+}
+
 TEST(KinematicsTest, ScrewsHoldTheAxisThatTheJointLeavesInPlace) {
   Random random(12);
   for (int i = 0; i < 50; ++i) {
