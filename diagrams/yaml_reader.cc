@@ -11,9 +11,11 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -24,6 +26,9 @@ namespace oca::diagrams {
 namespace {
 
 constexpr int kDeepest = 64;
+/// Maps are searched key by key, so their size is limited.
+constexpr std::size_t kMostKeys = 5000;
+constexpr std::size_t kMostProblems = 50;
 
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
@@ -105,7 +110,10 @@ class TreeBuilder final : public YAML::EventHandler {
   Value Take() { return std::move(root_); }
 
   void OnDocumentStart(const YAML::Mark& mark) override {
-    if (documents_++ > 0) problems_.Add(At(mark), "a second document; expected one");
+    // Thrown, because yaml-cpp starts one document after another at a stray bracket.
+    if (documents_++ > 0) {
+      throw YAML::ParserException(mark, "a second document or a stray bracket; expected the end");
+    }
   }
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override {
@@ -160,8 +168,14 @@ class TreeBuilder final : public YAML::EventHandler {
 
   void CheckPlainNode(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
     if (anchor != 0) problems_.Add(At(mark), "an anchor; expected a value without one");
-    if (!tag.empty() && tag != "?" && tag != "!") {
+    // yaml-cpp gives quoted text the tag "!" too.
+    const std::size_t at = static_cast<std::size_t>(mark.pos);
+    const bool written = at < text_.size() && text_[at] == '!';
+    if (written || (!tag.empty() && tag != "?" && tag != "!")) {
       problems_.Add(At(mark), fmt::format("the tag '{}'; expected a value without one", tag));
+    }
+    if (problems_.all().size() >= kMostProblems) {
+      throw YAML::ParserException(mark, "too many problems; the rest of the file is not read");
     }
   }
 
@@ -193,9 +207,15 @@ class TreeBuilder final : public YAML::EventHandler {
     if (key == "<<") {
       problems_.Add(At(mark), "the merge key '<<'; expected a plain key (include serves reuse)");
     }
-    if (const Value* const before = frame.value.Find(key)) {
+    const Value::Map& map = *frame.value.map();
+    const auto before = std::find_if(map.begin(), map.end(),
+                                     [&](const Value::Entry& entry) { return entry.key == key; });
+    if (before != map.end()) {
       problems_.Add(At(mark), fmt::format("{}: duplicate key; the first is at {}", key,
-                                          before->location().ToString()));
+                                          before->location.ToString()));
+    }
+    if (map.size() >= kMostKeys) {
+      throw YAML::ParserException(mark, fmt::format("more than {} keys in one map", kMostKeys));
     }
   }
 
@@ -251,6 +271,37 @@ class TreeBuilder final : public YAML::EventHandler {
   int documents_{0};
 };
 
+/// Length of the UTF-8 sequence that `text` begins with; 0 if it begins with none.
+std::size_t SequenceLength(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  if (byte(0) < 0x80) return 1;
+  const std::size_t length = byte(0) < 0xc2   ? 0
+                             : byte(0) < 0xe0 ? 2
+                             : byte(0) < 0xf0 ? 3
+                             : byte(0) < 0xf5 ? 4
+                                              : 0;
+  if (length == 0 || text.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+  }
+  // Longer than needed, a surrogate, or beyond the last code point.
+  const bool wrong = (byte(0) == 0xe0 && byte(1) < 0xa0) || (byte(0) == 0xed && byte(1) > 0x9f) ||
+                     (byte(0) == 0xf0 && byte(1) < 0x90) || (byte(0) == 0xf4 && byte(1) > 0x8f);
+  return wrong ? 0 : length;
+}
+
+/// yaml-cpp replaces what is not UTF-8, and its positions then no longer fit the text.
+bool IsUtf8(std::string_view text, int& line) {
+  line = 1;
+  while (!text.empty()) {
+    const std::size_t length = SequenceLength(text);
+    if (length == 0) return false;
+    if (text[0] == '\n') ++line;
+    text.remove_prefix(length);
+  }
+  return true;
+}
+
 /// yaml-cpp recurses a level; brackets that open deeper than any sane file are refused before.
 bool NestsTooDeep(std::string_view text, int& line) {
   int depth = 0;
@@ -270,7 +321,9 @@ bool NestsTooDeep(std::string_view text, int& line) {
 Value FromJson(const nlohmann::ordered_json& json, const Location& location, int depth) {
   if (depth > kDeepest) throw ConfigError(fmt::format("nested deeper than {} levels", kDeepest));
   if (json.is_boolean()) return Value(json.get<bool>(), location);
-  if (json.is_number_integer()) return Value(json.get<std::int64_t>(), location);
+  const bool beyond = json.is_number_unsigned() &&
+                      json.get<std::uint64_t>() > std::numeric_limits<std::int64_t>::max();
+  if (json.is_number_integer() && !beyond) return Value(json.get<std::int64_t>(), location);
   if (json.is_number()) return Value(json.get<double>(), location);
   if (json.is_string()) return Value(json.get<std::string>(), location);
   if (json.is_array()) {
@@ -288,11 +341,33 @@ Value FromJson(const nlohmann::ordered_json& json, const Location& location, int
   throw ConfigError("null; expected a value");
 }
 
+/// nlohmann keeps one of two equal keys without a word.
+nlohmann::ordered_json ParseStrictly(std::string_view text) {
+  using Json = nlohmann::ordered_json;
+  std::vector<std::set<std::string>> open;
+  const auto check = [&open](int /*depth*/, Json::parse_event_t event, Json& parsed) {
+    if (event == Json::parse_event_t::object_start) open.emplace_back();
+    if (event == Json::parse_event_t::object_end) open.pop_back();
+    if (event == Json::parse_event_t::key &&
+        !open.back().insert(parsed.get<std::string>()).second) {
+      throw ConfigError(fmt::format("{}: duplicate key", parsed.get<std::string>()));
+    }
+    return true;
+  };
+  return Json::parse(text, check);
+}
+
 }  // namespace
 
 Value ReadYaml(std::string_view text, const std::string& name, Problems& problems) {
   const auto shared_name = std::make_shared<const std::string>(name);
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   int line = 0;
+  if (!IsUtf8(text, line)) {
+    problems.Add({shared_name, line, 1}, "is not UTF-8; expected text");
+    return {};
+  }
   if (NestsTooDeep(text, line)) {
     problems.Add({shared_name, line, 1}, fmt::format("nested deeper than {} levels", kDeepest));
     return {};
@@ -340,7 +415,7 @@ std::string ReadTextFile(const std::filesystem::path& file) {
 Value ReadJson(std::string_view text, const std::string& name) {
   const Location location{std::make_shared<const std::string>(name), 0, 0};
   try {
-    return FromJson(nlohmann::ordered_json::parse(text), location, 0);
+    return FromJson(ParseStrictly(text), location, 0);
   } catch (const ConfigError& error) {
     throw ConfigError(fmt::format("{}: error: {}", name, error.what()));
   } catch (const nlohmann::json::exception& error) {
