@@ -2,12 +2,14 @@
 #include "diagrams/document.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
 #include <memory>
 #include <utility>
 
+#include "diagrams/diagram_file.h"
 #include "diagrams/yaml_reader.h"
 #include "framework/error.h"
 #include "framework/nearest.h"
@@ -16,6 +18,15 @@ namespace oca::diagrams {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// What a file includes by two ways counts once.
+void AddOnce(Value::List& list, Value item) {
+  const std::string place = item.location().ToString();
+  const bool there = std::any_of(list.begin(), list.end(), [&](const Value& other) {
+    return other.location().ToString() == place;
+  });
+  if (!there) list.push_back(std::move(item));
+}
 
 /// `over` wins; lists named `connections` are joined.
 void Merge(Value& base, Value over) {
@@ -31,7 +42,7 @@ void Merge(Value& base, Value over) {
       into->push_back(std::move(entry));
     } else if (entry.key == "connections" && same->value.list() != nullptr &&
                entry.value.list() != nullptr) {
-      for (Value& item : *entry.value.list()) same->value.list()->push_back(std::move(item));
+      for (Value& item : *entry.value.list()) AddOnce(*same->value.list(), std::move(item));
     } else {
       Merge(same->value, std::move(entry.value));
     }
@@ -84,7 +95,12 @@ class Includer {
           continue;
         }
         Value included = Load(folder / *item.string(), item.location());
-        if (included.map() != nullptr) Merge(base, std::move(included));
+        if (included.map() != nullptr) {
+          Merge(base, std::move(included));
+        } else if (!included.null()) {
+          problems_.Add(item.location(), fmt::format("include: {}: got {}; expected a map",
+                                                     *item.string(), included.Show()));
+        }
       }
     }
     Merge(base, Value(std::move(own), value.location()));
@@ -113,58 +129,100 @@ std::vector<std::string> KeysOf(const Value& value) {
   return keys;
 }
 
-/// The child named `key`; nullptr, with a problem, if there is none and none may be made.
-Value* Descend(Value& parent, const std::vector<std::string>& keys, std::size_t depth,
-               const Location& location, Problems& problems) {
-  const std::string& key = keys[depth];
-  if (Value::List* const list = parent.list()) {
-    std::size_t index = 0;
-    const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), index);
-    if (error == std::errc() && end == key.data() + key.size() && index < list->size()) {
-      return &(*list)[index];
+/// Follows the path of an override into the tree.
+class Path {
+ public:
+  Path(const std::string& path, const Location& location, Problems& problems)
+      : keys_(SplitPath(path)), location_(location), problems_(problems) {}
+
+  /// What the path leads to, made where it may be; nullptr, with a problem, if it leads nowhere.
+  Value* Follow(Value& root) {
+    Value* at = &root;
+    while (at != nullptr && depth_ < keys_.size()) {
+      at = at->list() != nullptr ? Item(*at->list()) : Child(*at);
     }
-    problems.Add(location, fmt::format("got '{}'; expected an index below {}", key, list->size()));
+    return at;
+  }
+
+ private:
+  Value* Item(Value::List& list) {
+    const std::string& key = keys_[depth_++];
+    std::size_t index = 0;
+    const char* const last = key.data() + key.size();
+    const auto [end, error] = std::from_chars(key.data(), last, index);
+    if (error == std::errc() && end == last && index < list.size()) return &list[index];
+    problems_.Add(location_, fmt::format("got '{}'; expected an index below {}", key, list.size()));
     return nullptr;
   }
-  Value::Map* const map = parent.map();
-  if (map == nullptr) {
-    problems.Add(location,
-                 fmt::format("'{}' lies below {}; expected a key of a map", key, parent.Show()));
-    return nullptr;
-  }
-  const auto found =
-      std::find_if(map->begin(), map->end(), [&](const auto& entry) { return entry.key == key; });
-  if (found != map->end()) return &found->value;
-  // A key that the file leaves at its default may be set; the reader of the tree knows whether it
-  // exists. Names that only the file gives must be there.
-  const bool named_by_file =
-      depth == 1 && (keys[0] == "parameters" || keys[0] == "systems" || keys[0] == "models");
-  if (named_by_file || depth + 1 < keys.size()) {
-    const bool section = depth == 0 && (key == "simulator" || key == "record");
-    if (!section) {
-      problems.Add(location, fmt::format("no '{}' there{}", key, DidYouMean(key, KeysOf(parent))));
+
+  Value* Child(Value& parent) {
+    Value::Map* const map = parent.map();
+    if (map == nullptr) {
+      problems_.Add(location_, fmt::format("'{}' lies below {}; expected a key of a map",
+                                           keys_[depth_], parent.Show()));
       return nullptr;
     }
+    // A key may hold dots itself: the longest that fits.
+    for (std::size_t end = keys_.size(); end > depth_; --end) {
+      const std::string key =
+          fmt::format("{}", fmt::join(keys_.begin() + static_cast<std::ptrdiff_t>(depth_),
+                                      keys_.begin() + static_cast<std::ptrdiff_t>(end), "."));
+      for (Value::Entry& entry : *map) {
+        if (entry.key != key) continue;
+        depth_ = end;
+        return &entry.value;
+      }
+    }
+    return MayBeMade(parent) ? Make(*map) : nullptr;
   }
-  map->push_back({key, location,
-                  depth + 1 < keys.size() ? Value(Value::Map{}, location) : Value({}, location)});
-  return &map->back().value;
-}
+
+  /// A key that the file leaves at its default may be set; the reader of the tree knows whether it
+  /// exists. Names that only the file gives must be there.
+  bool MayBeMade(const Value& parent) {
+    const std::string& key = keys_[depth_];
+    std::vector<std::string> known;
+    if (depth_ == 0) {
+      for (const Section& section : Sections()) known.emplace_back(section.key);
+      if (std::find(known.begin(), known.end(), key) != known.end()) return true;
+    } else {
+      const bool named_by_file =
+          keys_[0] == "parameters" || keys_[0] == "systems" || keys_[0] == "models";
+      if (depth_ > 1 || !named_by_file) return true;
+      known = KeysOf(parent);
+    }
+    problems_.Add(location_, fmt::format("no '{}' there{}", key, DidYouMean(key, known)));
+    return false;
+  }
+
+  Value* Make(Value::Map& map) {
+    const std::string& key = keys_[depth_++];
+    Value::Data data;
+    if (depth_ < keys_.size()) data = Value::Map{};
+    map.push_back({key, location_, Value(std::move(data), location_)});
+    return &map.back().value;
+  }
+
+  const std::vector<std::string> keys_;
+  const Location& location_;
+  Problems& problems_;
+  std::size_t depth_{0};
+};
 
 void Apply(const Override& change, Value& root, Problems& problems) {
-  const Location location{std::make_shared<const std::string>("-s " + change.path), 0, 0};
-  Problems syntax;
-  Value value = ReadYaml(change.value, "-s " + change.path, syntax);
-  if (!syntax.empty() || value.null()) {
-    problems.Add(location, fmt::format("got '{}'; expected a YAML value", change.value));
+  const std::string name = "-s " + change.path;
+  const Location location{std::make_shared<const std::string>(name), 0, 0};
+  if (change.path == "include" || change.path.starts_with("include.")) {
+    problems.Add(location, "include: cannot be overridden; expected another path");
     return;
   }
-  const std::vector<std::string> keys = SplitPath(change.path);
-  Value* at = &root;
-  for (std::size_t depth = 0; depth < keys.size() && at != nullptr; ++depth) {
-    at = Descend(*at, keys, depth, location, problems);
+  Problems syntax;
+  Value value = ReadYaml(change.value, name, syntax);
+  if (syntax.empty() && value.null()) {
+    syntax.Add(location, fmt::format("got '{}'; expected a YAML value", change.value));
   }
-  if (at != nullptr) *at = std::move(value);
+  problems.Add(syntax);
+  if (!syntax.empty()) return;
+  if (Value* const at = Path(change.path, location, problems).Follow(root)) *at = std::move(value);
 }
 
 }  // namespace

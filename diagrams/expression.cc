@@ -20,6 +20,7 @@ namespace {
 
 constexpr int kDeepest = 32;
 constexpr std::size_t kLongest = 1000;
+constexpr int kLongestChain = 100;
 
 std::string Trim(const std::string& text) {
   const auto first = text.find_first_not_of(" \t");
@@ -54,6 +55,20 @@ std::size_t FindTop(const std::string& text, char c, std::size_t from = 0) {
   return std::string::npos;
 }
 
+/// `(...)` whose first parenthesis closes at its end.
+bool IsParenthesised(const std::string& text) {
+  if (text.size() < 2 || text.front() != '(' || text.back() != ')') return false;
+  int depth = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i + 1 < text.size(); ++i) {
+    if (text[i] == '\'') quoted = !quoted;
+    if (quoted) continue;
+    if (text[i] == '(') ++depth;
+    if (text[i] == ')' && --depth == 0) return false;
+  }
+  return true;
+}
+
 bool IsLogical(const std::string& expression) {
   int depth = 0;
   for (std::size_t i = 0; i < expression.size(); ++i) {
@@ -63,12 +78,17 @@ bool IsLogical(const std::string& expression) {
       return true;
     }
   }
-  // The whole in parentheses: what counts is inside.
-  return expression.size() > 2 && expression.front() == '(' && expression.back() == ')' &&
-         IsLogical(Trim(expression.substr(1, expression.size() - 2)));
+  return false;
 }
 
 double Not(double x) { return x == 0.0 ? 1.0 : 0.0; }
+
+/// Names that an expression would not take for a parameter.
+bool IsReserved(const std::string& name) {
+  static const mu::Parser parser;
+  return name == "pi" || name == "deg" || name == "true" || name == "false" ||
+         parser.GetFunDef().contains(name);
+}
 
 std::string Text(const Value& value) {
   if (value.string() != nullptr) return *value.string();
@@ -82,9 +102,9 @@ std::string Text(const Value& value) {
 Expressions::Expressions(const Value& parameters, Problems& problems) : problems_(problems) {
   if (parameters.map() == nullptr) return;
   for (const Value::Entry& entry : *parameters.map()) {
-    if (!IsName(entry.key) || entry.key == "pi" || entry.key == "deg") {
+    if (!IsName(entry.key) || IsReserved(entry.key)) {
       problems_.Add(entry.location, fmt::format("parameters.{}: not a free name; expected letters, "
-                                                "digits and underscores, not pi or deg",
+                                                "digits and underscores, not pi, deg or a function",
                                                 entry.key));
       continue;
     }
@@ -107,7 +127,12 @@ const Value* Expressions::Parameter(const std::string& name, const Location& loc
     problems_.Add(location, fmt::format("parameters.{}: defined by itself", name));
     return nullptr;
   }
-  Value value = Resolve(*written->second);
+  if (++chain_ > kLongestChain) {
+    problems_.Add(location, fmt::format("parameters.{}: defined through more than {} others", name,
+                                        kLongestChain));
+  }
+  Value value = chain_ > kLongestChain ? Value({}, location) : Resolve(*written->second);
+  --chain_;
   open_[name] = false;
   return &resolved_.insert_or_assign(name, std::move(value)).first->second;
 }
@@ -156,6 +181,9 @@ Value Expressions::Evaluate(const std::string& expression, const Location& locat
   if (depth > kDeepest || expression.size() > kLongest) {
     problems_.Add(location, "${...}: too long or nested too deep");
     return Value({}, location);
+  }
+  if (IsParenthesised(expression)) {
+    return Evaluate(Trim(expression.substr(1, expression.size() - 2)), location, depth + 1);
   }
   if (const std::size_t question = FindTop(expression, '?'); question != std::string::npos) {
     const std::size_t colon = FindTop(expression, ':', question + 1);
@@ -225,6 +253,12 @@ Value Expressions::Arithmetic(const std::string& expression, const Location& loc
     if (names.contains("true")) parser.DefineConst("true", 1.0);
     if (names.contains("false")) parser.DefineConst("false", 0.0);
     const double result = parser.Eval();
+    if (const int count = parser.GetNumResults(); count != 1) {
+      problems_.Add(location, fmt::format("${{{}}}: got {} values; expected one (with a decimal "
+                                          "point, not a comma)",
+                                          expression, count));
+      return Value({}, location);
+    }
     if (!std::isfinite(result)) {
       problems_.Add(location, fmt::format("${{{}}}: the result is not finite", expression));
       return Value({}, location);

@@ -33,6 +33,7 @@ class Expressions {
   std::map<std::string, const Value*> written_;
   std::map<std::string, Value> resolved_;
   std::map<std::string, bool> open_;  ///< parameters being resolved, to find circles
+  int chain_{0};                      ///< how many are open
   Problems& problems_;
 };
 
