@@ -229,10 +229,14 @@ TEST(ParamsTest, ProblemsInsideNameTheWholePath) {
 TEST(ParamsTest, AllProblemsComeAtOnceEachWithFileLineAndColumn) {
   const auto file = std::make_shared<const std::string>("arm.yaml");
   const auto at = [&](int line, int column) { return Location{file, line, column}; };
-  const Value value(Value::Map{{"gain", at(2, 3), Value(-1.0, at(2, 9))},
-                               {"enabeld", at(3, 3), Value(true, at(3, 12))},
-                               {"name", at(4, 3), Value(std::int64_t{5}, at(4, 9))}},
-                    at(1, 1));
+  Value::Map map;
+  const auto add = [&](const char* key, int line, Value::Data data, int column) {
+    map.push_back({key, at(line, 3), Value(std::move(data), at(line, column))});
+  };
+  add("gain", 2, -1.0, 9);
+  add("enabeld", 3, true, 12);
+  add("name", 4, std::int64_t{5}, 9);
+  const Value value(std::move(map), at(1, 1));
   try {
     ReadParams<Everything>(value, "systems.field");
     FAIL();
