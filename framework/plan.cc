@@ -38,34 +38,38 @@ void Plan::Pull(const Context& context, int node) const {
 
 void Plan::PullRange(const Context& context, std::uint32_t begin, std::uint32_t end) const {
   NodeState* const states_of_nodes = node_states(context);
-  const std::uint64_t epoch = context.header().epoch;
-  for (std::uint32_t i = begin; i < end; ++i) {
-    const std::uint32_t node = pulls[i];
-    NodeState& state = states_of_nodes[node];
-    if (state.checked == epoch) continue;
-    if (state.computed < ClassChanged(context, nodes[node].source_class)) {
-      Compute(context, node);
-      state.computed = epoch;
-    }
-    state.checked = epoch;
-  }
-}
-
-void Plan::Compute(const Context& context, std::uint32_t index) const {
-  const Node& node = nodes[index];
   std::byte* const memory = arena(context);
+  const std::uint64_t epoch = context.header().epoch;
+  std::uint32_t last_class = Slot::kNone;  // neighbours mostly share their class
+  std::uint64_t changed = 0;
+  std::uint32_t index = 0;
   try {
-    node.function(*node.system, memory, &slots[node.first_slot]);
+    for (std::uint32_t i = begin; i < end; ++i) {
+      index = pulls[i];
+      NodeState& state = states_of_nodes[index];
+      if (state.checked == epoch) continue;
+      const Node& node = nodes[index];
+      if (node.source_class != last_class) {
+        last_class = node.source_class;
+        changed = ClassChanged(context, last_class);
+      }
+      if (state.computed < changed) {
+        node.function(*node.system, memory, &slots[node.first_slot]);
+        const std::byte* const value = memory + node.out.offset;
+        const bool finite = node.vector
+                                ? AllFinite(reinterpret_cast<const double*>(value), node.out.size)
+                                : node.type->finite(value);
+        if (!finite) FailNode(context, index);
+        state.computed = epoch;
+      }
+      state.checked = epoch;
+    }
   } catch (const SimulationError&) {
     throw;
   } catch (const std::exception& error) {
-    Fail(context, node.system, node.system->outputs()[PortOf(index)].name, error.what());
+    const System* const system = nodes[index].system;
+    Fail(context, system, system->outputs()[PortOf(index)].name, error.what());
   }
-  const bool finite =
-      node.type == &kVectorType
-          ? AllFinite(reinterpret_cast<const double*>(memory + node.out.offset), node.out.size)
-          : node.type->finite(memory + node.out.offset);
-  if (!finite) FailNode(context, index);
 }
 
 int Plan::PortOf(std::uint32_t node) const {

@@ -27,6 +27,7 @@ class Plan {
     std::uint32_t source_class;
     Slot out;
     const SignalType* type;
+    bool vector;                         ///< of type Vector
     std::uint32_t pull_begin, pull_end;  ///< into pulls: nodes it needs and itself, in order
   };
   struct SourceClass {
@@ -170,7 +171,6 @@ class Plan {
   }
   std::uint64_t ClassChanged(const Context& context, std::uint32_t source_class) const;
   void Pull(const Context& context, int node) const;
-  void Compute(const Context& context, std::uint32_t node) const;
   [[noreturn]] void Fail(const Context& context, const System* system, const std::string& port,
                          const char* what) const;
   void FailUnfixed(const Context& context, std::uint32_t source) const;

@@ -257,6 +257,7 @@ void PlanCompiler::LayOut() {
     const auto& output = leaves[info.leaf].system->outputs()[info.output];
     Plan::Node node{};
     node.type = output.type;
+    node.vector = output.type == &kVectorType;
     node.source_class = classes.at(info.sources);
     if (output.type == &kVectorType) {
       node.out.size = static_cast<std::uint32_t>(wiring_.SizeOf(info.leaf, output.spec.size));

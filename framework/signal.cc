@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
@@ -17,17 +16,6 @@ namespace oca {
 // value; the engine asks for `&kVectorType` and handles the length.
 const SignalType kVectorType{"Vector", 0,       alignof(double), nullptr, nullptr,
                              nullptr,  nullptr, nullptr,         nullptr};
-
-bool AllFinite(const double* values, std::size_t n) {
-  // Adding one to an exponent field of all ones carries into the sign bit: no branch a value.
-  constexpr std::uint64_t kExponent = 0x7ff0000000000000;
-  constexpr std::uint64_t kOne = 0x0010000000000000;
-  std::uint64_t carry = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    carry |= (std::bit_cast<std::uint64_t>(values[i]) & kExponent) + kOne;
-  }
-  return (carry >> 63) == 0;
-}
 
 void WriteVectorJson(const double* values, std::size_t n, std::string& out) {
   out += '[';

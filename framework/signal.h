@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <new>
@@ -108,7 +109,16 @@ struct ViewOf<Vector> {
 };
 
 /// True if none of the `n` doubles is a NaN or an infinity.
-bool AllFinite(const double* values, std::size_t n);
+inline bool AllFinite(const double* values, std::size_t n) {
+  // Adding one to an exponent field of all ones carries into the sign bit: no branch a value.
+  constexpr std::uint64_t kExponent = 0x7ff0000000000000;
+  constexpr std::uint64_t kOne = 0x0010000000000000;
+  std::uint64_t carry = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    carry |= (std::bit_cast<std::uint64_t>(values[i]) & kExponent) + kOne;
+  }
+  return (carry >> 63) == 0;
+}
 
 /// A vector as a JSON array of shortest round-trip numbers; null stands for NaN and infinity.
 void WriteVectorJson(const double* values, std::size_t n, std::string& out);
