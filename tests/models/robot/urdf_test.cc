@@ -65,6 +65,17 @@ TEST(UrdfTest, ReadsLimits) {
   EXPECT_EQ(model.jerk_limits(), Eigen::Vector3d(6, kUnlimited, kUnlimited));
 }
 
+TEST(UrdfTest, ContinuousJointHasNoRangeEvenIfTheFileGivesOne) {
+  const RobotModel model = ParseUrdf(
+      R"(<robot name="r"><link name="a"/><link name="b"/>
+         <joint name="spin" type="continuous"><parent link="a"/><child link="b"/>
+         <limit lower="-1" upper="1" velocity="2" effort="3"/></joint></robot>)",
+      "r.urdf");
+  EXPECT_EQ(model.lower_limits()[0], -kUnlimited);
+  EXPECT_EQ(model.upper_limits()[0], kUnlimited);
+  EXPECT_EQ(model.velocity_limits()[0], 2.0);
+}
+
 TEST(UrdfTest, ReadsCollisionShapesWithPoseAndPlace) {
   const RobotModel model = ParseUrdf(kArm, "arm.urdf");
   const std::vector<CollisionElement>& collisions = model.links()[1].collisions;
