@@ -62,8 +62,12 @@ TEST(SumTest, RefusesSignsThatAreNone) {
             "signs[1]: no sign; got 0.5; expected +1 or -1");
 }
 
-TEST(SumTest, RefusesNoInputsTooManyAndTwoAnswers) {
-  EXPECT_THAT(RefusalOf({}), HasSubstr("expected 1 to 8"));
+TEST(SumTest, AddsTwoInputsUnlessToldOtherwise) {
+  const Sum sum(Sum::Params{});
+  EXPECT_EQ(sum.in.size(), 2u);
+}
+
+TEST(SumTest, RefusesTooFewInputsTooManyAndTwoAnswers) {
   EXPECT_THAT(RefusalOf({.inputs = -1}), HasSubstr("got -1"));
   EXPECT_THAT(RefusalOf({.inputs = 9}), HasSubstr("got 9"));
   EXPECT_THAT(RefusalOf({.signs = Eigen::VectorXd::Ones(9)}), HasSubstr("signs"));
