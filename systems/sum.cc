@@ -37,7 +37,9 @@ Eigen::VectorXd SignsOf(const Sum::Params& params) {
 
 void Sum::Params::Describe(Fields<Params>& fields) {
   fields.Add("signs", &Params::signs, "", "+1 or -1 for each input").AtLeast(-1.0).AtMost(1.0);
-  fields.Add("inputs", &Params::inputs, "", "number of inputs, all counted +1, instead of signs; 0: two")
+  fields
+      .Add("inputs", &Params::inputs, "",
+           "number of inputs, all counted +1, instead of signs; 0: two")
       .AtLeast(0)
       .AtMost(kMostInputs);
 }

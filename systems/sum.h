@@ -11,13 +11,14 @@ namespace oca::systems {
 
 /// Adds and subtracts vectors: out = sum_i signs_i in_i.
 ///
-/// Give `signs`, a list of +1 and -1, one an input; or `inputs`, their number, all counted +1.
+/// Give `signs`, a list of +1 and -1, one an input; or `inputs`, their number, all counted +1; or
+/// neither for two inputs counted +1.
 ///
 /// in    in0, in1, ...  n  u   at most kMostInputs
 /// out   out            n  u
 /// state -
-/// throws ConfigError unless one of signs and inputs is given, signs are +1 or -1, and there are
-///        1 to kMostInputs inputs
+/// throws ConfigError if both signs and inputs are given, a sign is not +1 or -1, or there are
+///        not 1 to kMostInputs inputs
 class Sum final : public System {
  public:
   static constexpr int kMostInputs = 8;
