@@ -31,9 +31,9 @@ void EvalJson(const OutputHandle& output, const Context& context, std::string& o
 
 std::span<const double> EvalVector(const OutputHandle& output, const Context& context) {
   if (&TypeOfPort(output) != &kVectorType) {
-    throw WiringError({fmt::format("output '{}': type; got {}; expected Vector",
-                                   output.system->outputs()[output.index].name,
-                                   TypeOfPort(output).name)});
+    throw WiringError(
+        {fmt::format("output '{}': type; got {}; expected Vector",
+                     output.system->outputs()[output.index].name, TypeOfPort(output).name)});
   }
   const internal::Location at = internal::Find(output, context);
   return {reinterpret_cast<const double*>(at.arena + at.slot.offset), at.slot.size};

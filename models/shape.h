@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
 #include <variant>
-
-#include <Eigen/Core>
 
 namespace oca::models {
 

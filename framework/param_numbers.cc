@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "framework/param_numbers.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace oca::internal {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string WithUnit(const FieldInfo& field) { return field.unit.empty() ? "" : " " + field.unit; }
+
+void AddBounds(const Bounds& bounds, ordered_json& schema) {
+  if (std::isfinite(bounds.lower)) {
+    schema[bounds.above ? "exclusiveMinimum" : "minimum"] = bounds.lower;
+  }
+  if (std::isfinite(bounds.upper)) schema["maximum"] = bounds.upper;
+}
+
+}  // namespace
+
+void AddMismatch(const Value& value, const std::string& where, const std::string& expected,
+                 Problems& problems) {
+  problems.Add(value.location(),
+               fmt::format("{}: got {}; expected {}", where, value.Show(), expected));
+}
+
+bool ReadNumber(const Value& value, const FieldInfo& field, const std::string& where, double& out,
+                Problems& problems) {
+  double number = 0.0;
+  if (!value.number(number)) {
+    AddMismatch(value, where, "a number" + (field.unit.empty() ? "" : " in " + field.unit),
+                problems);
+    return false;
+  }
+  if (!std::isfinite(number)) {
+    AddMismatch(value, where, "a finite number", problems);
+    return false;
+  }
+  if (!field.bounds.Contains(number)) {
+    problems.Add(value.location(), fmt::format("{}: got {}{}; expected {}", where, number,
+                                               WithUnit(field), field.bounds.ToString()));
+    return false;
+  }
+  out = number;
+  return true;
+}
+
+ordered_json NumberSchema(const FieldInfo& field, const char* type) {
+  ordered_json schema{{"type", type}};
+  AddBounds(field.bounds, schema);
+  return schema;
+}
+
+std::string ShowNumber(double number) {
+  return std::isfinite(number) ? fmt::format("{}", number) : "null";
+}
+
+}  // namespace oca::internal
