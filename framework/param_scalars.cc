@@ -100,7 +100,6 @@ class PeriodType final : public ParamType {
 };
 
 /// A list of numbers of any length, or of a fixed one; optionally a lone number.
-
 bool ReadNumbers(const Value& value, const FieldInfo& field, const std::string& where,
                  Eigen::Index length, Eigen::VectorXd& out, Problems& problems) {
   const auto expected = [&] {

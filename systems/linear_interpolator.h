@@ -5,11 +5,28 @@
 #include <vector>
 
 #include "framework/params.h"
-#include "framework/system.h"
 #include "systems/key_points.h"
 #include "systems/trajectory.h"
+#include "systems/trajectory_source.h"
 
 namespace oca::systems {
+
+/// How LinearInterpolator is parameterised.
+struct LinearRequest {
+  static constexpr SystemDoc kDoc{"requested motion: straight lines between key points",
+                                  "position = p_i + (p_{i+1} - p_i) (t - t_i) / (t_{i+1} - t_i)",
+                                  "Jain, Sixt, Exner 2016, fake controller"};
+  struct Params {
+    std::vector<KeyPoint> key_points{};
+    std::string file{};
+    Period period{};
+    std::string unit{"rad"};
+    static void Describe(Fields<Params>& fields);
+  };
+  static Params Example();
+  static Params Checked(Params params);
+  static Trajectory MakeTrajectory(const Params& params);
+};
 
 /// The requested motion of the report's fake controller: straight lines between key points.
 ///
@@ -28,48 +45,6 @@ namespace oca::systems {
 /// throws ConfigError if the key points are none, not in order of time, of different lengths or
 ///        not finite; if the file cannot be read; if period < 0
 /// source report section 4.1 (fake controller)
-class LinearInterpolator final : public System {
- public:
-  static constexpr SystemDoc kDoc{"requested motion: straight lines between key points",
-                                  "position = p_i + (p_{i+1} - p_i) (t - t_i) / (t_{i+1} - t_i)",
-                                  "Jain, Sixt, Exner 2016, fake controller"};
-  struct Params {
-    std::vector<KeyPoint> key_points{};
-    std::string file{};
-    Period period{};
-    std::string unit{"rad"};
-    static void Describe(Fields<Params>& fields);
-  };
-  static Params Example();
-
-  explicit LinearInterpolator(const Params& params);
-
- private:
-  const Params params_;
-  const Trajectory trajectory_;
-  const PortSpec spec_;       ///< of the position
-  const PortSpec rate_spec_;  ///< of the velocity
-  const PortSpec rate_rate_spec_;
-  const DiscreteState<Vector> sampled_position_;  ///< this and the next two if sampled
-  const DiscreteState<Vector> sampled_velocity_;
-  const DiscreteState<Vector> sampled_acceleration_;
-
-  DiscreteState<Vector> DeclareSample(const char* name, const PortSpec& spec, int derivative);
-  template <auto kMethod>
-  Output<Vector> DeclareMotion(const char* name, const PortSpec& spec,
-                               const DiscreteState<Vector>& sampled);
-  void CalcPosition(double time, MutableVectorView out) const;
-  void CalcVelocity(double time, MutableVectorView out) const;
-  void CalcAcceleration(double time, MutableVectorView out) const;
-  void CalcGoal(MutableVectorView out) const;
-  void Sample(double time, MutableVectorView next_position, MutableVectorView next_velocity,
-              MutableVectorView next_acceleration) const;
-
- public:
-  const Output<Vector> position;
-  const Output<Vector> velocity;
-  const Output<Vector> acceleration;
-  const Output<Vector> goal;
-};
+using LinearInterpolator = TrajectorySource<LinearRequest>;
 
 }  // namespace oca::systems

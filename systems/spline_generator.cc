@@ -9,12 +9,6 @@
 namespace oca::systems {
 namespace {
 
-SplineGenerator::Params Checked(SplineGenerator::Params params) {
-  RequireNotNegative("period", params.period);
-  params.key_points = KeyPointsFrom(params.key_points, params.file);
-  return params;
-}
-
 [[noreturn]] void RefuseUnused(std::size_t point, const char* what, const char* kind,
                                const char* expected) {
   throw ConfigError(
@@ -24,7 +18,7 @@ SplineGenerator::Params Checked(SplineGenerator::Params params) {
 }
 
 /// Numbers that the spline would silently ignore are refused.
-void CheckUsed(const SplineGenerator::Params& params) {
+void CheckUsed(const SplineRequest::Params& params) {
   const auto& points = params.key_points;
   const char* const kind = EnumNames(params.kind)[static_cast<std::size_t>(params.kind)];
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -40,20 +34,6 @@ void CheckUsed(const SplineGenerator::Params& params) {
   }
 }
 
-Trajectory Interpolated(const SplineGenerator::Params& params) {
-  CheckUsed(params);
-  switch (params.kind) {
-    case SplineKind::kCubic:
-      return Trajectory::CubicHermite(params.key_points);
-    case SplineKind::kQuintic:
-      return Trajectory::QuinticHermite(params.key_points);
-    case SplineKind::kC2:
-      return Trajectory::CubicSpline(params.key_points, params.ends);
-  }
-  throw ConfigError(fmt::format("kind: unknown; got {}; expected cubic, quintic or c2",
-                                static_cast<int>(params.kind)));
-}
-
 }  // namespace
 
 std::span<const char* const> EnumNames(SplineKind) {
@@ -66,7 +46,7 @@ std::span<const char* const> EnumNames(Trajectory::Ends) {
   return kNames;
 }
 
-void SplineGenerator::Params::Describe(Fields<Params>& fields) {
+void SplineRequest::Params::Describe(Fields<Params>& fields) {
   fields.Add("kind", &Params::kind, "", "what is continuous, and what is met at key points");
   fields.Add("ends", &Params::ends, "", "of a c2 spline: clamped or natural");
   fields.Add("key_points", &Params::key_points, "", "points in order of time");
@@ -78,66 +58,29 @@ void SplineGenerator::Params::Describe(Fields<Params>& fields) {
   fields.Add("unit", &Params::unit, "", "unit of the position");
 }
 
-SplineGenerator::Params SplineGenerator::Example() {
+SplineRequest::Params SplineRequest::Example() {
   return {.key_points = {{.time = 0.0, .position = Eigen::Vector2d(0.0, 1.0)},
                          {.time = 1.0, .position = Eigen::Vector2d(0.5, -1.0)}}};
 }
 
-SplineGenerator::SplineGenerator(const Params& params)
-    : params_(Checked(params)),
-      trajectory_(Interpolated(params_)),
-      spec_{static_cast<int>(trajectory_.size()), Unit(params_.unit)},
-      rate_spec_{spec_.size, spec_.unit.Rate()},
-      rate_rate_spec_{spec_.size, rate_spec_.unit.Rate()},
-      sampled_position_(DeclareSample("position", spec_, 0)),
-      sampled_velocity_(DeclareSample("velocity", rate_spec_, 1)),
-      sampled_acceleration_(DeclareSample("acceleration", rate_rate_spec_, 2)),
-      position(DeclareMotion<&SplineGenerator::CalcPosition>("position", spec_, sampled_position_)),
-      velocity(
-          DeclareMotion<&SplineGenerator::CalcVelocity>("velocity", rate_spec_, sampled_velocity_)),
-      acceleration(DeclareMotion<&SplineGenerator::CalcAcceleration>(
-          "acceleration", rate_rate_spec_, sampled_acceleration_)),
-      goal(DeclareOutput<Vector, &SplineGenerator::CalcGoal>("goal", spec_)) {
-  if (!params_.period.positive()) return;
-  DeclareUpdate<&SplineGenerator::Sample>(
-      Every{params_.period}, Writes(sampled_position_, sampled_velocity_, sampled_acceleration_),
-      kTime);
+SplineRequest::Params SplineRequest::Checked(Params params) {
+  RequireNotNegative("period", params.period);
+  params.key_points = KeyPointsFrom(params.key_points, params.file);
+  CheckUsed(params);
+  return params;
 }
 
-DiscreteState<Vector> SplineGenerator::DeclareSample(const char* name, const PortSpec& spec,
-                                                     int derivative) {
-  if (!params_.period.positive()) return {};
-  return DeclareDiscreteState(name, spec, trajectory_.Evaluate(0.0, derivative));
-}
-
-template <auto kMethod>
-Output<Vector> SplineGenerator::DeclareMotion(const char* name, const PortSpec& spec,
-                                              const DiscreteState<Vector>& sampled) {
-  if (params_.period.positive()) return DeclareStateOutput(name, sampled);
-  return DeclareOutput<Vector, kMethod>(name, spec, kTime);
-}
-
-void SplineGenerator::CalcPosition(double time, MutableVectorView out) const {
-  trajectory_.Evaluate(time, 0, out);
-}
-
-void SplineGenerator::CalcVelocity(double time, MutableVectorView out) const {
-  trajectory_.Evaluate(time, 1, out);
-}
-
-void SplineGenerator::CalcAcceleration(double time, MutableVectorView out) const {
-  trajectory_.Evaluate(time, 2, out);
-}
-
-void SplineGenerator::CalcGoal(MutableVectorView out) const { out = trajectory_.goal(); }
-
-void SplineGenerator::Sample(double time, MutableVectorView next_position,
-                             MutableVectorView next_velocity,
-                             MutableVectorView next_acceleration) const {
-  const double end = time + params_.period.seconds();
-  trajectory_.Evaluate(end, 0, next_position);
-  trajectory_.Evaluate(end, 1, next_velocity);
-  trajectory_.Evaluate(end, 2, next_acceleration);
+Trajectory SplineRequest::MakeTrajectory(const Params& params) {
+  switch (params.kind) {
+    case SplineKind::kCubic:
+      return Trajectory::CubicHermite(params.key_points);
+    case SplineKind::kQuintic:
+      return Trajectory::QuinticHermite(params.key_points);
+    case SplineKind::kC2:
+      return Trajectory::CubicSpline(params.key_points, params.ends);
+  }
+  throw ConfigError(fmt::format("kind: unknown; got {}; expected cubic, quintic or c2",
+                                static_cast<int>(params.kind)));
 }
 
 }  // namespace oca::systems

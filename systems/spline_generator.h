@@ -6,15 +6,34 @@
 #include <vector>
 
 #include "framework/params.h"
-#include "framework/system.h"
 #include "systems/key_points.h"
 #include "systems/trajectory.h"
+#include "systems/trajectory_source.h"
 
 namespace oca::systems {
 
 enum class SplineKind { kCubic, kQuintic, kC2 };
 std::span<const char* const> EnumNames(SplineKind);
 std::span<const char* const> EnumNames(Trajectory::Ends);
+
+/// How SplineGenerator is parameterised.
+struct SplineRequest {
+  static constexpr SystemDoc kDoc{"requested motion: a spline through key points",
+                                  "position(t) = sum_k c_k ((t - t_i) / (t_{i+1} - t_i))^k",
+                                  "De Boor, A Practical Guide to Splines, chapter IV"};
+  struct Params {
+    SplineKind kind{SplineKind::kCubic};
+    Trajectory::Ends ends{Trajectory::Ends::kClamped};
+    std::vector<KeyPoint> key_points{};
+    std::string file{};
+    Period period{};
+    std::string unit{"rad"};
+    static void Describe(Fields<Params>& fields);
+  };
+  static Params Example();
+  static Params Checked(Params params);
+  static Trajectory MakeTrajectory(const Params& params);
+};
 
 /// The requested motion: a spline through key points.
 ///
@@ -37,50 +56,6 @@ std::span<const char* const> EnumNames(Trajectory::Ends);
 /// throws ConfigError if the key points are none, not in order of time, of different lengths, not
 ///        finite, or tell what `kind` cannot meet; if the file cannot be read; if period < 0
 /// source report section 3.4; formulas in trajectory.h
-class SplineGenerator final : public System {
- public:
-  static constexpr SystemDoc kDoc{"requested motion: a spline through key points",
-                                  "position(t) = sum_k c_k ((t - t_i) / (t_{i+1} - t_i))^k",
-                                  "De Boor, A Practical Guide to Splines, chapter IV"};
-  struct Params {
-    SplineKind kind{SplineKind::kCubic};
-    Trajectory::Ends ends{Trajectory::Ends::kClamped};
-    std::vector<KeyPoint> key_points{};
-    std::string file{};
-    Period period{};
-    std::string unit{"rad"};
-    static void Describe(Fields<Params>& fields);
-  };
-  static Params Example();
-
-  explicit SplineGenerator(const Params& params);
-
- private:
-  const Params params_;
-  const Trajectory trajectory_;
-  const PortSpec spec_;       ///< of the position
-  const PortSpec rate_spec_;  ///< of the velocity
-  const PortSpec rate_rate_spec_;
-  const DiscreteState<Vector> sampled_position_;  ///< this and the next two if sampled
-  const DiscreteState<Vector> sampled_velocity_;
-  const DiscreteState<Vector> sampled_acceleration_;
-
-  DiscreteState<Vector> DeclareSample(const char* name, const PortSpec& spec, int derivative);
-  template <auto kMethod>
-  Output<Vector> DeclareMotion(const char* name, const PortSpec& spec,
-                               const DiscreteState<Vector>& sampled);
-  void CalcPosition(double time, MutableVectorView out) const;
-  void CalcVelocity(double time, MutableVectorView out) const;
-  void CalcAcceleration(double time, MutableVectorView out) const;
-  void CalcGoal(MutableVectorView out) const;
-  void Sample(double time, MutableVectorView next_position, MutableVectorView next_velocity,
-              MutableVectorView next_acceleration) const;
-
- public:
-  const Output<Vector> position;
-  const Output<Vector> velocity;
-  const Output<Vector> acceleration;
-  const Output<Vector> goal;
-};
+using SplineGenerator = TrajectorySource<SplineRequest>;
 
 }  // namespace oca::systems
