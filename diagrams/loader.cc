@@ -2,6 +2,7 @@
 #include "diagrams/loader.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <fnmatch.h>
 
 #include <algorithm>
@@ -44,6 +45,7 @@ class Loader {
     ReadModels();
     ReadSystems();
     ReadConnections();
+    CheckTolerances();
     problems_.Throw();
     Build();
     ReadRecord();
@@ -59,10 +61,8 @@ class Loader {
     for (const Value::Entry& entry : *document.map()) {
       if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
       problems_.Add(entry.location,
-                    fmt::format("{}: unknown key{}; known: name, description, include, "
-                                "parameters, simulator, packages, models, systems, "
-                                "connections, record, expect",
-                                entry.key, DidYouMean(entry.key, known)));
+                    fmt::format("{}: unknown key{}; known: {}", entry.key,
+                                DidYouMean(entry.key, known), fmt::join(known, ", ")));
     }
   }
 
@@ -123,6 +123,15 @@ class Loader {
       ReadFields(entry.value, FieldsOf<ToleranceParams>(), "simulator_tolerances." + entry.key,
                  &params, problems_);
       options.tolerances[entry.key] = {params.relative, params.absolute};
+    }
+  }
+
+  void CheckTolerances() {
+    for (const Value::Entry& entry : Map("simulator_tolerances")) {
+      const auto& names = system_names_;
+      if (std::find(names.begin(), names.end(), entry.key) != names.end()) continue;
+      problems_.Add(entry.location, fmt::format("simulator_tolerances: no system '{}'{}", entry.key,
+                                                DidYouMean(entry.key, names)));
     }
   }
 
@@ -217,6 +226,12 @@ class Loader {
   void ReadSystem(const Value::Entry& entry) {
     const std::string where = "systems." + entry.key;
     system_names_.push_back(entry.key);
+    if (entry.value.map() == nullptr) {
+      if (entry.value.null()) return;
+      problems_.Add(entry.value.location(), fmt::format("{}: got {}; expected a map with a type",
+                                                        where, entry.value.Show()));
+      return;
+    }
     const Value* const type = entry.value.Find("type");
     if (type == nullptr || type->string() == nullptr) {
       if (type == nullptr || !type->null()) {
@@ -333,7 +348,6 @@ class Loader {
       loaded_.diagram = builder_.Build();
     } catch (const WiringError& error) {
       for (const std::string& problem : error.problems) problems_.Add(Place(problem), problem);
-      problems_.Throw();
     }
     for (const auto& block : loaded_.systems) {
       if (block.type != "MotionMetrics") continue;
@@ -435,6 +449,10 @@ class Loader {
         problems_.Add(entry.location,
                       where + ": no bound; expected at_least, at_most or equal (with within)");
       }
+      if (bound.at_least && bound.at_most && *bound.at_least > *bound.at_most) {
+        problems_.Add(entry.location, fmt::format("{}: no value is at least {} and at most {}",
+                                                  where, *bound.at_least, *bound.at_most));
+      }
       if (bound.at && *bound.at > loaded_.simulator.duration) {
         problems_.Add(entry.location,
                       fmt::format("{}.at: got {} s; expected at most the duration {} s", where,
@@ -472,14 +490,17 @@ class Loader {
       port = key.substr(0, dot);
       expectation.member = key.substr(dot + 1);
     }
-    const auto matches = Match(port);
-    if (matches.size() != 1) {
+    const auto outputs = Match("*");
+    const auto named = std::find_if(outputs.begin(), outputs.end(),
+                                    [&](const auto& output) { return output.first == port; });
+    if (named == outputs.end()) {
       problems_.Add(location, fmt::format("{}: no output '{}'{}", where, port,
                                           DidYouMean(port, AllOutputs())));
       return false;
     }
-    expectation.output = matches.front().second;
+    expectation.output = named->second;
     if (&TypeOfPort(expectation.output) != &kVectorType) return CheckMember(expectation, location);
+    if (!loaded_.diagram) return false;  // wired wrongly: lengths are not known
     const int size = VectorSize(expectation.output, loaded_.diagram->MakeContext());
     if (expectation.index < 0 && size == 1 && expectation.member.empty()) expectation.index = 0;
     if (expectation.index < 0 || expectation.index >= size) {

@@ -357,6 +357,15 @@ nlohmann::ordered_json ParseStrictly(std::string_view text) {
   return Json::parse(text, check);
 }
 
+/// The brace of an unquoted `${...}` ends a map in braces: the commonest slip of all.
+std::string Advice(std::string_view text, const YAML::Mark& mark) {
+  const auto at = std::min(static_cast<std::size_t>(std::max(mark.pos, 0)), text.size());
+  const auto line_end = text.substr(0, at).rfind('\n');
+  const auto start = line_end == std::string_view::npos ? 0 : line_end + 1;
+  const bool expression = text.substr(start, text.find('\n', at) - start).find("${") != text.npos;
+  return expression ? "; inside {} and [] an expression needs quotes: \"${...}\"" : "";
+}
+
 }  // namespace
 
 Value ReadYaml(std::string_view text, const std::string& name, Problems& problems) {
@@ -379,7 +388,8 @@ Value ReadYaml(std::string_view text, const std::string& name, Problems& problem
     while (parser.HandleNextDocument(builder)) {
     }
   } catch (const YAML::Exception& error) {
-    problems.Add({shared_name, error.mark.line + 1, error.mark.column + 1}, error.msg);
+    problems.Add({shared_name, error.mark.line + 1, error.mark.column + 1},
+                 error.msg + Advice(text, error.mark));
   }
   return builder.Take();
 }
