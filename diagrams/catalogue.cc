@@ -67,9 +67,9 @@ CatalogueRow Row(const char* type) {
     try {
       return Make<S>(params, models);
     } catch (const ConfigError& error) {
-      problems.Add(value.location(), fmt::format("{}: {}", where, error.what()));
+      problems.Add(value.location(), (where.empty() ? "" : where + ": ") + error.what());
     } catch (const models::ModelError& error) {
-      problems.Add(value.location(), fmt::format("{}: {}", where, error.what()));
+      problems.Add(value.location(), (where.empty() ? "" : where + ": ") + error.what());
     }
     return nullptr;
   };

@@ -39,6 +39,18 @@ systems::ModelSet LoadModels(const std::vector<std::string>& arguments) {
   return models;
 }
 
+/// Writing a JSON tree recurses; no signal has that many levels.
+bool NestsTooDeep(const std::string& line) {
+  constexpr int kDeepest = 64;
+  int depth = 0;
+  for (const char c : line) {
+    if (c == '[' || c == '{') ++depth;
+    if ((c == ']' || c == '}') && depth > 0) --depth;
+    if (depth > kDeepest) return true;
+  }
+  return false;
+}
+
 /// One system on its own. A line's inputs are held; `time` moves the clock there first. If the
 /// system has discrete updates a line is one period: computed outputs are shown as the updates of
 /// the line's tick read them, held ones as the period leaves them.
@@ -47,6 +59,7 @@ class Evaluator {
   Evaluator(const diagrams::CatalogueRow& row, const Value& params, systems::ModelSet models)
       : row_(row), params_(params), models_(std::move(models)) {
     const auto probe = Make();
+    stateless_ = probe->states().empty() && probe->events().empty();
     for (const auto& input : probe->inputs()) input_names_.push_back(input.name);
     for (const auto& event : probe->events()) {
       if (event.stage == System::Stage::kUpdate || event.stage == System::Stage::kReset) {
@@ -56,6 +69,7 @@ class Evaluator {
   }
 
   ordered_json Serve(const std::string& line) {
+    if (NestsTooDeep(line)) throw ConfigError("nested too deep; expected inputs by port name");
     const auto given = ordered_json::parse(line, nullptr, false);
     if (!given.is_object()) throw ConfigError("got no JSON object; expected inputs by port name");
     for (const auto& [key, value] : given.items()) {
@@ -125,7 +139,11 @@ class Evaluator {
       }
     }
     if (!served_) simulator_->Initialize();
-    if (timed && (period_ == kNever || !served_)) simulator_->AdvanceTo(time->get<double>());
+    if (timed && stateless_) {
+      simulator_->context().SetTime(time->get<double>());  // back in time, too
+    } else if (timed && (period_ == kNever || !served_)) {
+      simulator_->AdvanceTo(time->get<double>());
+    }
     ordered_json outputs = ordered_json::object();
     for (const auto& output : diagram_->outputs()) Show(output.name, outputs, false);
     if (period_ < kNever) simulator_->AdvanceTo(simulator_->context().time() + period_);
@@ -149,6 +167,7 @@ class Evaluator {
   const systems::ModelSet models_;
   std::vector<std::string> input_names_;
   double period_{kNever};
+  bool stateless_{false};
   std::unique_ptr<Diagram> diagram_;
   std::unique_ptr<Simulator> simulator_;
   bool served_{false};

@@ -35,6 +35,16 @@ std::vector<Edge> EdgesOf(const diagrams::LoadedDiagram& loaded) {
   return edges;
 }
 
+/// Inside the quotes of DOT.
+std::string Escaped(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '"' || c == '\\') escaped += '\\';
+    escaped += c;
+  }
+  return escaped;
+}
+
 /// Solid: computed within the instant. Dashed: a held state, which is what closes loops.
 std::string Dot(const diagrams::LoadedDiagram& loaded) {
   std::string dot = fmt::format(
@@ -43,16 +53,16 @@ std::string Dot(const diagrams::LoadedDiagram& loaded) {
       "fontname=Helvetica, fontsize=12, margin=\"0.15,0.08\"];\n"
       "  edge [color=\"#555555\", fontname=Helvetica, fontsize=9, fontcolor=\"#333333\", "
       "arrowsize=0.7];\n",
-      loaded.name);
+      Escaped(loaded.name));
   for (const auto& block : loaded.systems) {
     dot += fmt::format(
-        "  {} [label=<<b>{}</b><br/><font point-size=\"10\" color=\"#555555\">{}</font>>];\n",
+        "  \"{}\" [label=<<b>{}</b><br/><font point-size=\"10\" color=\"#555555\">{}</font>>];\n",
         block.name, block.name, block.type);
   }
   for (const Edge& edge : EdgesOf(loaded)) {
     const std::string label =
         edge.output == edge.input ? edge.output : edge.output + " → " + edge.input;
-    dot += fmt::format("  {} -> {} [label=\"{}\"{}];\n", edge.from, edge.to, label,
+    dot += fmt::format("  \"{}\" -> \"{}\" [label=\"{}\"{}];\n", edge.from, edge.to, label,
                        edge.state ? ", style=dashed" : "");
   }
   return dot + "}\n";
@@ -61,10 +71,10 @@ std::string Dot(const diagrams::LoadedDiagram& loaded) {
 std::string Mermaid(const diagrams::LoadedDiagram& loaded) {
   std::string text = "flowchart LR\n";
   for (const auto& block : loaded.systems) {
-    text += fmt::format("  {0}[\"{0}<br/><small>{1}</small>\"]\n", block.name, block.type);
+    text += fmt::format("  s_{0}[\"{0}<br/><small>{1}</small>\"]\n", block.name, block.type);
   }
   for (const Edge& edge : EdgesOf(loaded)) {
-    text += fmt::format("  {} {}|{} → {}| {}\n", edge.from, edge.state ? "-.->" : "-->",
+    text += fmt::format("  s_{} {}|{} → {}| s_{}\n", edge.from, edge.state ? "-.->" : "-->",
                         edge.output, edge.input, edge.to);
   }
   return text;
@@ -73,9 +83,10 @@ std::string Mermaid(const diagrams::LoadedDiagram& loaded) {
 /// Graphviz lays out; it is a program, so that nobody needs it who does not draw.
 int PrintSvg(const std::string& dot) {
   std::fflush(stdout);
-  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen("dot -Tsvg", "w"), pclose);
+  std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen("dot -Tsvg", "w"), pclose);
   if (!pipe) throw ConfigError("graph: cannot start `dot`");
   std::fwrite(dot.data(), 1, dot.size(), pipe.get());
+  if (pclose(pipe.release()) != 0) throw ConfigError("graph: `dot` failed");
   return kFine;
 }
 

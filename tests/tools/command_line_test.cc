@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The program as a user meets it: words, exit statuses and streams.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/tools/program.h"
+
+namespace oca::tools {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+const char* const kSmall =
+    "name: small\n"
+    "simulator: {duration: 0.5, seed: 7}\n"
+    "systems:\n"
+    "  source: {type: Constant, value: [1, 2]}\n"
+    "  lag: {type: FirstOrderLag, time_constant: 0.1}\n"
+    "connections: [source.value -> lag.in]\n"
+    "record: {signals: {lag.out: 10}}\n"
+    "expect: {'lag.out[1]': {at_most: 2}}\n";
+
+class CommandLineTest : public testing::Test {
+ protected:
+  std::string Small(const std::string& from = "", const std::string& to = "") {
+    std::string text = kSmall;
+    if (!from.empty()) text.replace(text.find(from), from.size(), to);
+    return run.folder().Write("small.yaml", text).string();
+  }
+  Program run;
+};
+
+TEST_F(CommandLineTest, ARunThatMeetsItsExpectationsEndsWithZero) {
+  const Ran ran = run("$S run diagrams/static_test.yaml");
+  EXPECT_EQ(ran.status, 0);
+  EXPECT_EQ(ran.err, "");
+  for (const char* part : {"static_test", "clear", "reached", "met", "times real time"}) {
+    EXPECT_THAT(ran.out, HasSubstr(part));
+  }
+}
+
+TEST_F(CommandLineTest, AnExpectationThatIsNotMetEndsWithThreeAndTheFullResult) {
+  const Ran ran = run("$S run diagrams/static_test.yaml -s parameters.avoid=false");
+  EXPECT_EQ(ran.status, 3);
+  EXPECT_THAT(ran.out, HasSubstr("CONTACT"));
+  EXPECT_THAT(ran.out, HasSubstr("NOT MET min_distance >= 0.2"));
+  const Ran json_run = run("$S run diagrams/static_test.yaml -s parameters.avoid=false --json");
+  EXPECT_EQ(json_run.status, 3);
+  EXPECT_LT(json::parse(json_run.out)["metrics"]["min_distance"].get<double>(), -0.1);
+}
+
+TEST_F(CommandLineTest, ABadFileEndsWithTwoAndNothingOnStandardOutput) {
+  for (const std::string& arguments :
+       {std::string("run missing.yaml"), std::string("run diagrams"),
+        "run " + Small("Constant", "Constnat"), std::string("run diagrams/static_test.yaml -t -1"),
+        std::string("run diagrams/static_test.yaml -s parameters.alhpa=1"),
+        std::string("run diagrams/static_test.yaml -s systems.limiter.enabeld=false"),
+        std::string("run diagrams/static_test.yaml -s nonsense"), std::string("graph missing.yaml"),
+        std::string("check missing.yaml"), std::string("describe DeltaLimter"),
+        std::string("eval Gian")}) {
+    const Ran ran = run("$S " + arguments);
+    EXPECT_EQ(ran.status, 2) << arguments;
+    EXPECT_EQ(ran.out, "") << arguments;
+    EXPECT_NE(ran.err, "") << arguments;
+  }
+}
+
+TEST_F(CommandLineTest, ErrorsInAFileAreToldWithPlaceAndSuggestion) {
+  const Ran ran = run("$S check " + Small("type: Constant, value", "type: Constnat, vaule"));
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_THAT(ran.err, HasSubstr("small.yaml:4:18: error: "));
+  EXPECT_THAT(ran.err, HasSubstr("did you mean 'Constant'?"));
+}
+
+TEST_F(CommandLineTest, ARunThatFailsEndsWithOneAndSaysWhere) {
+  const std::string file = run.folder().Write(
+      "fails.yaml",
+      "simulator: {duration: 1000}\n"
+      "systems: {a: {type: Integrator, initial: 1}, g: {type: Gain, gain: 1000}}\n"
+      "connections: [g.out -> a.in, a.out -> g.in]\n");
+  const Ran ran = run("$S run " + file + " --json");
+  EXPECT_EQ(ran.status, 1) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("error: "));
+  EXPECT_NE(json::parse(ran.out).at("failure"), "");
+}
+
+TEST_F(CommandLineTest, MisusedWordsEndWithSixtyFourAndASuggestion) {
+  const auto misuse = [&](const std::string& arguments) {
+    const Ran ran = run("$S " + arguments);
+    EXPECT_EQ(ran.status, 64) << arguments;
+    EXPECT_EQ(ran.out, "") << arguments;
+    return ran.err;
+  };
+  EXPECT_THAT(misuse("rnu x.yaml"), HasSubstr("unknown command 'rnu'; did you mean 'run'?"));
+  EXPECT_THAT(misuse("descrbe Gain"), HasSubstr("did you mean 'describe'?"));
+  EXPECT_THAT(misuse("run x.yaml --jsn"),
+              HasSubstr("unknown option '--jsn'; did you mean '--json'?"));
+  EXPECT_THAT(misuse("run x.yaml --sede=3"), HasSubstr("did you mean '--seed'?"));
+  EXPECT_THAT(misuse(""), HasSubstr("usage: simulator COMMAND"));
+  EXPECT_THAT(misuse("run"), HasSubstr("FILE"));
+  EXPECT_THAT(misuse("run x.yaml -t soon"), HasSubstr("soon"));
+  EXPECT_THAT(misuse("run x.yaml --seed -1"), HasSubstr("seed"));
+  EXPECT_THAT(misuse("graph x.yaml --format svgg"), HasSubstr("svgg"));
+  EXPECT_THAT(misuse("run a.yaml b.yaml"), HasSubstr("b.yaml"));
+}
+
+TEST_F(CommandLineTest, AnInterruptEndsWithOneHundredAndThirtyAndCompleteRecords) {
+  const Ran ran = run("timeout --preserve-status -s INT 1 $S run " + Small() +
+                      " -t 1e6 --json --csv " + run.folder().path().string() + "/csv");
+  EXPECT_EQ(ran.status, 130);
+  const json result = json::parse(ran.out);
+  EXPECT_TRUE(result["interrupted"].get<bool>());
+  EXPECT_GT(result["duration"].get<double>(), 0.0);
+  const std::string record = run.Read("csv/lag.out.csv");
+  EXPECT_EQ(record.back(), '\n');
+}
+
+TEST_F(CommandLineTest, TheVersionIsANumber) {
+  const Ran ran = run("$S --version");
+  EXPECT_EQ(ran.status, 0);
+  EXPECT_THAT(ran.out, testing::MatchesRegex("simulator \\(OCA\\) [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+TEST_F(CommandLineTest, HelpIsOnStandardOutput) {
+  for (const char* arguments : {"--help", "run --help", "eval --help"}) {
+    const Ran ran = run(std::string("$S ") + arguments);
+    EXPECT_EQ(ran.status, 0) << arguments;
+    EXPECT_THAT(ran.out, HasSubstr("--help")) << arguments;
+    EXPECT_EQ(ran.err, "");
+  }
+}
+
+TEST_F(CommandLineTest, JsonIsOneObjectWithTheAgreedKeys) {
+  const Ran ran = run("$S run diagrams/static_test.yaml --json --seed 5 -t 2");
+  EXPECT_EQ(ran.status, 3);  // after 2 s the goal is far
+  EXPECT_EQ(ran.err, "");
+  const json result = json::parse(ran.out);
+  for (const char* key : {"name", "seed", "duration", "steps", "wall_seconds", "realtime_factor",
+                          "metrics", "expectations"}) {
+    EXPECT_TRUE(result.contains(key)) << key;
+  }
+  EXPECT_EQ(result["name"], "static_test");
+  EXPECT_EQ(result["seed"], 5);
+  EXPECT_EQ(result["duration"], 2.0);
+  EXPECT_EQ(result["steps"], 200);
+  for (const char* key :
+       {"min_distance", "min_distance_pair", "min_distance_time", "contact_time",
+        "first_contact_time", "max_abs_delta", "final_error", "delta_sign_changes_per_second",
+        "total_variation_ratio", "max_joint_speed", "max_joint_acceleration"}) {
+    EXPECT_TRUE(result["metrics"].contains(key)) << key;
+  }
+  ASSERT_EQ(result["expectations"].size(), 2u);
+  for (const char* key : {"name", "value", "bound", "ok"}) {
+    EXPECT_TRUE(result["expectations"][0].contains(key)) << key;
+  }
+}
+
+TEST_F(CommandLineTest, LogsGoToStandardError) {
+  const Ran ran =
+      run("$S run diagrams/static_test.yaml -t 0.1 -s parameters.print_infos=true --json");
+  EXPECT_THAT(ran.err, HasSubstr("debug t="));
+  EXPECT_TRUE(json::accept(ran.out));
+  EXPECT_EQ(run("$S run diagrams/static_test.yaml -t 0.1 -s parameters.print_infos=true "
+                "--log-level info")
+                .err,
+            "");
+}
+
+TEST_F(CommandLineTest, RecordsAreWrittenAsFilesOfSignals) {
+  const std::string folder = run.folder().path().string() + "/csv";
+  EXPECT_EQ(run("$S run " + Small() + " --csv " + folder).status, 0);
+  std::istringstream lines(run.Read("csv/lag.out.csv"));
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "time,out[0],out[1]");
+  std::getline(lines, line);
+  EXPECT_EQ(line, "0,0,0");
+  int rows = 1;
+  for (std::string next; std::getline(lines, next); ++rows) line = next;
+  EXPECT_EQ(rows, 6);  // 0, 0.1, ..., 0.5
+  EXPECT_EQ(line.substr(0, 4), "0.5,");
+  EXPECT_EQ(run("$S run diagrams/static_test.yaml -t 0.1 --csv " + folder).status, 3);
+  EXPECT_THAT(run.Read("csv/distance.proximities.jsonl"), HasSubstr("{\"time\":0"));
+  EXPECT_EQ(run("$S run " + Small() + " --csv " + folder + "/lag.out.csv").status, 2);
+}
+
+TEST_F(CommandLineTest, NoEscapeSequencesWithoutATerminal) {
+  for (const char* environment : {"", "NO_COLOR=1 ", "TERM=dumb "}) {
+    const Ran ran = run(std::string(environment) + "$S run diagrams/static_test.yaml");
+    EXPECT_EQ((ran.out + ran.err).find('\033'), std::string::npos) << environment;
+  }
+}
+
+TEST_F(CommandLineTest, OverridesWinOverTheFile) {
+  const json result = json::parse(
+      run("$S run " + Small() + " -s systems.source.value=[1,4] -s name=other --json").out);
+  EXPECT_EQ(result["name"], "other");
+  EXPECT_GT(result["expectations"][0]["value"].get<double>(), 3.5);
+  EXPECT_FALSE(result["expectations"][0]["ok"].get<bool>());
+}
+
+TEST_F(CommandLineTest, CheckSaysALineAFile) {
+  const Ran ran = run("$S check diagrams/static_test.yaml " + Small() + " missing.yaml");
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_EQ(std::count(ran.out.begin(), ran.out.end(), '\n'), 2);
+  EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1);
+  EXPECT_EQ(run("$S check diagrams/*.yaml diagrams/verification/*.yaml").status, 0);
+}
+
+TEST_F(CommandLineTest, ListAndDescribeKnowTheSameTypes) {
+  const Ran list = run("$S list");
+  EXPECT_EQ(list.status, 0);
+  std::istringstream lines(list.out);
+  int types = 0;
+  for (std::string line; std::getline(lines, line); ++types) {
+    const std::string type = line.substr(0, line.find(' '));
+    EXPECT_GT(line.size(), type.size() + 10) << line;
+    const Ran described = run("$S describe " + type);
+    EXPECT_EQ(described.status, 0) << type << described.err;
+    for (const char* part : {"ports\n", "parameters\n"})
+      EXPECT_THAT(described.out, HasSubstr(part));
+  }
+  EXPECT_GE(types, 25);
+  const std::string limiter = run("$S describe DeltaLimiter").out;
+  for (const char* part : {"max_joint_velocity", "rad/s", "limited_delta", "default"}) {
+    EXPECT_THAT(limiter, HasSubstr(part));
+  }
+}
+
+TEST_F(CommandLineTest, TheSchemaIsJsonAndKnowsEveryTypeAndKey) {
+  const Ran ran = run("$S schema");
+  EXPECT_EQ(ran.status, 0);
+  const json schema = json::parse(ran.out);
+  EXPECT_THAT(schema["$schema"].get<std::string>(), HasSubstr("draft-07"));
+  for (const char* key : {"name", "include", "parameters", "simulator", "models", "systems",
+                          "connections", "record", "expect", "packages"}) {
+    EXPECT_TRUE(schema["properties"].contains(key)) << key;
+  }
+  for (const char* part : {"DeltaLimiter", "max_joint_velocity", "at_least"}) {
+    EXPECT_THAT(ran.out, HasSubstr(part));
+  }
+}
+
+TEST_F(CommandLineTest, GraphsDrawEverySystemAndConnection) {
+  const std::string file = Small();
+  const Ran dot = run("$S graph " + file);
+  EXPECT_EQ(dot.status, 0);
+  EXPECT_THAT(dot.out, testing::StartsWith("digraph \"small\" {"));
+  EXPECT_THAT(dot.out, HasSubstr("\"source\" -> \"lag\""));
+  const Ran mermaid = run("$S graph " + file + " --format mermaid");
+  EXPECT_EQ(mermaid.status, 0);
+  EXPECT_THAT(mermaid.out, testing::StartsWith("flowchart LR\n"));
+  EXPECT_THAT(mermaid.out, HasSubstr("s_source -->|value → in| s_lag"));
+}
+
+TEST_F(CommandLineTest, GraphsAreDrawnBySvgWhereGraphvizIs) {
+  if (run("command -v dot").status != 0) GTEST_SKIP() << "no graphviz here";
+  std::string text = kSmall;
+  text.replace(text.find("name: small"), 11, "name: 'a \"quoted\" \\ name'");
+  for (auto at = text.find("source"); at != std::string::npos; at = text.find("source", at + 1)) {
+    text.replace(at, 6, "graph");  // a word of the DOT language
+  }
+  const Ran ran = run("$S graph " + run.folder().Write("g.yaml", text).string() + " --format svg");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("<svg"));
+}
+
+}  // namespace
+}  // namespace oca::tools
