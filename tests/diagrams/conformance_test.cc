@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What every system that a file can name has to keep; a new row of the catalogue inherits it all.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+
+#include "diagrams/catalogue.h"
+#include "diagrams/package_paths.h"
+#include "diagrams/yaml_reader.h"
+#include "framework/dynamic_port.h"
+#include "framework/error.h"
+#include "framework/port_access.h"
+#include "framework/simulator.h"
+#include "models/robot/urdf.h"
+#include "tests/diagrams/allocation_count.h"
+
+namespace oca::diagrams {
+namespace {
+
+using nlohmann::ordered_json;
+using testing::HasSubstr;
+
+systems::ModelSet Models() {
+  systems::ModelSet models;
+  models.Add("arm", std::make_shared<const models::RobotModel>(
+                        models::LoadUrdf(ResolvePath("package://planar2/planar2.urdf", {}, {}))));
+  return models;
+}
+
+bool IsSnakeCase(const std::string& text) {
+  return std::regex_match(text, std::regex("[a-z][a-z0-9]*(_[a-z0-9]+)*"));
+}
+
+/// A default value of the signal type, as JSON.
+std::string Neutral(const SignalType& type) {
+  const auto memory = std::make_unique<std::byte[]>(type.size + type.align);
+  void* at = memory.get();
+  std::size_t space = type.size + type.align;
+  std::align(type.align, type.size, at, space);
+  type.construct(at);
+  std::string text;
+  type.write_json(at, text);
+  type.destroy(at);
+  return text;
+}
+
+class ConformanceTest : public testing::TestWithParam<std::string> {
+ protected:
+  const CatalogueRow& row() const { return FindRow(GetParam()); }
+
+  /// The example in a diagram of its own. Vectors of open length get two elements.
+  std::unique_ptr<Diagram> MakeDiagram() const {
+    try {
+      return MakeDiagramOf(row().make_example(models_));
+    } catch (const WiringError&) {
+      std::map<std::string, int> sizes;
+      const auto probe = row().make_example(models_);
+      for (const auto& input : probe->inputs()) {
+        if (!input.optional) sizes[input.name] = input.type == &kVectorType ? 2 : -1;
+      }
+      return MakeDiagramOf(row().make_example(models_), sizes);
+    }
+  }
+
+  /// Zeros for vectors, whatever their length, and empty sets.
+  static void FixInputs(const Diagram& diagram, Context& context) {
+    for (const auto& input : diagram.inputs()) {
+      if (input.type != &kVectorType) {
+        FixJson(diagram.FindInput(input.name), context, Neutral(*input.type));
+        continue;
+      }
+      bool fixed = false;
+      for (int size = 1; size <= 12 && !fixed; ++size) {
+        try {
+          FixJson(diagram.FindInput(input.name), context,
+                  ordered_json(std::vector(size, 0)).dump());
+          fixed = true;
+        } catch (const Error&) {
+        }
+      }
+      EXPECT_TRUE(fixed) << input.name;
+    }
+  }
+
+  /// All outputs as JSON; of one that fails, why.
+  static std::string Outputs(const Diagram& diagram, const Context& context) {
+    std::string text;
+    for (const auto& output : diagram.outputs()) {
+      text += output.name + "=";
+      try {
+        EvalJson(diagram.FindOutput(output.name), context, text);
+      } catch (const SimulationError& error) {
+        EXPECT_FALSE(std::string(error.what()).empty());
+        text += error.what();
+      }
+      text += "\n";
+    }
+    return text;
+  }
+
+  const systems::ModelSet models_ = Models();
+};
+
+TEST_P(ConformanceTest, SaysWhatItComputes) {
+  EXPECT_GT(std::string(row().doc.summary).size(), 10u);
+  EXPECT_FALSE(std::string(row().doc.equation).empty());
+  ASSERT_NE(row().doc.source, nullptr);
+}
+
+TEST_P(ConformanceTest, EachParameterHasAKeyOfItsOwnAndAMeaning) {
+  std::set<std::string> keys;
+  for (const Field& field : row().fields()) {
+    EXPECT_TRUE(IsSnakeCase(field.key)) << field.key;
+    EXPECT_TRUE(keys.insert(field.key).second) << field.key;
+    EXPECT_GT(field.meaning.size(), 3u) << field.key;
+    EXPECT_NE(field.key, "type");
+  }
+  EXPECT_EQ(row().defaults().size(), row().fields().size());
+  for (const std::string& value : row().defaults()) {
+    EXPECT_TRUE(ordered_json::accept(value)) << value;
+  }
+}
+
+TEST_P(ConformanceTest, EachPortHasANameOfItsOwn) {
+  const auto system = row().make_example(models_);
+  std::set<std::string> inputs, outputs;
+  for (const auto& input : system->inputs()) {
+    EXPECT_TRUE(IsSnakeCase(input.name)) << input.name;
+    EXPECT_TRUE(inputs.insert(input.name).second) << input.name;
+  }
+  for (const auto& output : system->outputs()) {
+    EXPECT_TRUE(IsSnakeCase(output.name)) << output.name;
+    EXPECT_TRUE(outputs.insert(output.name).second) << output.name;
+  }
+  EXPECT_GT(inputs.size() + outputs.size(), 0u);
+}
+
+TEST_P(ConformanceTest, ReadsItsOwnExample) {
+  Problems problems;
+  const auto system = row().make(ReadJson(row().example(), "example"), "here", models_, problems);
+  EXPECT_THAT(problems.all(), testing::IsEmpty());
+  ASSERT_NE(system, nullptr);
+  const auto example = row().make_example(models_);
+  EXPECT_EQ(system->inputs().size(), example->inputs().size());
+  EXPECT_EQ(system->outputs().size(), example->outputs().size());
+}
+
+TEST_P(ConformanceTest, RefusesAnUnknownKeyAtItsPlace) {
+  auto example = ordered_json::parse(row().example());
+  example["no_such_key"] = 1;
+  Problems problems;
+  const Value value = ReadYaml(example.dump(), "f.yaml", problems);
+  ASSERT_TRUE(problems.empty());
+  EXPECT_EQ(row().make(value, "systems.it", models_, problems), nullptr);
+  ASSERT_EQ(problems.all().size(), 1u);
+  EXPECT_THAT(problems.all().front(), testing::StartsWith("f.yaml:1:"));
+  EXPECT_THAT(problems.all().front(), HasSubstr("systems.it.no_such_key: unknown key"));
+}
+
+TEST_P(ConformanceTest, RefusesEveryParameterOfTheWrongType) {
+  for (const Field& field : row().fields()) {
+    auto example = ordered_json::parse(row().example());
+    example[field.key] = {{"no_such", {{"thing", true}}}};
+    Problems problems;
+    EXPECT_EQ(row().make(ReadJson(example.dump(), "f"), "it", models_, problems), nullptr)
+        << field.key;
+    ASSERT_FALSE(problems.empty()) << field.key;
+    EXPECT_THAT(problems.all().front(), HasSubstr("it." + field.key));
+  }
+}
+
+TEST_P(ConformanceTest, ItsSchemaNamesEveryParameter) {
+  const auto schema = ordered_json::parse(row().schema());
+  for (const Field& field : row().fields()) {
+    ASSERT_TRUE(schema.at("properties").contains(field.key)) << field.key;
+    EXPECT_TRUE(schema["properties"][field.key].contains("description")) << field.key;
+  }
+}
+
+TEST_P(ConformanceTest, EvaluatesToTheSameBitsEachTimeAndInACopy) {
+  const auto diagram = MakeDiagram();
+  Context context = diagram->MakeContext();
+  FixInputs(*diagram, context);
+  const Context copy = context;
+  const std::string first = Outputs(*diagram, context);
+  EXPECT_EQ(Outputs(*diagram, context), first);
+  EXPECT_EQ(Outputs(*diagram, copy), first);
+  EXPECT_THAT(first, testing::Not(HasSubstr("nan")));
+}
+
+TEST_P(ConformanceTest, RunsToTheSameBitsTwice) {
+  const auto diagram = MakeDiagram();
+  const auto run = [&] {
+    Simulator simulator(*diagram);
+    FixInputs(*diagram, simulator.context());
+    try {
+      simulator.AdvanceTo(0.5);
+    } catch (const SimulationError& error) {
+      return std::string(error.what());
+    }
+    return Outputs(*diagram, simulator.context());
+  };
+  EXPECT_EQ(run(), run());
+}
+
+TEST_P(ConformanceTest, ItsInputsRefuseWhatIsNotFinite) {
+  const auto diagram = MakeDiagram();
+  Context context = diagram->MakeContext();
+  FixInputs(*diagram, context);
+  for (const auto& input : diagram->inputs()) {
+    if (input.type != &kVectorType) continue;
+    const auto port = diagram->GetInput<Vector>(input.name);
+    for (int size = 1; size <= 12; ++size) {
+      for (const double bad :
+           {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+        const Eigen::VectorXd value = Eigen::VectorXd::Constant(size, bad);
+        EXPECT_ANY_THROW(port.Fix(context, value)) << input.name << " " << size;
+      }
+    }
+  }
+}
+
+TEST_P(ConformanceTest, AnInputThatNobodyFixedIsNeverReadAsZero) {
+  const auto diagram = MakeDiagram();
+  const Context context = diagram->MakeContext();
+  bool vectors = false;
+  for (const auto& input : diagram->inputs()) vectors |= input.type == &kVectorType;
+  if (!vectors) return;
+  EXPECT_THAT(Outputs(*diagram, context), testing::Not(HasSubstr("nan")));
+}
+
+TEST_P(ConformanceTest, RunsWithoutTheHeap) {
+  if (!kCountsAllocations) GTEST_SKIP() << "malloc is not ours to count here";
+  const auto diagram = MakeDiagram();
+  Simulator simulator(*diagram);
+  FixInputs(*diagram, simulator.context());
+  try {
+    simulator.AdvanceTo(0.2);
+  } catch (const SimulationError&) {
+    return;  // it refuses neutral inputs, which another test looks at
+  }
+  const long before = allocation_count;
+  simulator.AdvanceTo(0.4);
+  EXPECT_EQ(allocation_count, before);
+}
+
+std::vector<std::string> Types() {
+  std::vector<std::string> types;
+  for (const CatalogueRow& row : Catalogue()) types.push_back(row.type);
+  return types;
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalogue, ConformanceTest, testing::ValuesIn(Types()),
+                         [](const auto& type) { return type.param; });
+
+TEST(CatalogueTest, IsInAlphabeticOrderWithoutDoubles) {
+  const std::vector<std::string> types = Types();
+  EXPECT_TRUE(std::is_sorted(types.begin(), types.end()));
+  EXPECT_EQ(std::set<std::string>(types.begin(), types.end()).size(), types.size());
+}
+
+TEST(CatalogueTest, NamesTheNearestOfAnUnknownType) {
+  EXPECT_EQ(FindRow("Gain").type, "Gain");
+  try {
+    FindRow("DeltaLimter");
+    FAIL() << "found";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("did you mean 'DeltaLimiter'?"));
+  }
+}
+
+}  // namespace
+}  // namespace oca::diagrams

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The report's two tests, with the figures of an independent implementation (on FCL and KDL): the
+// path goes through the box; without limiter the request becomes insignificant; with it the arm
+// avoids the box and still arrives; relaxation ends the chatter.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "diagrams/loader.h"
+#include "diagrams/run.h"
+#include "tests/diagrams/allocation_count.h"
+
+namespace oca::diagrams {
+namespace {
+
+constexpr double kJointRange = 2.97;  // rad, of joint 1
+
+struct Outcome {
+  explicit Outcome(const std::vector<Override>& overrides,
+                   const std::string& file = "static_test") {
+    const RunResult result =
+        Run(LoadDiagram(OCA_SOURCE_DIR "/diagrams/" + file + ".yaml", overrides), {});
+    EXPECT_EQ(result.failure, "");
+    text = result.metrics;
+    metrics = nlohmann::json::parse(text);
+  }
+  double operator[](const char* metric) const { return metrics.at(metric).get<double>(); }
+  std::string text;
+  nlohmann::json metrics;
+};
+
+#define EXPECT_IN(value, low, high) \
+  do {                              \
+    EXPECT_GT(value, low);          \
+    EXPECT_LT(value, high);         \
+  } while (false)
+
+const std::vector<Override> kAsItIs;
+const Override kNoAvoidance{"parameters.avoid", "false"};
+const Override kNoLimit{"parameters.limit_deltas", "false"};
+const Override kTranspose{"parameters.jacobian_transpose_method_classic", "true"};
+
+TEST(StaticTest, WithoutAvoidanceThePathGoesThroughTheBox) {
+  const Outcome outcome({kNoAvoidance});
+  EXPECT_NEAR(outcome["min_distance"], -0.122, 0.005);
+  EXPECT_EQ(outcome.metrics.at("min_distance_pair").at(1), "box");
+  EXPECT_IN(outcome["contact_time"], 1.0, 3.0);
+  EXPECT_EQ(outcome["max_abs_delta"], 0.0);
+  EXPECT_LT(outcome["final_error"], 1e-9);
+  EXPECT_NEAR(outcome["total_variation_ratio"], 1.0, 1e-9);
+}
+
+TEST(StaticTest, WithListingA1TheArmStaysClearAndArrivesButChatters) {
+  const Outcome outcome(kAsItIs);
+  EXPECT_NEAR(outcome["min_distance"], 0.268, 0.01);
+  EXPECT_NEAR(outcome["max_abs_delta"], 0.66, 0.05);
+  EXPECT_LT(outcome["final_error"], 1e-3);
+  EXPECT_IN(outcome["delta_sign_changes_per_second"], 15.0, 27.0);
+  EXPECT_IN(outcome["total_variation_ratio"], 4.5, 8.5);
+  EXPECT_EQ(outcome["contact_time"], 0.0);
+}
+
+TEST(StaticTest, WithTheTransposeTheArmStaysClearAndArrives) {
+  const Outcome outcome({kTranspose});
+  EXPECT_NEAR(outcome["min_distance"], 0.286, 0.01);
+  EXPECT_NEAR(outcome["max_abs_delta"], 0.61, 0.05);
+  EXPECT_LT(outcome["final_error"], 1e-3);
+  EXPECT_IN(outcome["delta_sign_changes_per_second"], 8.0, 18.0);
+  EXPECT_IN(outcome["total_variation_ratio"], 2.5, 4.5);
+}
+
+TEST(StaticTest, WithoutLimiterTheRequestBecomesInsignificant) {
+  const Outcome outcome({kNoLimit});
+  EXPECT_LT(outcome["min_distance"], -0.1);
+  EXPECT_GT(outcome["max_abs_delta"], 1000.0 * kJointRange);
+  EXPECT_IN(outcome["max_abs_delta"], 5e4, 1e6);  // 2.4e5, in a chaotic loop
+  EXPECT_LT(outcome["final_error"], 1e-3);
+  EXPECT_GT(outcome["total_variation_ratio"], 1e6);
+  EXPECT_GT(outcome["delta_sign_changes_per_second"], 20.0);
+}
+
+TEST(StaticTest, WithoutLimiterTheTransposeIsWorse) {
+  const Outcome outcome({kNoLimit, kTranspose});
+  EXPECT_LT(outcome["min_distance"], -0.1);
+  EXPECT_IN(outcome["max_abs_delta"], 4e5, 7e6);  // 1.7e6
+  EXPECT_GT(outcome["total_variation_ratio"], 1e7);
+}
+
+TEST(StaticTest, RelaxationEndsTheChatterAtTheSameClearance) {
+  for (const char* time : {"0.3", "0.4", "0.5"}) {
+    const Outcome outcome({Override{"parameters.relaxation_time", time}});
+    EXPECT_NEAR(outcome["min_distance"], 0.267, 0.005) << time;
+    EXPECT_LT(outcome["delta_sign_changes_per_second"], 0.5) << time;
+    EXPECT_NEAR(outcome["total_variation_ratio"], 2.5, 0.3) << time;
+    EXPECT_LT(outcome["final_error"], 1e-3) << time;
+  }
+}
+
+TEST(StaticTest, RelaxationCalmsTheLoopWithoutAnyLimiter) {
+  const Outcome outcome({kNoLimit, Override{"parameters.relaxation_time", "0.4"}});
+  EXPECT_GT(outcome["min_distance"], 0.2);
+  EXPECT_LT(outcome["delta_sign_changes_per_second"], 1.0);
+  EXPECT_LT(outcome["max_abs_delta"], kJointRange);
+}
+
+TEST(StaticTest, TheDynamicTestStaysClear) {
+  const Outcome outcome(kAsItIs, "dynamic_test");
+  EXPECT_GT(outcome["min_distance"], 0.05);
+  EXPECT_EQ(outcome["contact_time"], 0.0);
+  EXPECT_LT(Outcome({kNoAvoidance}, "dynamic_test")["min_distance"], 0.0);
+}
+
+TEST(StaticTest, TwoRunsGiveTheSameBits) {
+  EXPECT_EQ(Outcome(kAsItIs).text, Outcome(kAsItIs).text);
+  EXPECT_EQ(Outcome({kNoLimit, kTranspose}).text, Outcome({kNoLimit, kTranspose}).text);
+  EXPECT_NE(Outcome(kAsItIs).text, Outcome({kTranspose}).text);
+}
+
+TEST(StaticTest, RunsWithoutTheHeapFromStartToGoal) {
+  if (!kCountsAllocations) GTEST_SKIP() << "malloc is not ours to count here";
+  const long made = allocation_count;
+  ::operator delete(::operator new(64));
+  ASSERT_EQ(allocation_count, made + 1);
+  for (const char* file : {"static_test", "dynamic_test", "link_forces_test"}) {
+    const LoadedDiagram loaded =
+        LoadDiagram(OCA_SOURCE_DIR "/diagrams/" + std::string(file) + ".yaml");
+    Simulator simulator(*loaded.diagram, loaded.integrator);
+    simulator.Initialize();
+    const long before = allocation_count;
+    simulator.AdvanceTo(loaded.simulator.duration);
+    EXPECT_EQ(allocation_count, before) << file;
+  }
+}
+
+}  // namespace
+}  // namespace oca::diagrams
