@@ -95,6 +95,17 @@ struct OwnerOf<R (S::*)(A...) const> {
   using Type = S;
 };
 
+/// Calls a method that returns a double and stores it at the last slot.
+template <auto kMethod, class... Handles>
+void InvokeWitness(const System& system, std::byte* arena, const Slot* slots) {
+  using Owner = typename OwnerOf<decltype(kMethod)>::Type;
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    *reinterpret_cast<double*>(arena + slots[sizeof...(Handles)].offset) =
+        (static_cast<const Owner&>(system).*kMethod)(Access<Handles>::Get(arena, slots[I])...);
+  }
+  (std::index_sequence_for<Handles...>());
+}
+
 template <auto kMethod, class... Handles>
 void Invoke(const System& system, std::byte* arena, const Slot* slots) {
   using Owner = typename OwnerOf<decltype(kMethod)>::Type;
@@ -111,6 +122,13 @@ void Invoke(const System& system, std::byte* arena, const Slot* slots) {
 template <auto kMethod, class... WriteTypes, class... Reads>
 Calculation MakeCalculation(const Reads&... reads) {
   return {&internal::Invoke<kMethod, Reads..., WriteTypes...>,
+          {internal::Access<Reads>::Declare(reads)...}};
+}
+
+/// Binds a witness function, which returns its value, to what it reads.
+template <auto kMethod, class... Reads>
+Calculation MakeWitness(const Reads&... reads) {
+  return {&internal::InvokeWitness<kMethod, Reads...>,
           {internal::Access<Reads>::Declare(reads)...}};
 }
 

@@ -24,25 +24,60 @@ void CheckPositive(double value, const char* name) {
 class FixedStepIntegrator : public Integrator {
  public:
   FixedStepIntegrator(const Plan& plan, double fixed_step)
-      : plan_(plan), fixed_step_(fixed_step), start_(plan.continuous_size), at_(start_.size()) {}
+      : plan_(plan),
+        fixed_step_(fixed_step),
+        start_(plan.continuous_size),
+        at_(start_.size()),
+        slope_(start_.size()),
+        end_slope_(start_.size()) {}
 
   void Restart(Context& /*context*/, bool /*jumped*/) override { ++statistics_.restarts; }
 
   void IntegrateTo(Context& context, double to) override {
     const double from = context.time();
-    // The margin keeps 0.01 s / 1 ms at ten steps although the quotient rounds up.
-    const double count = std::max(1.0, std::ceil((to - from) / fixed_step_ - 1e-9));
+    const double count = StepsTo(from, to);
     const double h = (to - from) / count;
     for (double i = 0.0; i < count; ++i) {
       std::copy_n(plan_.continuous(context), start_.size(), start_.data());
-      Step(context, from + i * h, h);
+      Advance(context, from + i * h, h);
       plan_.SetTimeAndState(context, i + 1.0 < count ? from + (i + 1.0) * h : to, at_.data());
       ++statistics_.steps;
     }
   }
 
+  void Step(Context& context, double to) override {
+    step_start_ = context.time();
+    const double count = StepsTo(step_start_, to);
+    step_ = (to - step_start_) / count;
+    std::copy_n(plan_.continuous(context), start_.size(), start_.data());
+    Advance(context, step_start_, step_);
+    Derivatives(context, count > 1.0 ? step_start_ + step_ : to, at_, end_slope_);
+    ++statistics_.steps;
+  }
+
+  /// source Hairer, Norsett, Wanner 1993, section II.6: with no bulge, cubic Hermite interpolation
+  void Interpolate(Context& /*context*/, double time, double* state) override {
+    const double s = (time - step_start_) / step_;
+    for (std::size_t k = 0; k < at_.size(); ++k) {
+      const double rise = at_[k] - start_[k];
+      const double entry = step_ * slope_[k] - rise;
+      const double exit = rise - step_ * end_slope_[k] - entry;
+      state[k] =
+          start_[k] + s * (rise + (1.0 - s) * (entry + s * (exit + (1.0 - s) * Bulge(k, step_))));
+    }
+  }
+
  protected:
-  virtual void Step(Context& context, double t, double h) = 0;
+  /// Makes a step of `h` from start_ at `t`; the state is then in at_ and its first slope in
+  /// slope_.
+  virtual void Advance(Context& context, double t, double h) = 0;
+  /// The quartic part of the interpolant.
+  virtual double Bulge(std::size_t k, double h) const = 0;
+
+  double StepsTo(double from, double to) const {
+    // The margin keeps 0.01 s / 1 ms at ten steps although the quotient rounds up.
+    return std::max(1.0, std::ceil((to - from) / fixed_step_ - 1e-9));
+  }
 
   void Derivatives(Context& context, double t, const std::vector<double>& state,
                    std::vector<double>& derivatives) {
@@ -55,21 +90,26 @@ class FixedStepIntegrator : public Integrator {
   const double fixed_step_;
   std::vector<double> start_;  // x at the start of a step
   std::vector<double> at_;     // argument of the next evaluation; x at the end of a step
+  std::vector<double> slope_, end_slope_;  // x' at the start and the end of a step
+  double step_start_{0.0}, step_{0.0};     // s; of the last Step
 };
 
-/// A method of S stages by its tableau: stage i at t + c_i h from a_ij, the result from b_j.
+/// A method of S stages by its tableau: stage i at t + c_i h from a_ij, the result from b_j. The
+/// quartic part of the interpolant is h (sum_j d_j stage_j + d_S x'(t + h)).
 template <std::size_t S>
 struct Tableau {
   std::array<double, S> c;
   std::array<std::array<double, S>, S> a;
   std::array<double, S> b;
+  std::array<double, S + 1> d;
 };
 
 /// Kutta 1901, the classical method of order 4.
 constexpr Tableau<4> kRk4{
-    {0, .5, .5, 1}, {{{}, {.5}, {0, .5}, {0, 0, 1}}}, {1. / 6, 1. / 3, 1. / 3, 1. / 6}};
+    {0, .5, .5, 1}, {{{}, {.5}, {0, .5}, {0, 0, 1}}}, {1. / 6, 1. / 3, 1. / 3, 1. / 6}, {}};
 
-/// Dormand and Prince 1980, J. Comput. Appl. Math. 6, the solution of order 5.
+/// Dormand and Prince 1980, J. Comput. Appl. Math. 6, the solution of order 5; d from Shampine
+/// 1986, Math. Comput. 46, as in Hairer, Norsett, Wanner 1993, section II.6.
 constexpr Tableau<6> kDormandPrince5{
     {0, 1. / 5, 3. / 10, 4. / 5, 8. / 9, 1},
     {{{},
@@ -78,7 +118,9 @@ constexpr Tableau<6> kDormandPrince5{
       {44. / 45, -56. / 15, 32. / 9},
       {19372. / 6561, -25360. / 2187, 64448. / 6561, -212. / 729},
       {9017. / 3168, -355. / 33, 46732. / 5247, 49. / 176, -5103. / 18656}}},
-    {35. / 384, 0, 500. / 1113, 125. / 192, -2187. / 6784, 11. / 84}};
+    {35. / 384, 0, 500. / 1113, 125. / 192, -2187. / 6784, 11. / 84},
+    {-12715105075. / 11282082432, 0, 87487479700. / 32700410799, -10690763975. / 1880347072,
+     701980252875. / 199316789632, -1453857185. / 822651844, 69997945. / 29380423}};
 
 template <std::size_t S>
 class TableauIntegrator final : public FixedStepIntegrator {
@@ -89,12 +131,19 @@ class TableauIntegrator final : public FixedStepIntegrator {
   }
 
  private:
-  void Step(Context& context, double t, double h) override {
+  void Advance(Context& context, double t, double h) override {
     for (std::size_t i = 0; i < S; ++i) {
       Combine(h, tableau_.a[i], i);
-      Derivatives(context, t + tableau_.c[i] * h, at_, stages_[i]);
+      Derivatives(context, t + tableau_.c[i] * h, at_, i == 0 ? slope_ : stages_[i]);
+      if (i == 0) stages_[0] = slope_;
     }
     Combine(h, tableau_.b, S);
+  }
+
+  double Bulge(std::size_t k, double h) const override {
+    double sum = tableau_.d[S] * end_slope_[k];
+    for (std::size_t j = 0; j < S; ++j) sum += tableau_.d[j] * stages_[j][k];
+    return h * sum;
   }
 
   /// at = start + h sum_j weight_j stage_j over the first `count` stages.

@@ -48,6 +48,14 @@ class Integrator {
   /// Integrates the context's continuous state from its time to `to`.
   /// throws SimulationError.
   virtual void IntegrateTo(Context& context, double to) = 0;
+  /// Makes one internal step from the context's time, no further than `to`, where it ends exactly
+  /// if it comes so far.
+  /// throws SimulationError.
+  virtual void Step(Context& context, double to) = 0;
+  /// The state at `time` within the last Step, interpolated. May call for derivatives, which moves
+  /// the context's time and state.
+  /// throws SimulationError.
+  virtual void Interpolate(Context& context, double time, double* state) = 0;
   const IntegratorStatistics& statistics() const { return statistics_; }
 
  protected:

@@ -170,6 +170,24 @@ void Plan::RunEvent(Context& context, const Event& event) const {
   }
 }
 
+double Plan::EvaluateWitness(Context& context, int index) const {
+  const Witness& witness = witnesses[index];
+  PullRange(context, witness.pull_begin, witness.pull_end);
+  try {
+    witness.function(*witness.system, arena(context), &slots[witness.first_slot]);
+  } catch (const SimulationError&) {
+    throw;
+  } catch (const std::exception& error) {
+    Fail(context, witness.system, witness.name, error.what());
+  }
+  const double value = witness_states(context)[index].value;
+  if (!std::isfinite(value)) {
+    Fail(context, witness.system, witness.name,
+         "the witness function is not finite (NaN or infinity)");
+  }
+  return value;
+}
+
 Plan::Change Plan::Commit(Context& context, const Event& event) const {
   Change change = Change::kNone;
   std::byte* const memory = arena(context);

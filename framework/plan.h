@@ -73,6 +73,25 @@ class Plan {
     Every every;
     std::vector<int> events;
   };
+  struct Witness {
+    Calculation::Function function;
+    const System* system;
+    std::uint32_t first_slot;
+    std::uint32_t pull_begin, pull_end;
+    std::string name;
+    Direction direction;
+    std::vector<int> events;  ///< resets that wait for it
+  };
+  /// What a Context keeps of a witness.
+  struct WitnessState {
+    double value;          ///< where the function writes
+    double rest;           ///< no larger is still zero, since the last crossing
+    double window_start;   ///< s; of the crossings that are counted
+    double last;           ///< s; the last crossing
+    double interval;       ///< s; between the last two
+    std::int64_t count;    ///< crossings since window_start
+    std::int64_t pending;  ///< crossed, and its resets have not run yet
+  };
   struct Object {
     std::uint32_t offset;
     const SignalType* type;
@@ -96,6 +115,9 @@ class Plan {
   /// Makes `next` the state.
   Change Commit(Context& context, const Event& event) const;
 
+  /// A witness function at the context's time and state.
+  double EvaluateWitness(Context& context, int witness) const;
+
   /// What an integrator does before it asks for derivatives.
   void SetTimeAndState(Context& context, double time, const double* state) const;
   double& integrator_step(Context& context) const { return context.header().integrator_step; }
@@ -117,6 +139,9 @@ class Plan {
   }
   std::int64_t* group_counts(const Context& context) const {
     return reinterpret_cast<std::int64_t*>(arena(context) + counts_offset);
+  }
+  WitnessState* witness_states(const Context& context) const {
+    return reinterpret_cast<WitnessState*>(arena(context) + witnesses_offset);
   }
   std::string PathOf(const System& system) const;
   const InputEntry& input(const InputHandle& handle) const;
@@ -143,6 +168,7 @@ class Plan {
   std::uint32_t derivative_pull_begin{0}, derivative_pull_end{0};
   std::vector<Event> events;
   std::vector<Group> groups;
+  std::vector<Witness> witnesses;
   std::vector<int> initializations;  ///< events
   std::vector<Object> objects;
   std::vector<std::string> source_names;
@@ -153,6 +179,7 @@ class Plan {
   int continuous_size{0};
   std::uint32_t versions_offset{0}, class_states_offset{0}, node_states_offset{0};
   std::uint32_t counts_offset{0}, continuous_offset{0}, derivative_offset{0};
+  std::uint32_t witnesses_offset{0};
   std::uint32_t plain_size{0};  ///< bytes that memcpy may copy
   std::uint32_t arena_size{0};
 

@@ -28,6 +28,7 @@ std::unique_ptr<Plan> PlanCompiler::Compile(Diagram& root) {
   compiler.LayOut();
   compiler.CompileNodes();
   compiler.CompileStates();
+  compiler.CompileWitnesses();
   compiler.CompileEvents();
   return std::move(compiler.plan_);
 }
@@ -209,7 +210,7 @@ void PlanCompiler::LayOut() {
   const auto& leaves = wiring_.leaves();
   for (const auto& leaf : leaves) {
     for (const System::EventInfo& event : leaf.system->events()) {
-      if (event.stage == System::Stage::kInitialization) continue;
+      if (event.stage == System::Stage::kInitialization || event.witness >= 0) continue;
       auto& groups = plan_->groups;
       const auto same = [&](const Plan::Group& group) {
         return group.stage == event.stage && group.every.period == event.every.period &&
@@ -228,6 +229,9 @@ void PlanCompiler::LayOut() {
   plan_->class_states_offset = Allocate(16 * classes.size());
   plan_->node_states_offset = Allocate(16 * nodes_.size());
   plan_->counts_offset = Allocate(8 * plan_->groups.size());
+  std::size_t witnesses = 0;
+  for (const auto& leaf : leaves) witnesses += leaf.system->witnesses().size();
+  plan_->witnesses_offset = Allocate(sizeof(Plan::WitnessState) * witnesses);
 
   const auto each_state = [&](bool continuous, const auto& visit) {
     for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf) {
@@ -393,10 +397,35 @@ void PlanCompiler::CompileStates() {
   }
 }
 
-void PlanCompiler::CompileEvents() {
+void PlanCompiler::CompileWitnesses() {
   const auto& leaves = wiring_.leaves();
   for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf) {
     const System& system = *leaves[leaf].system;
+    for (const System::WitnessInfo& info : system.witnesses()) {
+      const auto offset = plan_->witnesses_offset +
+                          plan_->witnesses.size() * sizeof(Plan::WitnessState) +
+                          offsetof(Plan::WitnessState, value);
+      Plan::Witness witness{};
+      witness.function = info.calculation.function;
+      witness.system = &system;
+      witness.first_slot = AddSlots(static_cast<int>(leaf), info.calculation,
+                                    {{static_cast<std::uint32_t>(offset), 1}});
+      std::tie(witness.pull_begin, witness.pull_end) =
+          AddPulls(NodesOf(static_cast<int>(leaf), info.calculation.reads));
+      witness.name = info.name;
+      witness.direction = info.direction;
+      plan_->witnesses.push_back(std::move(witness));
+    }
+  }
+}
+
+void PlanCompiler::CompileEvents() {
+  const auto& leaves = wiring_.leaves();
+  int witnesses = 0;
+  for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf) {
+    const System& system = *leaves[leaf].system;
+    const int first_witness =
+        std::exchange(witnesses, witnesses + static_cast<int>(system.witnesses().size()));
     for (const System::EventInfo& info : system.events()) {
       Plan::Event event{};
       event.stage = info.stage;
@@ -414,6 +443,10 @@ void PlanCompiler::CompileEvents() {
       plan_->events.push_back(std::move(event));
       if (info.stage == System::Stage::kInitialization) {
         plan_->initializations.push_back(index);
+        continue;
+      }
+      if (info.witness >= 0) {
+        plan_->witnesses[first_witness + info.witness].events.push_back(index);
         continue;
       }
       for (Plan::Group& group : plan_->groups) {

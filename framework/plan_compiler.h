@@ -32,6 +32,7 @@ class PlanCompiler {
   void LayOutObject(Slot& slot, const SignalType& type);
   void CompileNodes();
   void CompileStates();
+  void CompileWitnesses();
   void CompileEvents();
 
   /// The node behind an output or an input's driver; -1 for what is always up to date.

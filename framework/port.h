@@ -110,6 +110,17 @@ struct ContinuousState : StateHandle {
   void Set(Context& context, const Eigen::Ref<const Eigen::VectorXd>& value) const;
 };
 
+/// Which sign changes of a witness function count: any, from below, or from above.
+enum class Direction { kBoth, kRising, kFalling };
+
+/// A function of the state, the inputs and the time; a reset may wait for its zero crossings.
+struct Witness : Handle {};
+
+/// The moment at which a witness function reaches or crosses zero.
+struct When {
+  Witness witness;
+};
+
 /// Names the time among the things a calculation reads; it arrives as a double in s.
 struct Time {};
 inline constexpr Time kTime;

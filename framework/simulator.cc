@@ -13,6 +13,7 @@
 #include "framework/error.h"
 #include "framework/log.h"
 #include "framework/plan.h"
+#include "framework/witness_locator.h"
 
 namespace oca {
 namespace {
@@ -113,6 +114,7 @@ Simulator::Simulator(const Diagram& diagram, Context context, const IntegratorOp
   CheckContext();
   for (const Plan::Group& group : plan.groups) clock_->Add(group.every);
   integrator_ = MakeIntegrator(plan, options);
+  if (!plan.witnesses.empty()) locator_ = std::make_unique<WitnessLocator>(plan, options);
   due_.reserve(plan.events.size());
   saved_state_.resize(plan.continuous_size);
 }
@@ -224,6 +226,7 @@ void Simulator::RunStage(System::Stage stage) {
     if (group.stage != stage || clock_->Time(i, counts[i]) > now) continue;
     due_.insert(due_.end(), group.events.begin(), group.events.end());
   }
+  AddPending(stage);
   if (due_.empty()) return;
   for (const int event : due_) plan.RunEvent(context_, plan.events[event]);
   for (const int event : due_) {
@@ -235,7 +238,26 @@ void Simulator::RunStage(System::Stage stage) {
   for (std::size_t i = 0; i < plan.groups.size(); ++i) {
     if (plan.groups[i].stage == stage && clock_->Time(i, counts[i]) <= now) ++counts[i];
   }
+  ForgetPending(stage);
   statistics_.updates += static_cast<std::int64_t>(due_.size());
+}
+
+void Simulator::AddPending(System::Stage stage) {
+  if (stage != System::Stage::kReset) return;
+  const Plan& plan = diagram_.plan();
+  for (std::size_t i = 0; i < plan.witnesses.size(); ++i) {
+    if (plan.witness_states(context_)[i].pending == 0) continue;
+    const std::vector<int>& events = plan.witnesses[i].events;
+    due_.insert(due_.end(), events.begin(), events.end());
+  }
+}
+
+void Simulator::ForgetPending(System::Stage stage) {
+  if (stage != System::Stage::kReset) return;
+  const Plan& plan = diagram_.plan();
+  for (std::size_t i = 0; i < plan.witnesses.size(); ++i) {
+    plan.witness_states(context_)[i].pending = 0;
+  }
 }
 
 void Simulator::RunPublishes() {
@@ -276,16 +298,23 @@ void Simulator::Integrate(double to) {
   const double from = context_.time();
   // A step so small is the rounding of an event's time, not motion; integrators refuse it.
   const double smallest = 4.0 * (std::nextafter(std::fabs(from), kInfinity) - std::fabs(from));
-  if (saved_state_.size() == 0 || to - from < smallest) return context_.SetTime(to);
-  if (restart_) {
+  const bool moves = saved_state_.size() > 0 && to - from >= smallest;
+  if (!moves && !locator_) return context_.SetTime(to);
+  if (restart_ && moves) {
     integrator_->Restart(context_, jumped_);
     restart_ = jumped_ = false;
   }
   saved_state_ = context_.continuous_state();
   try {
-    integrator_->IntegrateTo(context_, to);
+    if (!locator_) {
+      integrator_->IntegrateTo(context_, to);
+    } else if (locator_->Advance(context_, moves ? integrator_.get() : nullptr, to)) {
+      restart_ = true;  // the integrator is past the crossing
+      ++statistics_.crossings;
+    }
   } catch (...) {
     plan.SetTimeAndState(context_, from, saved_state_.data());
+    restart_ = true;
     throw;
   }
 }

@@ -12,15 +12,22 @@
 
 namespace oca {
 
+class WitnessLocator;
+
 /// What a simulator did since Initialize.
 struct SimulatorStatistics {
   std::int64_t steps{0};    ///< of the simulator: from one event to the next
   std::int64_t updates{0};  ///< discrete updates and resets that ran
   std::int64_t publishes{0};
+  std::int64_t crossings{0};  ///< steps that a witness ended
   IntegratorStatistics integrator;
 };
 
 /// Advances a Context of a root diagram through discrete events and continuous time.
+///
+/// A step ends at the next discrete event, or earlier where a witness function reaches or crosses
+/// zero: located to 1e-12 s (relative beyond 1 s), the earliest first, simultaneous ones and a tick
+/// together. Its resets are the first stage of the following step.
 ///
 /// One step at time t, from the state x-(t): resets; discrete updates; restart of the integrator if
 /// something jumped; integration to the next event; publish; monitors. Each stage reads the result
@@ -87,12 +94,15 @@ class Simulator {
   void RunStage(System::Stage stage);
   void RunPublishes();
   double NextEventTime() const;
+  void AddPending(System::Stage stage);
+  void ForgetPending(System::Stage stage);
   void Integrate(double to);
 
   const Diagram& diagram_;
   Context context_;
   std::unique_ptr<Clock> clock_;
   std::unique_ptr<Integrator> integrator_;
+  std::unique_ptr<WitnessLocator> locator_;
   std::vector<OwnPublish> publishes_;
   std::vector<Monitor> monitors_;
   std::vector<int> due_;  ///< events of the present stage

@@ -44,11 +44,13 @@ class SundialsIntegrator : public Integrator {
 #else
     SUNContext_Create(nullptr, &sundials_);
 #endif
-    y_ = internal::MakeSerialVector(static_cast<sunindextype>(state_.size()), state_.data(),
-                                    sundials_);
+    const auto size = static_cast<sunindextype>(state_.size());
+    y_ = internal::MakeSerialVector(size, state_.data(), sundials_);
+    between_ = internal::MakeSerialVector(size, nullptr, sundials_);
   }
   ~SundialsIntegrator() override {
     if (y_ != nullptr) N_VDestroy(y_);
+    if (between_ != nullptr) N_VDestroy(between_);
     SUNContext_Free(&sundials_);
   }
 
@@ -145,6 +147,7 @@ class SundialsIntegrator : public Integrator {
   std::vector<double> state_;  // y_ lies over it
   SUNContext sundials_{nullptr};
   N_Vector y_{nullptr};
+  N_Vector between_{nullptr};  // for interpolation; lies over what the caller gives
   Context* context_{nullptr};
   std::exception_ptr failure_;
   Counters counted_;
@@ -208,17 +211,14 @@ class ErkIntegrator final : public SundialsIntegrator {
     ForgetCounters();
   }
 
-  void IntegrateTo(Context& context, double to) override {
+  void IntegrateTo(Context& context, double to) override { Evolve(context, to, ARK_NORMAL); }
+
+  void Step(Context& context, double to) override { Evolve(context, to, ARK_ONE_STEP); }
+
+  void Interpolate(Context& context, double time, double* state) override {
     context_ = &context;
-    CheckFlag(ERKStepSetStopTime(memory_, to), "ERKStepSetStopTime");
-    double reached = context.time();
-    const int flag = ERKStepEvolve(memory_, to, y_, &reached, ARK_NORMAL);
-    CountAll();
-    CheckFlag(flag, "ERKStepEvolve");
-    plan_.SetTimeAndState(context, to, state_.data());
-    double next = 0.0;
-    ERKStepGetCurrentStep(memory_, &next);
-    plan_.integrator_step(context) = next;
+    N_VSetArrayPointer(state, between_);
+    CheckFlag(ERKStepGetDky(memory_, time, 0, between_), "ERKStepGetDky");
   }
 
  protected:
@@ -231,6 +231,19 @@ class ErkIntegrator final : public SundialsIntegrator {
   }
 
  private:
+  void Evolve(Context& context, double to, int mode) {
+    context_ = &context;
+    CheckFlag(ERKStepSetStopTime(memory_, to), "ERKStepSetStopTime");
+    double reached = context.time();
+    const int flag = ERKStepEvolve(memory_, to, y_, &reached, mode);
+    CountAll();
+    CheckFlag(flag, "ERKStepEvolve");
+    plan_.SetTimeAndState(context, mode == ARK_NORMAL ? to : reached, state_.data());
+    double next = 0.0;
+    ERKStepGetCurrentStep(memory_, &next);
+    plan_.integrator_step(context) = next;
+  }
+
   /// The first step takes memory; it is made here, at rest, so that no later one does.
   void WarmUp() {
     if (state_.empty()) return;
@@ -293,14 +306,14 @@ class CvodeIntegrator final : public SundialsIntegrator {
     ForgetCounters();
   }
 
-  void IntegrateTo(Context& context, double to) override {
+  void IntegrateTo(Context& context, double to) override { Evolve(context, to, CV_NORMAL); }
+
+  void Step(Context& context, double to) override { Evolve(context, to, CV_ONE_STEP); }
+
+  void Interpolate(Context& context, double time, double* state) override {
     context_ = &context;
-    CheckFlag(CVodeSetStopTime(memory_, to), "CVodeSetStopTime");
-    double reached = context.time();
-    const int flag = CVode(memory_, to, y_, &reached, CV_NORMAL);
-    CountAll();
-    CheckFlag(flag, "CVode");
-    plan_.SetTimeAndState(context, to, state_.data());
+    N_VSetArrayPointer(state, between_);
+    CheckFlag(CVodeGetDky(memory_, time, 0, between_), "CVodeGetDky");
   }
 
  protected:
@@ -313,6 +326,16 @@ class CvodeIntegrator final : public SundialsIntegrator {
   }
 
  private:
+  void Evolve(Context& context, double to, int mode) {
+    context_ = &context;
+    CheckFlag(CVodeSetStopTime(memory_, to), "CVodeSetStopTime");
+    double reached = context.time();
+    const int flag = CVode(memory_, to, y_, &reached, mode);
+    CountAll();
+    CheckFlag(flag, "CVode");
+    plan_.SetTimeAndState(context, mode == CV_NORMAL ? to : reached, state_.data());
+  }
+
   /// The first step takes memory; it is made here, at rest, so that no later one does.
   void WarmUp() {
     if (state_.empty()) return;

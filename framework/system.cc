@@ -71,8 +71,23 @@ StateHandle System::AddState(StateInfo info) {
   return {{this, static_cast<int>(states_.size()) - 1}};
 }
 
+Witness System::AddWitness(WitnessInfo info) {
+  for (const WitnessInfo& other : witnesses_) {
+    if (other.name != info.name) continue;
+    throw WiringError({fmt::format("witness '{}' is declared twice", info.name)});
+  }
+  witnesses_.push_back(std::move(info));
+  return {{this, static_cast<int>(witnesses_.size()) - 1}};
+}
+
+int System::WitnessIndex(const Witness& witness) const {
+  if (witness.system == this) return witness.index;
+  throw WiringError({"reset: its witness is not of this system; expected one declared before it"});
+}
+
 void System::AddEvent(EventInfo info) {
-  if (info.stage != Stage::kInitialization && !info.every.period.positive()) {
+  const bool timed = info.witness < 0;
+  if (timed && info.stage != Stage::kInitialization && !info.every.period.positive()) {
     throw ConfigError(fmt::format("period: got {}; expected > 0 s", info.every.period.ToString()));
   }
   for (const int state : info.writes) {
@@ -81,7 +96,7 @@ void System::AddEvent(EventInfo info) {
                                      states_.at(state).name)});
     }
     for (const EventInfo& other : events_) {
-      if (other.stage != info.stage) continue;
+      if (other.stage != info.stage || !timed || other.witness >= 0) continue;
       for (const int written : other.writes) {
         if (written != state) continue;
         throw WiringError({fmt::format("state '{}' is written by two events of one stage",

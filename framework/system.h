@@ -78,6 +78,12 @@ class System {
     Every every;  ///< without meaning for an initialization
     Calculation calculation;
     std::vector<int> writes;  ///< states
+    int witness{-1};          ///< that a reset waits for, instead of `every`
+  };
+  struct WitnessInfo {
+    std::string name;
+    Direction direction;
+    Calculation calculation;
   };
 
   virtual ~System();
@@ -88,6 +94,7 @@ class System {
   const std::vector<OutputInfo>& outputs() const { return outputs_; }
   const std::vector<StateInfo>& states() const { return states_; }
   const std::vector<EventInfo>& events() const { return events_; }
+  const std::vector<WitnessInfo>& witnesses() const { return witnesses_; }
   int size_variables() const { return size_variables_; }
   int unit_variables() const { return unit_variables_; }
 
@@ -161,6 +168,24 @@ class System {
   void DeclareReset(Every every, const Writes<States...>& writes, const Reads&... reads) {
     DeclareEvent<kMethod>(Stage::kReset, every, writes, reads...);
   }
+  /// A witness function `double kMethod(reads...)`, continuous between events. A simulator ends a
+  /// step where it, having been nonzero, reaches or crosses zero. A jump across zero that an
+  /// update makes is no crossing: after an update the function is looked at afresh.
+  template <auto kMethod, class... Reads>
+  Witness DeclareWitness(std::string name, Direction direction, const Reads&... reads) {
+    return AddWitness({std::move(name), direction, MakeWitness<kMethod>(reads...)});
+  }
+  /// A reset at each crossing of a witness function, in the first stage of the step that begins
+  /// there. Resets of several witnesses may write one state; if their crossings coincide, what was
+  /// declared last counts.
+  template <auto kMethod, class... States, class... Reads>
+  void DeclareReset(When when, const Writes<States...>& writes, const Reads&... reads) {
+    AddEvent({Stage::kReset,
+              {},
+              MakeEvent<kMethod>(writes, reads...),
+              WrittenBy(writes),
+              WitnessIndex(when.witness)});
+  }
   /// Happens once, when a simulator initializes.
   template <auto kMethod, class... States, class... Reads>
   void DeclareInitialization(const Writes<States...>& writes, const Reads&... reads) {
@@ -181,26 +206,32 @@ class System {
   template <auto kMethod, class... States, class... Reads>
   void DeclareEvent(Stage stage, Every every, const Writes<States...>& writes,
                     const Reads&... reads) {
-    std::vector<int> written;
-    auto calculation = std::apply(
-        [&](const auto&... state) {
-          (written.push_back(state.index), ...);
-          return MakeCalculation<kMethod, WriteOf<typename SignalOf<States>::Type>...>(reads...);
-        },
-        writes.states);
-    AddEvent({stage, every, std::move(calculation), std::move(written)});
+    AddEvent({stage, every, MakeEvent<kMethod>(writes, reads...), WrittenBy(writes)});
   }
+  template <auto kMethod, class... States, class... Reads>
+  static Calculation MakeEvent(const Writes<States...>& /*writes*/, const Reads&... reads) {
+    return MakeCalculation<kMethod, WriteOf<typename SignalOf<States>::Type>...>(reads...);
+  }
+  template <class... States>
+  static std::vector<int> WrittenBy(const Writes<States...>& writes) {
+    return std::apply([](const auto&... state) { return std::vector<int>{state.index...}; },
+                      writes.states);
+  }
+  /// throws WiringError if another system declared the witness.
+  int WitnessIndex(const Witness& witness) const;
 
   InputHandle AddInput(InputInfo info);
   OutputHandle AddOutput(OutputInfo info);
   OutputHandle AddStateOutput(std::string name, int state);
   StateHandle AddState(StateInfo info);
+  Witness AddWitness(WitnessInfo info);
   void AddEvent(EventInfo info);
 
   std::vector<InputInfo> inputs_;
   std::vector<OutputInfo> outputs_;
   std::vector<StateInfo> states_;
   std::vector<EventInfo> events_;
+  std::vector<WitnessInfo> witnesses_;
   int size_variables_{0};
   int unit_variables_{0};
 
