@@ -17,9 +17,11 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 /// Crossings no further apart than this are simultaneous; s, relative beyond 1 s.
 constexpr double kSimultaneous = 1e-12;
 /// Looks at each step, and the longest time between two, s.
-constexpr int kLeastLooks = 4;
+constexpr int kLeastLooks = 2;
+/// How often the time between two looks is halved near zero.
+constexpr int kDepth = 6;
 constexpr double kLongestBlink = 0.025;
-/// How near the ends of a step its slope is felt, as a part of the time between two looks.
+/// How near a look the slope is felt there, as a part of the time to the next.
 constexpr double kProbe = 1e-3;
 /// A function that ends its bracket larger than this part of itself has jumped across zero.
 constexpr double kJump = 1e-6;
@@ -132,78 +134,102 @@ bool WitnessLocator::Fires(int witness, double before, double after) const {
          (direction != Direction::kFalling && before < 0.0 && after >= 0.0);
 }
 
+/// Where the witness first crosses in the present step, s; infinity if it does not.
 double WitnessLocator::FirstCrossing(Context& context, int witness) {
-  const int looks =
-      std::max(kLeastLooks, static_cast<int>(std::ceil((end_ - begin_) / kLongestBlink)));
-  const double blink = (end_ - begin_) / looks;
-  Look before{begin_, start_value_[witness]}, last = before;
-  scale_[witness] = std::fabs(last.w);
-  double crossing = kNever;
-  for (int k = 1; k <= looks && crossing == kNever; ++k) {
-    const Look now = LookAt(context, witness, k == looks ? end_ : begin_ + k * blink);
-    if (k == 1 && last.w == 0.0) crossing = CrossingFromRest(context, witness, last, now);
-    if (k == 1 && SameSign(last.w, now.w) && std::fabs(last.w) < std::fabs(now.w)) {
-      before = last;
-      last = LookAt(context, witness, begin_ + kProbe * blink);
-    }
-    if (before.t < last.t && crossing == kNever) {
-      crossing = CrossingInDip(context, witness, before, last, now);
-    }
-    if (crossing == kNever) crossing = CrossingBetween(context, witness, last, now);
-    if (k == looks && crossing == kNever && SameSign(last.w, now.w) &&
-        std::fabs(now.w) < std::fabs(last.w)) {
-      const Look probe = LookAt(context, witness, end_ - kProbe * blink);
-      crossing = CrossingInDip(context, witness, last, probe, now);
-    }
-    if (k == looks && crossing == kNever) crossing = CrossingAfter(witness, last, now);
-    before = last;
-    last = now;
-  }
-  end_value_[witness] = last.w;
-  return crossing;
+  const Look start{begin_, start_value_[witness]};
+  scale_[witness] = std::fabs(start.w);
+  const Look end = LookAt(context, witness, end_);
+  end_value_[witness] = end.w;
+  const double blinks = std::ceil((end_ - begin_) / kLongestBlink);
+  const double crossing =
+      Scan(context, witness, start, end, std::max(kLeastLooks, static_cast<int>(blinks)));
+  return crossing < kNever ? crossing : CrossingAfter(context, witness, end);
 }
 
-double WitnessLocator::CrossingBetween(Context& context, int witness, Look left, Look right) {
-  return Fires(witness, left.w, right.w) ? Bracket(context, witness, left, right) : kNever;
-}
-
-/// A guard that starts at rest may leave zero and come back before the first look.
-double WitnessLocator::CrossingFromRest(Context& context, int witness, Look start, Look next) {
-  const double shortest = 0.1 * Resolution(next.t);
-  while (next.w != 0.0 && next.t - start.t > shortest) {
-    const Look sooner = LookAt(context, witness, 0.5 * (start.t + next.t));
-    if (sooner.w != 0.0 && !SameSign(sooner.w, next.w)) {
-      return CrossingBetween(context, witness, sooner, next);
-    }
-    next = sooner;
+/// The first crossing in (left, right], with so many looks.
+double WitnessLocator::Scan(Context& context, int witness, Look left, Look right, int looks) {
+  const double begin = left.t, blink = (right.t - left.t) / looks;
+  if (blink < Resolution(right.t)) return kNever;
+  for (int k = 1; k <= looks; ++k) {
+    const Look now = k == looks ? right : LookAt(context, witness, begin + k * blink);
+    const double crossing = Crossing(context, witness, left, now, kDepth);
+    if (crossing < kNever) return crossing;
+    left = now;
   }
   return kNever;
 }
 
-/// Two crossings between three looks of one sign, |w| being least in the middle.
-double WitnessLocator::CrossingInDip(Context& context, int witness, Look left, Look middle,
-                                     Look right) {
-  if (!SameSign(left.w, middle.w) || !SameSign(middle.w, right.w)) return kNever;
-  const double sign = middle.w > 0.0 ? 1.0 : -1.0;
-  const Look first = left, last = right;
+double WitnessLocator::Crossing(Context& context, int witness, Look left, Look right, int depth) {
+  if (left.w == 0.0) return CrossingFromRest(context, witness, left, right);
+  if (SameSign(left.w, right.w)) return CrossingAndBack(context, witness, left, right, depth);
+  const auto [before, after] = Bracket(context, witness, left, right);
+  // Of three crossings between two looks any may have been bracketed.
+  const double sooner = Scan(context, witness, left, before, kLeastLooks);
+  if (sooner < kNever) return sooner;
+  if (Fires(witness, before.w, after.w)) return after.t;
+  return CrossingFromRest(context, witness, {after.t, 0.0}, right);
+}
+
+/// A guard that starts at rest may leave zero and come back before the next look.
+double WitnessLocator::CrossingFromRest(Context& context, int witness, Look start, Look next) {
+  const double shortest = 0.1 * Resolution(next.t);
+  double crossing = kNever;
+  while (next.t - start.t > shortest) {
+    const Look sooner = LookAt(context, witness, 0.5 * (start.t + next.t));
+    if (sooner.w != 0.0) {
+      crossing = std::min(crossing, Crossing(context, witness, sooner, next, 2));
+    } else if (next.w == 0.0) {
+      break;  // it stays there
+    }
+    next = sooner;
+  }
+  return crossing;
+}
+
+/// Crossings between two looks of one sign. Where a parabola through the middle stays well away
+/// from zero there are none; elsewhere each half is searched.
+double WitnessLocator::CrossingAndBack(Context& context, int witness, Look left, Look right,
+                                       int depth) {
+  if (right.t - left.t < Resolution(right.t)) return kNever;
+  const Look middle = LookAt(context, witness, 0.5 * (left.t + right.t));
+  if (SameSign(left.w, middle.w)) {
+    const double bend = std::fabs(middle.w - 0.5 * (left.w + right.w));
+    if (std::min(std::fabs(left.w), std::fabs(right.w)) > 4.0 * bend) return kNever;
+    if (depth == 0) return CrossingInDip(context, witness, left, right);
+  }
+  const double crossing = Crossing(context, witness, left, middle, depth - 1);
+  return crossing < kNever ? crossing : Crossing(context, witness, middle, right, depth - 1);
+}
+
+/// As above, by going down from the nearer end, if it goes down there.
+double WitnessLocator::CrossingInDip(Context& context, int witness, Look left, Look right) {
+  const bool nearer_left = std::fabs(left.w) < std::fabs(right.w);
+  const double probe = kProbe * (right.t - left.t);
+  Look lowest = LookAt(context, witness, nearer_left ? left.t + probe : right.t - probe);
+  if (SameSign(lowest.w, left.w)) {
+    if (std::fabs(lowest.w) >= std::min(std::fabs(left.w), std::fabs(right.w))) return kNever;
+    lowest = Minimum(context, witness, left, lowest, right);
+    if (SameSign(lowest.w, left.w)) return kNever;
+  }
+  const double crossing = Crossing(context, witness, left, lowest, 0);
+  return crossing < kNever ? crossing : Crossing(context, witness, lowest, right, 0);
+}
+
+/// Goes down |w| from three looks of one sign, |w| being least in the middle, by parabolas and
+/// golden sections, until the sign changes or the minimum plainly lies above zero.
+WitnessLocator::Look WitnessLocator::Minimum(Context& context, int witness, Look left, Look middle,
+                                             Look right) {
   for (int i = 0; i < 60; ++i) {
-    if (std::fabs(middle.w) > std::fabs(left.w) || std::fabs(middle.w) > std::fabs(right.w)) break;
-    const double l = middle.t - left.t, r = right.t - middle.t;
+    const double l = middle.t - left.t, r = right.t - middle.t, span = std::max(l, r);
     const double a = (middle.w - left.w) / l, b = (right.w - middle.w) / r;
-    const double curvature = (b - a) / (l + r);
-    const double slope = (a * r + b * l) / (l + r);  // of the parabola at the middle
+    const double slope = (a * r + b * l) / (l + r), curvature = (b - a) / (l + r);
     double shift = curvature == 0.0 ? 0.0 : -0.5 * slope / curvature;
-    const double least = sign * (middle.w + 0.5 * slope * shift);
-    if (i > 2 && least > 0.5 * std::fabs(middle.w)) break;
-    const double span = std::max(l, r);
-    if (span < Resolution(right.t)) break;
-    // Near the middle, or at each third time, the longer side shrinks instead.
+    const double least = (middle.w + 0.5 * slope * shift) / middle.w;
+    if (span < Resolution(right.t) || (i > 4 && least > 0.9)) break;
+    // Near the middle, and each third time, the longer side shrinks instead.
     if (std::fabs(shift) < 1e-3 * span || i % 3 == 2) shift = r > l ? 0.38 * r : -0.38 * l;
     const Look next = LookAt(context, witness, middle.t + std::clamp(shift, -0.9 * l, 0.9 * r));
-    if (sign * next.w <= 0.0) {
-      const double down = CrossingBetween(context, witness, first, next);
-      return down < kNever ? down : CrossingBetween(context, witness, next, last);
-    }
+    if (!SameSign(next.w, middle.w)) return next;
     if (std::fabs(next.w) < std::fabs(middle.w)) {
       (next.t > middle.t ? left : right) = middle;
       middle = next;
@@ -211,20 +237,30 @@ double WitnessLocator::CrossingInDip(Context& context, int witness, Look left, L
       (next.t > middle.t ? right : left) = next;
     }
   }
-  return kNever;
+  return middle;
 }
 
 /// A crossing so short after the step that rounding alone may have put it there.
-double WitnessLocator::CrossingAfter(int witness, Look last, Look end) const {
-  if (!SameSign(last.w, end.w) || !Fires(witness, end.w, 0.0)) return kNever;
-  const double approach = (std::fabs(last.w) - std::fabs(end.w)) / (end.t - last.t);
+double WitnessLocator::CrossingAfter(Context& context, int witness, Look end) {
+  if (end.w == 0.0 || !Fires(witness, end.w, 0.0)) return kNever;
+  const double resolution = Resolution(end.t);
+  const double back = std::min(1e3 * resolution, end_ - begin_);
+  const double fall = std::fabs(end.w) / scale_[witness];
+  // |w| is no steeper than a million times what the whole step shows.
+  if (fall > 1e6 * resolution / (end_ - begin_)) return kNever;
+  const Look last = LookAt(context, witness, end.t - back);
+  const double approach = (std::fabs(last.w) - std::fabs(end.w)) / back;
   const double wait = std::fabs(end.w) / approach;
-  return approach > 0.0 && wait <= Resolution(end.t) ? end.t + wait : kNever;
+  const bool soon = SameSign(last.w, end.w) && approach > 0.0 && wait <= resolution;
+  return soon ? end.t + wait : kNever;
 }
 
-/// The right end of a bracket of a crossing, by regula falsi (Illinois) and bisection.
-double WitnessLocator::Bracket(Context& context, int witness, Look left, Look right) {
-  const double before = left.w, width = 0.1 * Resolution(right.t);
+/// A bracket of one sign change, by regula falsi (Illinois) and bisection.
+std::pair<WitnessLocator::Look, WitnessLocator::Look> WitnessLocator::Bracket(Context& context,
+                                                                              int witness,
+                                                                              Look left,
+                                                                              Look right) {
+  const double width = 0.1 * Resolution(right.t);
   double left_weight = left.w, right_weight = right.w;
   for (int i = 0; right.t - left.t > width && i < 200; ++i) {
     double t = 0.5 * (left.t + right.t);
@@ -233,17 +269,17 @@ double WitnessLocator::Bracket(Context& context, int witness, Look left, Look ri
     }
     t = std::clamp(t, left.t + 0.5 * width, right.t - 0.5 * width);
     const Look middle = LookAt(context, witness, t);
-    if (Fires(witness, before, middle.w)) {
+    if (SameSign(left.w, middle.w)) {
+      left = middle;
+      left_weight = middle.w;
+      right_weight *= 0.5;
+    } else {
       right = middle;
       right_weight = middle.w;
       left_weight *= 0.5;
-    } else {
-      left = middle;
-      left_weight = middle.w == 0.0 ? before : middle.w;
-      right_weight *= 0.5;
     }
   }
-  return right.t;
+  return {left, right};
 }
 
 WitnessLocator::Look WitnessLocator::LookAt(Context& context, int witness, double t) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "framework/integrator.h"
@@ -36,11 +37,14 @@ class WitnessLocator {
   void Start(Context& context);
   bool FindCrossings(Context& context, double to);
   double FirstCrossing(Context& context, int witness);
-  double CrossingBetween(Context& context, int witness, Look left, Look right);
+  double Scan(Context& context, int witness, Look left, Look right, int looks);
+  double Crossing(Context& context, int witness, Look left, Look right, int depth);
+  double CrossingAndBack(Context& context, int witness, Look left, Look right, int depth);
   double CrossingFromRest(Context& context, int witness, Look start, Look next);
-  double CrossingInDip(Context& context, int witness, Look left, Look middle, Look right);
-  double CrossingAfter(int witness, Look last, Look end) const;
-  double Bracket(Context& context, int witness, Look left, Look right);
+  double CrossingInDip(Context& context, int witness, Look left, Look right);
+  double CrossingAfter(Context& context, int witness, Look end);
+  Look Minimum(Context& context, int witness, Look left, Look middle, Look right);
+  std::pair<Look, Look> Bracket(Context& context, int witness, Look left, Look right);
   Look LookAt(Context& context, int witness, double t);
   void MoveTo(Context& context, double t);
   void LeaveRest(Context& context);
