@@ -3,35 +3,16 @@
 
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "diagrams/diagram_file.h"
 #include "diagrams/document.h"
+#include "diagrams/output_sections.h"
 #include "framework/diagram.h"
-#include "framework/period.h"
 #include "systems/model_set.h"
 
 namespace oca::diagrams {
-
-/// A signal to record. `name` is `system.output`.
-struct RecordedSignal {
-  std::string name;
-  OutputHandle output;
-  Period period;
-};
-
-/// A bound from section `expect`. What it looks at is an element of a Vector output (`index`), or a
-/// member of another output's JSON object (`member`).
-struct Expectation {
-  std::string name;
-  OutputHandle output;
-  int index{-1};
-  std::string member;
-  ExpectParams bound;
-};
 
 /// Everything a diagram file says, ready to run.
 struct LoadedDiagram {
@@ -51,7 +32,7 @@ struct LoadedDiagram {
   std::vector<RecordedSignal> record;
   std::vector<Expectation> expectations;
   /// Outputs of type MotionMetrics, with the names of their systems.
-  std::vector<std::pair<std::string, OutputHandle>> metrics;
+  NamedOutputs metrics;
 };
 
 /// Reads, checks and builds a diagram file.

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "diagrams/model_section.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <utility>
+
+#include "diagrams/diagram_file.h"
+#include "diagrams/package_paths.h"
+#include "diagrams/section.h"
+#include "framework/error.h"
+#include "models/error.h"
+#include "models/robot/urdf.h"
+
+namespace oca::diagrams {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path FolderOf(const Location& location) {
+  return location.file && location.line > 0 ? fs::path(*location.file).parent_path() : fs::path();
+}
+
+Location LocationOf(const Value& map, const char* key) {
+  const Value* const value = map.Find(key);
+  return value == nullptr ? map.location() : value->location();
+}
+
+}  // namespace
+
+ModelSection::ModelSection(const Value& root, Problems& problems) : problems_(problems) {
+  ReadPackages(root);
+  for (const Value::Entry& entry : SectionOf(root, "models", problems_)) ReadModel(entry);
+}
+
+void ModelSection::ReadPackages(const Value& root) {
+  for (const Value::Entry& entry : SectionOf(root, "packages", problems_)) {
+    if (entry.value.string() == nullptr) {
+      problems_.Add(entry.value.location(), fmt::format("packages.{}: got {}; expected a folder",
+                                                        entry.key, entry.value.Show()));
+      continue;
+    }
+    const fs::path folder = *entry.value.string();
+    packages_[entry.key] =
+        folder.is_absolute() ? folder : FolderOf(entry.value.location()) / folder;
+  }
+}
+
+fs::path ModelSection::Resolve(const std::string& name, const Location& location) const {
+  return name.empty() ? fs::path() : ResolvePath(name, FolderOf(location), packages_);
+}
+
+void ModelSection::ReadModel(const Value::Entry& entry) {
+  const std::string where = "models." + entry.key;
+  ModelParams params;
+  Problems own;
+  ReadFields(entry.value, FieldsOf<ModelParams>(), where, &params, own);
+  if (!own.empty()) {
+    problems_.Add(own);
+    failed_ = true;
+    return;
+  }
+  try {
+    models::LoadOptions options;
+    options.X_WB = params.base_pose.Pose(where + ".base_pose");
+    options.srdf = Resolve(params.srdf, LocationOf(entry.value, "srdf"));
+    if (params.acceleration_limits) {
+      options.acceleration_limits = params.acceleration_limits->values();
+    }
+    if (params.jerk_limits) options.jerk_limits = params.jerk_limits->values();
+    options.find_package = [this](const std::string& package) -> fs::path {
+      const auto found = packages_.find(package);
+      return found == packages_.end() ? fs::path() : found->second;
+    };
+    options.package_directories = PackageFolders();
+    models_.Add(entry.key, std::make_shared<const models::RobotModel>(models::LoadUrdf(
+                               Resolve(params.urdf, LocationOf(entry.value, "urdf")), options)));
+  } catch (const std::runtime_error& error) {
+    failed_ = true;
+    problems_.Add(entry.location, fmt::format("{}: {}", where, error.what()));
+  }
+}
+
+Value ModelSection::ResolveFiles(const Value& value) {
+  if (value.list() != nullptr) {
+    Value::List list;
+    for (const Value& item : *value.list()) list.push_back(ResolveFiles(item));
+    return Value(std::move(list), value.location());
+  }
+  if (value.map() == nullptr) return value;
+  Value::Map map;
+  for (const Value::Entry& entry : *value.map()) {
+    Value inner = ResolveFiles(entry.value);
+    if (entry.key == "file" && inner.string() != nullptr) {
+      try {
+        inner = Value(Resolve(*inner.string(), inner.location()).string(), inner.location());
+      } catch (const ConfigError& error) {
+        problems_.Add(inner.location(), error.what());
+      }
+    }
+    map.push_back({entry.key, entry.location, std::move(inner)});
+  }
+  return Value(std::move(map), value.location());
+}
+
+}  // namespace oca::diagrams

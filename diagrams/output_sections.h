@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "diagrams/diagram_file.h"
+#include "framework/diagram.h"
+#include "framework/period.h"
+#include "framework/value.h"
+
+namespace oca::diagrams {
+
+/// A signal to record. `name` is `system.output`.
+struct RecordedSignal {
+  std::string name;
+  OutputHandle output;
+  Period period;
+};
+
+/// A bound from section `expect`. What it looks at is an element of a Vector output (`index`), or a
+/// member of another output's JSON object (`member`).
+struct Expectation {
+  std::string name;
+  OutputHandle output;
+  int index{-1};
+  std::string member;
+  ExpectParams bound;
+};
+
+/// Outputs by name.
+using NamedOutputs = std::vector<std::pair<std::string, OutputHandle>>;
+
+/// Section `record`; names may be patterns with `*`, `outputs` is what there is.
+std::vector<RecordedSignal> ReadRecord(const Value& root, const NamedOutputs& outputs,
+                                       Problems& problems);
+
+/// Section `expect`. A lone word is a metric, looked up in the first of `metrics`. `diagram` is
+/// nullptr if it could not be built; lengths are then not checked.
+std::vector<Expectation> ReadExpectations(const Value& root, const NamedOutputs& outputs,
+                                          const NamedOutputs& metrics, const Diagram* diagram,
+                                          double duration, Problems& problems);
+
+}  // namespace oca::diagrams
