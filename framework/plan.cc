@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <memory>
+#include <new>
 
 #include "framework/error.h"
 
@@ -220,6 +222,36 @@ void Plan::SetTimeAndState(Context& context, double time, const double* state) c
   Context::Header& header = context.header();
   header.time = time;
   versions(context)[kTimeSource] = versions(context)[kContinuousSource] = ++header.epoch;
+}
+
+void Plan::TakeCapacity(Context& context) const {
+  for (const Event& event : events) {
+    if (event.stage != System::Stage::kUpdate && event.stage != System::Stage::kReset) continue;
+    const bool writes_objects = std::any_of(event.writes.begin(), event.writes.end(),
+                                            [&](int i) { return states[i].type != &kVectorType; });
+    try {
+      PullRange(context, event.pull_begin, event.pull_end);
+      if (writes_objects) RunEvent(context, event);
+    } catch (const SimulationError&) {
+      continue;
+    }
+    for (const int index : event.writes) {
+      if (states[index].type != &kVectorType) GrowLikeNext(context, states[index]);
+    }
+  }
+}
+
+void Plan::GrowLikeNext(Context& context, const StateEntry& state) const {
+  const SignalType& type = *state.type;
+  std::byte* const at = arena(context) + state.slot.offset;
+  const std::unique_ptr<std::byte, void (*)(std::byte*)> memory(
+      static_cast<std::byte*>(operator new(type.size, std::align_val_t(64))),
+      [](std::byte* bytes) { operator delete(bytes, std::align_val_t(64)); });
+  type.construct(memory.get());
+  type.assign(memory.get(), at);
+  type.assign(at, arena(context) + state.next.offset);
+  type.assign(at, memory.get());
+  type.destroy(memory.get());
 }
 
 const Plan::InputEntry& Plan::input(const InputHandle& handle) const {

@@ -110,6 +110,10 @@ class Plan {
   void CheckInputsFixed(const Context& context) const;
   /// Derivatives of all continuous state at the context's time and state, into `derivatives`.
   void EvaluateDerivatives(Context& context, double* derivatives) const;
+  /// Lets values that are no Vectors grow to what a tick needs, so that the first tick does not
+  /// allocate: computes what updates read and runs those that write such states, whose values stay
+  /// as they are. A calculation that fails is left to the tick that needs it.
+  void TakeCapacity(Context& context) const;
   /// Runs one event; what it writes goes to the states' `next`.
   void RunEvent(Context& context, const Event& event) const;
   /// Makes `next` the state.
@@ -203,6 +207,7 @@ class Plan {
   void FailUnfixed(const Context& context, std::uint32_t source) const;
   [[noreturn]] void FailNode(const Context& context, std::uint32_t node) const;
   void FailDerivative(const Context& context) const;
+  void GrowLikeNext(Context& context, const StateEntry& state) const;
   int PortOf(std::uint32_t node) const;
 };
 

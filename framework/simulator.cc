@@ -162,6 +162,7 @@ void Simulator::Initialize() {
   }
   for (const int event : plan.initializations) plan.RunEvent(context_, plan.events[event]);
   for (const int event : plan.initializations) plan.Commit(context_, plan.events[event]);
+  plan.TakeCapacity(context_);
   context_.header().initialized = 1;
   RunPublishes();
 }

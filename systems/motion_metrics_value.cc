@@ -87,7 +87,7 @@ MotionMetricsValue Signal<MotionMetricsValue>::ReadJson(std::string_view text) {
 }
 
 bool Signal<MotionTally>::Finite(const MotionTally& value) {
-  const auto finite = [](const Eigen::VectorXd& vector) {
+  const auto finite = [](const std::vector<double>& vector) {
     return AllFinite(vector.data(), static_cast<std::size_t>(vector.size()));
   };
   const std::array numbers{value.last_time_,     value.min_distance_.value_or(0.0),

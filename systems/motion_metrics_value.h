@@ -73,11 +73,11 @@ class MotionTally {
   double request_path_{0.0};
   double max_speed_{0.0};
   double max_acceleration_{0.0};
-  Eigen::VectorXd position_;         // of the last sample
-  Eigen::VectorXd velocity_;         // between the last two samples
-  Eigen::VectorXd request_;          // of the last sample
-  Eigen::VectorXd delta_;            // of the last sample
-  Eigen::VectorXd delta_direction_;  // sign of the last change of each delta; 0 none yet
+  std::vector<double> position_;         // of the last sample
+  std::vector<double> velocity_;         // between the last two samples
+  std::vector<double> request_;          // of the last sample
+  std::vector<double> delta_;            // of the last sample
+  std::vector<double> delta_direction_;  // sign of the last change of each delta; 0 none yet
 };
 
 }  // namespace oca::systems

@@ -14,6 +14,20 @@ double MaxNorm(const Eigen::Ref<const Eigen::VectorXd>& values) {
   return values.size() == 0 ? 0.0 : values.cwiseAbs().maxCoeff();
 }
 
+/// Sum of |now - before| over the components.
+double PathLength(VectorView now, const std::vector<double>& before) {
+  double length = 0.0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    length += std::fabs(now[static_cast<Eigen::Index>(i)] - before[i]);
+  }
+  return length;
+}
+
+/// Standard vectors keep their capacity where Eigen's let it go.
+void Keep(VectorView values, std::vector<double>& kept) {
+  kept.assign(values.begin(), values.end());
+}
+
 std::optional<double> FinalError(const MotionSample& now) {
   const auto& goal = now.goal ? now.goal : now.request;
   if (!now.position || !goal) return std::nullopt;
@@ -33,8 +47,8 @@ void MotionTally::Add(const MotionSample& sample) {
   AddDistance(sample);
   if (sample.position) AddPosition(*sample.position, step);
   if (sample.request) {
-    if (samples_ > 0) request_path_ += (*sample.request - request_).lpNorm<1>();
-    request_ = *sample.request;
+    if (samples_ > 0) request_path_ += PathLength(*sample.request, request_);
+    Keep(*sample.request, request_);
   }
   if (sample.delta) AddDelta(*sample.delta);
   last_time_ = sample.time;
@@ -57,9 +71,9 @@ void MotionTally::AddDistance(const MotionSample& sample) {
 
 void MotionTally::AddPosition(VectorView position, double step) {
   if (samples_ == 0) {
-    velocity_.resize(position.size());
+    velocity_.assign(static_cast<std::size_t>(position.size()), 0.0);
   } else {
-    position_path_ += (position - position_).lpNorm<1>();
+    position_path_ += PathLength(position, position_);
     for (Eigen::Index i = 0; i < position.size(); ++i) {
       const double velocity = (position[i] - position_[i]) / step;
       max_speed_ = std::max(max_speed_, std::fabs(velocity));
@@ -69,13 +83,13 @@ void MotionTally::AddPosition(VectorView position, double step) {
       velocity_[i] = velocity;
     }
   }
-  position_ = position;
+  Keep(position, position_);
 }
 
 void MotionTally::AddDelta(VectorView delta) {
   max_abs_delta_ = std::max(max_abs_delta_, MaxNorm(delta));
   if (samples_ == 0) {
-    delta_direction_ = Eigen::VectorXd::Zero(delta.size());
+    delta_direction_.assign(static_cast<std::size_t>(delta.size()), 0.0);
   } else {
     for (Eigen::Index i = 0; i < delta.size(); ++i) {
       const double change = delta[i] - delta_[i];
@@ -85,7 +99,7 @@ void MotionTally::AddDelta(VectorView delta) {
       delta_direction_[i] = direction;
     }
   }
-  delta_ = delta;
+  Keep(delta, delta_);
 }
 
 MotionMetricsValue MotionTally::At(const MotionSample& now) const {
