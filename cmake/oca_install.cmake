@@ -2,11 +2,11 @@
 include(CMakePackageConfigHelpers)
 set(cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/oca)
 install(EXPORT oca_targets NAMESPACE oca:: FILE oca_targets.cmake DESTINATION ${cmake_dir})
-configure_package_config_file(cmake/oca_config.cmake.in oca_config.cmake
+configure_package_config_file(cmake/oca-config.cmake.in oca-config.cmake
                               INSTALL_DESTINATION ${cmake_dir})
-write_basic_package_version_file(oca_config_version.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${CMAKE_CURRENT_BINARY_DIR}/oca_config.cmake
-              ${CMAKE_CURRENT_BINARY_DIR}/oca_config_version.cmake cmake/oca_packages.cmake
+write_basic_package_version_file(oca-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/oca-config.cmake
+              ${CMAKE_CURRENT_BINARY_DIR}/oca-config-version.cmake cmake/oca_packages.cmake
         DESTINATION ${cmake_dir})
 install(DIRECTORY models/robots models/worlds DESTINATION ${CMAKE_INSTALL_DATADIR}/oca/models)
 install(DIRECTORY diagrams/ DESTINATION ${CMAKE_INSTALL_DATADIR}/oca/diagrams
