@@ -16,7 +16,7 @@
 #include "framework/port_access.h"
 #include "framework/simulator.h"
 #include "models/robot/urdf.h"
-#include "tests/diagrams/allocation_count.h"
+#include "tests/allocation_count.h"
 
 namespace oca::diagrams {
 namespace {
@@ -243,9 +243,9 @@ TEST_P(ConformanceTest, RunsWithoutTheHeap) {
   } catch (const SimulationError&) {
     return;  // it refuses neutral inputs, which another test looks at
   }
-  const long before = allocation_count;
+  const std::int64_t before = AllocationCount();
   simulator.AdvanceTo(0.4);
-  EXPECT_EQ(allocation_count, before);
+  EXPECT_EQ(AllocationCount(), before);
 }
 
 std::vector<std::string> Types() {

@@ -8,7 +8,7 @@
 
 #include "diagrams/loader.h"
 #include "diagrams/run.h"
-#include "tests/diagrams/allocation_count.h"
+#include "tests/allocation_count.h"
 
 namespace oca::diagrams {
 namespace {
@@ -118,17 +118,17 @@ TEST(StaticTest, TwoRunsGiveTheSameBits) {
 
 TEST(StaticTest, RunsWithoutTheHeapFromInitializeToTheGoal) {
   if (!kCountsAllocations) GTEST_SKIP() << "malloc is not ours to count here";
-  const long made = allocation_count;
+  const std::int64_t made = AllocationCount();
   ::operator delete(::operator new(64));
-  ASSERT_EQ(allocation_count, made + 1);
+  ASSERT_EQ(AllocationCount(), made + 1);
   for (const char* file : {"static_test", "dynamic_test", "link_forces_test"}) {
     const LoadedDiagram loaded =
         LoadDiagram(OCA_SOURCE_DIR "/diagrams/" + std::string(file) + ".yaml");
     Simulator simulator(*loaded.diagram, loaded.integrator);
     simulator.Initialize();
-    const long before = allocation_count;
+    const std::int64_t before = AllocationCount();
     simulator.AdvanceTo(loaded.simulator.duration);
-    EXPECT_EQ(allocation_count, before) << file;
+    EXPECT_EQ(AllocationCount(), before) << file;
   }
 }
 

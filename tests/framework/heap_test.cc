@@ -8,41 +8,9 @@
 #include <new>
 
 #include "framework/simulator.h"
+#include "tests/allocation_count.h"
 #include "tests/framework/blocks.h"
 #include "tests/framework/integrator_kinds.h"
-
-// Sanitizers bring a malloc of their own; there the tests below are skipped.
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-constexpr bool kCounting = true;
-static thread_local int allocations = 0;
-
-extern "C" {
-void* __libc_malloc(std::size_t bytes);
-void* __libc_calloc(std::size_t count, std::size_t bytes);
-void* __libc_realloc(void* memory, std::size_t bytes);
-void* __libc_memalign(std::size_t alignment, std::size_t bytes);
-
-void* malloc(std::size_t bytes) {
-  ++allocations;
-  return __libc_malloc(bytes);
-}
-void* calloc(std::size_t count, std::size_t bytes) {
-  ++allocations;
-  return __libc_calloc(count, bytes);
-}
-void* realloc(void* memory, std::size_t bytes) {
-  ++allocations;
-  return __libc_realloc(memory, bytes);
-}
-void* aligned_alloc(std::size_t alignment, std::size_t bytes) {
-  ++allocations;
-  return __libc_memalign(alignment, bytes);
-}
-}
-#else
-constexpr bool kCounting = false;
-static int allocations = 0;
-#endif
 
 namespace oca {
 namespace {
@@ -50,21 +18,21 @@ namespace {
 class HeapTest : public testing::TestWithParam<IntegratorKind> {
  protected:
   void SetUp() override {
-    if (!kCounting) GTEST_SKIP() << "malloc is not ours to count here";
+    if (!kCountsAllocations) GTEST_SKIP() << "malloc is not ours to count here";
   }
 };
 INSTANTIATE_TEST_SUITE_P(Integrators, HeapTest, testing::ValuesIn(kAllIntegrators), NameOfKind);
 
 TEST(HeapCounterTest, SeesWhatNewMallocAndCallocTake) {
-  if (!kCounting) GTEST_SKIP() << "malloc is not ours to count here";
-  const int before = allocations;
+  if (!kCountsAllocations) GTEST_SKIP() << "malloc is not ours to count here";
+  const std::int64_t before = AllocationCount();
   const Eigen::VectorXd vector = Eigen::VectorXd::Zero(100);
-  EXPECT_EQ(allocations, before + 1) << vector.size();
+  EXPECT_EQ(AllocationCount(), before + 1) << vector.size();
   void* volatile block = std::calloc(10, 10);
-  EXPECT_EQ(allocations, before + 2);
+  EXPECT_EQ(AllocationCount(), before + 2);
   std::free(block);
   ::operator delete(::operator new(64, std::align_val_t(64)), std::align_val_t(64));
-  EXPECT_EQ(allocations, before + 3);
+  EXPECT_EQ(AllocationCount(), before + 3);
 }
 
 /// A sampled loop around a stiff lag, two more rates, a publish and a reset.
@@ -98,9 +66,9 @@ TEST_P(HeapTest, AThousandTicksAfterInitializeTakeNothing) {
   int monitored = 0;
   simulator.AddMonitor([&](const Context&) { return ++monitored > 0; });
   simulator.Initialize();
-  const int before = allocations;
+  const std::int64_t before = AllocationCount();
   for (int tick = 1; tick <= 1000; ++tick) simulator.AdvanceTo(tick / 100.0);
-  EXPECT_EQ(allocations - before, 0);
+  EXPECT_EQ(AllocationCount() - before, 0);
   EXPECT_GT(monitored, 1000);
   EXPECT_NE(loop.last, 0.0);
 }
@@ -109,9 +77,9 @@ TEST_P(HeapTest, AnUnbrokenRunTakesNothing) {
   Loop loop;
   Simulator simulator(*loop.diagram, {.integrator = GetParam()});
   simulator.Initialize();
-  const int before = allocations;
+  const std::int64_t before = AllocationCount();
   simulator.AdvanceTo(10.0);
-  EXPECT_EQ(allocations - before, 0);
+  EXPECT_EQ(AllocationCount() - before, 0);
 }
 
 TEST_P(HeapTest, SavingIntoAndRestoringFromAContextTakesNothing) {
@@ -119,18 +87,18 @@ TEST_P(HeapTest, SavingIntoAndRestoringFromAContextTakesNothing) {
   Simulator simulator(*loop.diagram, {.integrator = GetParam()});
   simulator.Initialize();
   Context saved = simulator.context();
-  const int before = allocations;
+  const std::int64_t before = AllocationCount();
   for (int i = 1; i <= 10; ++i) {
     simulator.AdvanceTo(0.1 * i);
     saved = simulator.context();
     simulator.AdvanceTo(0.1 * i + 0.05);
     simulator.context() = saved;
   }
-  EXPECT_EQ(allocations - before, 0);
+  EXPECT_EQ(AllocationCount() - before, 0);
 }
 
 TEST(HeapObjectTest, AssigningAContextWithObjectsReusesTheirCapacity) {
-  if (!kCounting) GTEST_SKIP() << "malloc is not ours to count here";
+  if (!kCountsAllocations) GTEST_SKIP() << "malloc is not ours to count here";
   const auto diagram = MakeDiagramOf(std::make_unique<blocks::LabelSink>());
   const auto in = diagram->GetInput<Label>("in");
   const auto out = diagram->GetOutput<Label>("out");
@@ -139,11 +107,11 @@ TEST(HeapObjectTest, AssigningAContextWithObjectsReusesTheirCapacity) {
   out.Eval(one);
   Context two = one;
   const Label other{std::string(90, 'b')};
-  const int before = allocations;
+  const std::int64_t before = AllocationCount();
   in.Fix(one, other);
   out.Eval(one);
   two = one;
-  EXPECT_EQ(allocations - before, 0);
+  EXPECT_EQ(AllocationCount() - before, 0);
   EXPECT_EQ(out.Eval(two).text, other.text);
 }
 

@@ -15,32 +15,9 @@
 #include "systems/repulsive_field.h"
 #include "systems/robot_kinematics.h"
 #include "systems/wrench_transform.h"
+#include "tests/allocation_count.h"
 #include "tests/system_bench.h"
 #include "tests/systems/test_models.h"
-
-// Every malloc is counted: operator new and Eigen take their memory there. Sanitizers bring a
-// malloc of their own; there the test is skipped.
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-constexpr bool kCounting = true;
-static thread_local int allocations = 0;
-
-extern "C" {
-void* __libc_malloc(std::size_t bytes);
-void* __libc_memalign(std::size_t alignment, std::size_t bytes);
-
-void* malloc(std::size_t bytes) {
-  ++allocations;
-  return __libc_malloc(bytes);
-}
-void* aligned_alloc(std::size_t alignment, std::size_t bytes) {
-  ++allocations;
-  return __libc_memalign(alignment, bytes);
-}
-}
-#else
-constexpr bool kCounting = false;
-static int allocations = 0;
-#endif
 
 namespace oca::systems {
 namespace {
@@ -236,7 +213,7 @@ class ChainTest : public ::testing::Test {
 };
 
 TEST_F(ChainTest, TakesNoMemoryAfterTheFirstTick) {
-  if (!kCounting) GTEST_SKIP() << "malloc is not ours to count here";
+  if (!kCountsAllocations) GTEST_SKIP() << "malloc is not ours to count here";
   Context context = diagram_->MakeContext();
   DeltaAt(context, 0.0);
   const std::size_t forces_at_first = field_->forces.Eval(context).forces.size();
@@ -245,7 +222,7 @@ TEST_F(ChainTest, TakesNoMemoryAfterTheFirstTick) {
   // The names of ports are looked up before counting starts.
   const auto position = diagram_->GetInput<Vector>("position");
   Eigen::Matrix<double, 7, 1> q;
-  const int before = allocations;
+  const std::int64_t before = AllocationCount();
   for (int tick = 1; tick <= 300; ++tick) {
     const double time = 0.01 * tick;
     q << 0.3 * std::sin(time), 1.2, 0.0, -0.9, 0.1 * time, 0.5, 0.0;
@@ -254,7 +231,7 @@ TEST_F(ChainTest, TakesNoMemoryAfterTheFirstTick) {
     largest = std::max(largest, mapping_->delta.Eval(context).norm());
     most_forces = std::max(most_forces, field_->forces.Eval(context).forces.size());
   }
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(AllocationCount(), before);
   EXPECT_GT(largest, 1.0);
   EXPECT_GE(most_forces, forces_at_first + 2);
 }

@@ -12,7 +12,7 @@
 #include "framework/diagram.h"
 #include "framework/port_access.h"
 #include "framework/simulator.h"
-#include "tools/bench/allocation_count.h"
+#include "tools/bench/allocation_counter.h"
 #include "tools/bench/engine_blocks.h"
 
 namespace oca::bench {

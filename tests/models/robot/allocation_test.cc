@@ -10,40 +10,18 @@
 #include "models/robot/kinematics.h"
 #include "models/robot/urdf.h"
 #include "random_robot.h"
-
-// Sanitizers bring a malloc of their own; there the tests below are skipped.
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-constexpr bool kCounting = true;
-static thread_local int allocations = 0;
-
-extern "C" {
-void* __libc_malloc(std::size_t bytes);
-void* __libc_memalign(std::size_t alignment, std::size_t bytes);
-
-void* malloc(std::size_t bytes) {
-  ++allocations;
-  return __libc_malloc(bytes);
-}
-void* aligned_alloc(std::size_t alignment, std::size_t bytes) {
-  ++allocations;
-  return __libc_memalign(alignment, bytes);
-}
-}
-#else
-constexpr bool kCounting = false;
-static int allocations = 0;
-#endif
+#include "tests/allocation_count.h"
 
 namespace oca::models::test {
 namespace {
 
 TEST(AllocationTest, TheCounterSeesWhatEigenAndTheStandardLibraryTake) {
-  if (!kCounting) GTEST_SKIP() << "malloc is not ours to count here";
-  const int before = allocations;
+  if (!kCountsAllocations) GTEST_SKIP() << "malloc is not ours to count here";
+  const std::int64_t before = AllocationCount();
   const Eigen::VectorXd vector = Eigen::VectorXd::Zero(100);
-  EXPECT_EQ(allocations, before + 1);
+  EXPECT_EQ(AllocationCount(), before + 1);
   const std::vector<double> other(vector.data(), vector.data() + 100);
-  EXPECT_EQ(allocations, before + 2) << other.size();
+  EXPECT_EQ(AllocationCount(), before + 2) << other.size();
 }
 
 void ExpectNoAllocation(const char* file) {
@@ -60,7 +38,7 @@ void ExpectNoAllocation(const char* file) {
   Eigen::VectorXd delta(model.num_positions());
   MappingWorkspace workspace(model);
 
-  const int before = allocations;
+  const std::int64_t before = AllocationCount();
   ForwardKinematics(model, q, X_WL);
   JointScrews(model, X_WL, screws);
   LinkJacobian(model, X_WL, model.num_links() - 1, J);
@@ -70,11 +48,11 @@ void ExpectNoAllocation(const char* file) {
        {MappingMethod::kTranspose, MappingMethod::kPseudoInverse, MappingMethod::kDamped}) {
     MapWrenches(model, X_WL, wrenches, {method, 1.0, 0.1}, workspace, delta);
   }
-  EXPECT_EQ(allocations, before) << file;
+  EXPECT_EQ(AllocationCount(), before) << file;
 }
 
 TEST(AllocationTest, KinematicsAndMappingTakeNoMemory) {
-  if (!kCounting) GTEST_SKIP() << "malloc is not ours to count here";
+  if (!kCountsAllocations) GTEST_SKIP() << "malloc is not ours to count here";
   ExpectNoAllocation("robots/planar2/planar2.urdf");
   ExpectNoAllocation("robots/lwr4/lwr4.urdf");
   ExpectNoAllocation("robots/lwr4_dual/lwr4_dual.urdf");

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Counts what a test program takes from the heap. Include it in one source file of the program.
-#pragma once
+#include "tests/allocation_count.h"
 
 #include <cstddef>
 #include <cstdlib>
 
-// Sanitizers bring a malloc of their own.
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-constexpr bool kCountsAllocations = true;
-static thread_local long allocation_count = 0;
+namespace {
+thread_local std::int64_t allocations = 0;
+}
 
+namespace oca {
+std::int64_t AllocationCount() { return allocations; }
+}  // namespace oca
+
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 extern "C" {
 void* __libc_malloc(std::size_t bytes);
 void* __libc_calloc(std::size_t count, std::size_t bytes);
@@ -17,23 +20,20 @@ void* __libc_realloc(void* memory, std::size_t bytes);
 void* __libc_memalign(std::size_t alignment, std::size_t bytes);
 
 void* malloc(std::size_t bytes) {
-  ++allocation_count;
+  ++allocations;
   return __libc_malloc(bytes);
 }
 void* calloc(std::size_t count, std::size_t bytes) {
-  ++allocation_count;
+  ++allocations;
   return __libc_calloc(count, bytes);
 }
 void* realloc(void* memory, std::size_t bytes) {
-  ++allocation_count;
+  ++allocations;
   return __libc_realloc(memory, bytes);
 }
 void* aligned_alloc(std::size_t alignment, std::size_t bytes) {
-  ++allocation_count;
+  ++allocations;
   return __libc_memalign(alignment, bytes);
 }
 }
-#else
-constexpr bool kCountsAllocations = false;
-static long allocation_count = 0;
 #endif

@@ -5,10 +5,9 @@
 
 #include <cstdint>
 
-namespace oca::bench {
+#include "tests/allocation_count.h"
 
-/// Calls of malloc and its kin so far in this process.
-std::int64_t AllocationCount();
+namespace oca::bench {
 
 /// Gives a benchmark the counter `allocations`, those an iteration, from here to the end of scope.
 class AllocationCounter {
