@@ -89,6 +89,7 @@ class Plan {
     double window_start;   ///< s; of the crossings that are counted
     double last;           ///< s; the last crossing
     double interval;       ///< s; between the last two
+    std::int64_t row;      ///< crossings, each sooner after the one before
     std::int64_t count;    ///< crossings since window_start
     std::int64_t pending;  ///< crossed, and its resets have not run yet
   };

@@ -284,7 +284,7 @@ class CvodeIntegrator final : public SundialsIntegrator {
     if (method == CV_ADAMS) {
       iteration_ = SUNNonlinSol_FixedPoint(y_, 0, sundials_);
       CheckFlag(CVodeSetNonlinearSolver(memory_, iteration_), "CVodeSetNonlinearSolver");
-    } else {
+    } else if (!state_.empty()) {
       const auto n = static_cast<sunindextype>(state_.size());
       jacobian_ = SUNDenseMatrix(n, n, sundials_);
       solver_ = SUNLinSol_Dense(y_, jacobian_, sundials_);

@@ -28,10 +28,15 @@ constexpr double kJump = 1e-6;
 /// So many crossings of one witness within so short a time, s (relative beyond 1 s), are Zeno's.
 constexpr std::int64_t kZenoCount = 16;
 constexpr double kZenoWindow = 1e-8;
+/// So are so many in a row, each sooner by a hundredth or more, that would end within so short a
+/// time. Any nearer to the end the integrators' tolerances would let a ball fall through the
+/// ground.
+constexpr std::int64_t kZenoRow = 32;
+constexpr double kSooner = 0.99;
+constexpr double kZenoRest = 1e-4;
 
-double Resolution(double t) { return kSimultaneous * std::max(1.0, std::fabs(t)); }
-
-double ZenoWindow(double t) { return kZenoWindow * std::max(1.0, std::fabs(t)); }
+double Relative(double seconds, double t) { return seconds * std::max(1.0, std::fabs(t)); }
+double Resolution(double t) { return Relative(kSimultaneous, t); }
 
 bool SameSign(double a, double b) { return (a > 0.0 && b > 0.0) || (a < 0.0 && b < 0.0); }
 
@@ -195,7 +200,7 @@ double WitnessLocator::CrossingAndBack(Context& context, int witness, Look left,
   if (SameSign(left.w, middle.w)) {
     const double bend = std::fabs(middle.w - 0.5 * (left.w + right.w));
     if (std::min(std::fabs(left.w), std::fabs(right.w)) > 4.0 * bend) return kNever;
-    if (depth == 0) return CrossingInDip(context, witness, left, right);
+    if (depth <= 0) return CrossingInDip(context, witness, left, right);
   }
   const double crossing = Crossing(context, witness, left, middle, depth - 1);
   return crossing < kNever ? crossing : Crossing(context, witness, middle, right, depth - 1);
@@ -303,33 +308,34 @@ void WitnessLocator::Trigger(Context& context, int witness) {
   state.rest = left_over <= kJump * scale_[witness] ? left_over : 0.0;
   state.pending = 1;
   const double t = context.time();
-  state.interval = state.count == 0 ? 0.0 : t - state.last;
+  state.row = IntervalTo(state, t) < kSooner * state.interval ? state.row + 1 : 0;
+  state.interval = IntervalTo(state, t);
   state.last = t;
-  if (state.count == 0 || t - state.window_start > ZenoWindow(t)) {
+  if (state.count == 0 || t - state.window_start > Relative(kZenoWindow, t)) {
     state.window_start = t;
     state.count = 0;
   }
   ++state.count;
 }
 
-void WitnessLocator::CheckZeno(const Context& context, int witness) const {
-  const Plan::WitnessState& state = plan_.witness_states(context)[witness];
-  const double t = context.time();
-  if (state.count >= kZenoCount && t - state.window_start <= ZenoWindow(t)) {
-    FailZeno(context, witness, state);
-  }
+double WitnessLocator::IntervalTo(const Plan::WitnessState& state, double t) {
+  return state.count == 0 ? 0.0 : t - state.last;
 }
 
-void WitnessLocator::FailZeno(const Context& context, int witness,
-                              const Plan::WitnessState& state) const {
-  const double t = context.time();
-  const double ratio = (t - state.last) / state.interval;
-  const double limit = ratio < 1.0 ? t + (t - state.last) * ratio / (1.0 - ratio) : t;
+void WitnessLocator::CheckZeno(const Context& context, int witness) const {
+  const Plan::WitnessState& state = plan_.witness_states(context)[witness];
+  const double t = context.time(), interval = IntervalTo(state, t);
+  const bool crowd =
+      state.count >= kZenoCount && t - state.window_start <= Relative(kZenoWindow, t);
+  const bool sooner = interval < kSooner * state.interval;
+  // What is left of a geometric series.
+  const double rest = sooner ? interval * interval / (state.interval - interval) : 0.0;
+  if (!crowd && !(sooner && state.row >= kZenoRow && rest < Relative(kZenoRest, t))) return;
   throw SimulationError(
       plan_.PathOf(*plan_.witnesses[witness].system), plan_.witnesses[witness].name, t,
-      fmt::format("its events accumulate (Zeno) towards t = {:.12g} s; got {} since t = {:.12g} s; "
-                  "expected a state that comes to rest, or events further apart",
-                  limit, state.count, state.window_start));
+      fmt::format("its events accumulate (Zeno) towards t = {:.12g} s; got {} in a row, the last "
+                  "{:.3g} s apart; expected a state that comes to rest, or events further apart",
+                  t + rest, crowd ? state.count : state.row, interval));
 }
 
 }  // namespace oca

@@ -51,8 +51,8 @@ class WitnessLocator {
   void Trigger(Context& context, int witness);
   void CheckSteps(const Context& context, int steps) const;
   void CheckZeno(const Context& context, int witness) const;
-  [[noreturn]] void FailZeno(const Context& context, int witness,
-                             const Plan::WitnessState& state) const;
+  /// From the last crossing to `t`, s; 0 for the first.
+  static double IntervalTo(const Plan::WitnessState& state, double t);
   bool Fires(int witness, double before, double after) const;
 
   const Plan& plan_;
