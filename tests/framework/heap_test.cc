@@ -97,6 +97,51 @@ TEST_P(HeapTest, SavingIntoAndRestoringFromAContextTakesNothing) {
   EXPECT_EQ(AllocationCount() - before, 0);
 }
 
+/// Bounces between two walls under a pull; each wall is a witness.
+class Bouncer final : public System {
+ public:
+  Bouncer()
+      : x_(DeclareContinuousState("x", {2}, blocks::Vec({0.1, 1.0}))),
+        count(DeclareDiscreteState("count", {1}, 0.0)) {
+    DeclareDerivative<&Bouncer::Derive>(x_, x_);
+    const Witness low = DeclareWitness<&Bouncer::Low>("low", Direction::kFalling, x_);
+    const Witness high = DeclareWitness<&Bouncer::High>("high", Direction::kRising, x_);
+    DeclareReset<&Bouncer::Turn>(When{low}, Writes(x_, count), x_, count);
+    DeclareReset<&Bouncer::Turn>(When{high}, Writes(x_, count), x_, count);
+  }
+
+ private:
+  void Derive(VectorView now, MutableVectorView derivative) const {
+    derivative << now[1], -std::sin(now[0]);
+  }
+  double Low(VectorView now) const { return now[0]; }
+  double High(VectorView now) const { return now[0] - 0.2; }
+  void Turn(VectorView now, VectorView turns, MutableVectorView next,
+            MutableVectorView more) const {
+    next[1] = -now[1];
+    more[0] = turns[0] + 1.0;
+  }
+  const ContinuousState x_;
+
+ public:
+  const DiscreteState<Vector> count;
+};
+
+TEST_P(HeapTest, WitnessesAndTheirResetsTakeNothing) {
+  DiagramBuilder builder;
+  const auto& bouncer = builder.Add<Bouncer>("bouncer");
+  const auto& source = builder.Add<blocks::Source>("source", blocks::Vec({1.0}));
+  const auto& delay = builder.Add<blocks::Delay>("delay", Every{Period(1, 50)});
+  builder.Connect(source.value, delay.in);
+  const auto diagram = builder.Build();
+  Simulator simulator(*diagram, {.integrator = GetParam()});
+  simulator.Initialize();
+  const std::int64_t before = AllocationCount();
+  simulator.AdvanceTo(10.0);
+  EXPECT_EQ(AllocationCount() - before, 0);
+  EXPECT_GT(bouncer.count.Get(simulator.context())[0], 20.0);
+}
+
 TEST(HeapObjectTest, AssigningAContextWithObjectsReusesTheirCapacity) {
   if (!kCountsAllocations) GTEST_SKIP() << "malloc is not ours to count here";
   const auto diagram = MakeDiagramOf(std::make_unique<blocks::LabelSink>());
