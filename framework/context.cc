@@ -60,6 +60,7 @@ Context::Context(const Context& other)
     : plan_(other.plan_),
       arena_(static_cast<std::byte*>(operator new(other.plan_->arena_size, kAlignment))) {
   std::memcpy(arena_.get(), other.arena_.get(), plan_->plain_size);
+  header().profile = nullptr;
   for (const Plan::Object& object : plan_->objects) {
     object.type->construct(arena_.get() + object.offset);
     object.type->assign(arena_.get() + object.offset, other.arena_.get() + object.offset);
@@ -71,7 +72,9 @@ Context::Context(Context&& other) noexcept : plan_(other.plan_), arena_(std::mov
 Context& Context::operator=(const Context& other) {
   if (this == &other) return *this;
   if (plan_ != other.plan_ || !arena_) return *this = Context(other);
+  Profile* const profile = header().profile;
   std::memcpy(arena_.get(), other.arena_.get(), plan_->plain_size);
+  header().profile = profile;
   for (const Plan::Object& object : plan_->objects) {
     object.type->assign(arena_.get() + object.offset, other.arena_.get() + object.offset);
   }

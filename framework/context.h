@@ -10,6 +10,8 @@
 
 namespace oca {
 
+class Profile;
+
 /// Every mutable value of one run: time, states, cached outputs, counters of discrete events and
 /// the integrator's step, in one block of memory. A value: copy it to save a run, assign it to
 /// restore one; assigning within one diagram does not allocate.
@@ -46,6 +48,7 @@ class Context {
     std::uint64_t epoch;     ///< counts changes of time, states and fixed inputs
     double integrator_step;  ///< s; the step an adaptive integrator would try next, 0 unknown
     std::int64_t initialized;
+    Profile* profile;  ///< of the simulator that advances this context now; not copied
   };
 
   explicit Context(const Plan* plan);

@@ -42,6 +42,7 @@ void Plan::PullRange(const Context& context, std::uint32_t begin, std::uint32_t 
   NodeState* const states_of_nodes = node_states(context);
   std::byte* const memory = arena(context);
   const std::uint64_t epoch = context.header().epoch;
+  Profile* const profile = context.header().profile;
   std::uint32_t last_class = Slot::kNone;  // neighbours mostly share their class
   std::uint64_t changed = 0;
   std::uint32_t index = 0;
@@ -56,7 +57,7 @@ void Plan::PullRange(const Context& context, std::uint32_t begin, std::uint32_t 
         changed = ClassChanged(context, last_class);
       }
       if (state.computed < changed) {
-        node.function(*node.system, memory, &slots[node.first_slot]);
+        Call(node.function, *node.system, memory, node.first_slot, profile);
         const std::byte* const value = memory + node.out.offset;
         const bool finite = node.vector
                                 ? AllFinite(reinterpret_cast<const double*>(value), node.out.size)
@@ -118,7 +119,8 @@ void Plan::EvaluateDerivatives(Context& context, double* result) const {
   PullRange(context, derivative_pull_begin, derivative_pull_end);
   for (const Derivative& derivative : derivatives) {
     try {
-      derivative.function(*derivative.system, arena(context), &slots[derivative.first_slot]);
+      Call(derivative.function, *derivative.system, arena(context), derivative.first_slot,
+           context.header().profile);
     } catch (const SimulationError&) {
       throw;
     } catch (const std::exception& error) {
@@ -153,7 +155,7 @@ void Plan::RunEvent(Context& context, const Event& event) const {
     }
   }
   try {
-    event.function(*event.system, memory, &slots[event.first_slot]);
+    Call(event.function, *event.system, memory, event.first_slot, context.header().profile);
   } catch (const SimulationError&) {
     throw;
   } catch (const std::exception& error) {
@@ -176,7 +178,8 @@ double Plan::EvaluateWitness(Context& context, int index) const {
   const Witness& witness = witnesses[index];
   PullRange(context, witness.pull_begin, witness.pull_end);
   try {
-    witness.function(*witness.system, arena(context), &slots[witness.first_slot]);
+    Call(witness.function, *witness.system, arena(context), witness.first_slot,
+         context.header().profile);
   } catch (const SimulationError&) {
     throw;
   } catch (const std::exception& error) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "framework/context.h"
+#include "framework/profile.h"
 #include "framework/system.h"
 
 namespace oca {
@@ -200,6 +201,12 @@ class Plan {
 
   NodeState* node_states(const Context& context) const {
     return reinterpret_cast<NodeState*>(arena(context) + node_states_offset);
+  }
+  /// Calls a calculation, on account of its system if there is a profile.
+  void Call(Calculation::Function function, const System& system, std::byte* memory,
+            std::uint32_t first_slot, Profile* profile) const {
+    if (profile == nullptr) return function(system, memory, &slots[first_slot]);
+    profile->Time(system.leaf_, [&] { function(system, memory, &slots[first_slot]); });
   }
   std::uint64_t ClassChanged(const Context& context, std::uint32_t source_class) const;
   void Pull(const Context& context, int node) const;

@@ -47,6 +47,7 @@ void PlanCompiler::IndexLeaves() {
     system.first_output_ =
         std::exchange(outputs, outputs + static_cast<int>(system.outputs().size()));
     system.first_state_ = std::exchange(states, states + static_cast<int>(system.states().size()));
+    system.leaf_ = static_cast<int>(plan_->systems.size());
     plan_->systems.push_back(&system);
     plan_->paths.push_back(leaf.path);
   }

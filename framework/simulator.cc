@@ -137,6 +137,26 @@ void Simulator::SetLog(Log* log) {
   ConnectLog();
 }
 
+void Simulator::SetRealtimeFactor(double factor, WallClock& clock) {
+  pacer_.reset();
+  if (factor != 0.0) pacer_ = std::make_unique<Pacer>(factor, clock);
+}
+
+void Simulator::EnableProfile() {
+  profile_ = std::make_unique<Profile>(diagram_.plan().systems.size());
+}
+
+std::vector<SystemTime> Simulator::profile() const {
+  std::vector<SystemTime> times;
+  if (!profile_) return times;
+  for (std::size_t i = 0; i < profile_->entries().size(); ++i) {
+    const Profile::Entry& entry = profile_->entries()[i];
+    times.push_back(
+        {diagram_.plan().paths[i], entry.calls, std::chrono::duration<double>(entry.time).count()});
+  }
+  return times;
+}
+
 void Simulator::ConnectLog() { context_.header().log = log_ == nullptr ? &SilentLog() : log_; }
 
 void Simulator::CheckContext() const {
@@ -199,7 +219,20 @@ bool Simulator::AdvanceTo(double time) {
     ConnectLog();
     diagram_.plan().CheckInputsFixed(context_);
   }
+  context_.header().profile = profile_.get();
+  try {
+    const bool went_on = AdvanceSteps(time);
+    context_.header().profile = nullptr;
+    return went_on;
+  } catch (...) {
+    context_.header().profile = nullptr;
+    throw;
+  }
+}
+
+bool Simulator::AdvanceSteps(double time) {
   FollowTime();
+  if (pacer_) pacer_->Start(context_.time());
   RunPublishes();  // what failed at this instant is still due
   // Fixed inputs and states may have been set since the last call.
   restart_ = true;
@@ -207,6 +240,7 @@ bool Simulator::AdvanceTo(double time) {
     RunStage(System::Stage::kReset);
     RunStage(System::Stage::kUpdate);
     Integrate(std::min(NextEventTime(), time));
+    if (pacer_) Pace();
     RunPublishes();
     ++statistics_.steps;
     statistics_.integrator = integrator_->statistics();
@@ -215,6 +249,12 @@ bool Simulator::AdvanceTo(double time) {
     if (!go_on) return false;
   }
   return true;
+}
+
+void Simulator::Pace() {
+  pacer_->WaitFor(context_.time());
+  statistics_.overruns = pacer_->overruns();
+  statistics_.worst_overrun = pacer_->worst_overrun();
 }
 
 void Simulator::RunStage(System::Stage stage) {

@@ -9,6 +9,8 @@
 #include "framework/context.h"
 #include "framework/diagram.h"
 #include "framework/integrator.h"
+#include "framework/pacer.h"
+#include "framework/profile.h"
 
 namespace oca {
 
@@ -20,6 +22,8 @@ struct SimulatorStatistics {
   std::int64_t updates{0};  ///< discrete updates and resets that ran
   std::int64_t publishes{0};
   std::int64_t crossings{0};  ///< steps that a witness ended
+  std::int64_t overruns{0};   ///< steps that ended after they were due on the wall clock
+  double worst_overrun{0.0};  ///< s
   IntegratorStatistics integrator;
 };
 
@@ -65,6 +69,16 @@ class Simulator {
   void AddPublish(const Period& period, Publish publish);
   /// Called after every step.
   void AddMonitor(Monitor monitor);
+  /// Holds the end of every step until it is due, `factor` simulated seconds to a second of the
+  /// wall clock, from the next AdvanceTo on; 0 runs as fast as possible. The clock must outlive the
+  /// simulator.
+  /// throws ConfigError if the factor is negative or not finite.
+  void SetRealtimeFactor(double factor, WallClock& clock = WallClock::Steady());
+  /// Sums up from now on what each system takes, which costs a look at the clock for every
+  /// calculation.
+  void EnableProfile();
+  /// What each system took, in the diagram's order; empty without EnableProfile.
+  std::vector<SystemTime> profile() const;
   /// Receives what publish events log; nullptr drops it.
   void SetLog(Log* log);
 
@@ -89,6 +103,8 @@ class Simulator {
 
   void CheckContext() const;
   void ConnectLog();
+  bool AdvanceSteps(double time);
+  void Pace();
   void FollowTime();
   void SkipPublished(std::size_t own_publish);
   void RunStage(System::Stage stage);
@@ -106,6 +122,8 @@ class Simulator {
   std::vector<OwnPublish> publishes_;
   std::vector<Monitor> monitors_;
   std::vector<int> due_;  ///< events of the present stage
+  std::unique_ptr<Pacer> pacer_;
+  std::unique_ptr<Profile> profile_;
   Log* log_{nullptr};
   bool restart_{true};
   bool jumped_{false};

@@ -240,6 +240,7 @@ class System {
   int first_input_{0};
   int first_output_{0};
   int first_state_{0};
+  int leaf_{0};
 };
 
 }  // namespace oca
