@@ -31,6 +31,10 @@ void SimulatorParams::Describe(Fields<SimulatorParams>& fields) {
       .Above(0.0);
   fields.Add("max_steps", &SimulatorParams::max_steps, "", "steps allowed between two events")
       .AtLeast(1.0);
+  fields
+      .Add("realtime_factor", &SimulatorParams::realtime_factor, "",
+           "simulated seconds to a second of the wall clock; 0 runs as fast as possible")
+      .AtLeast(0.0);
   fields.Add("seed", &SimulatorParams::seed, "", "of everything random in the run").AtLeast(0.0);
 }
 

@@ -22,6 +22,7 @@ struct SimulatorParams {
   double fixed_step{1e-3};
   int max_steps{100000};
   int seed{0};
+  double realtime_factor{0.0};
   static void Describe(Fields<SimulatorParams>& fields);
 };
 

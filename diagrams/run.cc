@@ -86,6 +86,10 @@ class Runner {
         simulator_(*loaded.diagram, loaded.integrator),
         duration_(options.duration.value_or(loaded.simulator.duration)) {
     simulator_.SetLog(options.log);
+    const double factor = options.realtime_factor.value_or(loaded.simulator.realtime_factor);
+    simulator_.SetRealtimeFactor(factor);
+    result_.paced = factor > 0.0;
+    if (options.profile) simulator_.EnableProfile();
     if (!options.csv_folder.empty()) {
       recorder_ = std::make_unique<SignalRecorder>(options.csv_folder, loaded.record, simulator_);
     }
@@ -113,6 +117,7 @@ class Runner {
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     result_.duration = simulator_.context().time();
     result_.statistics = simulator_.statistics();
+    result_.profile = simulator_.profile();
     try {
       result_.metrics = MetricsOf(loaded_, simulator_.context());
     } catch (const SimulationError&) {

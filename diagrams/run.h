@@ -14,9 +14,11 @@
 namespace oca::diagrams {
 
 struct RunOptions {
-  std::optional<double> duration;      ///< s; instead of the file's
-  std::filesystem::path csv_folder{};  ///< empty: nothing is recorded
-  Log* log{nullptr};                   ///< receives what systems log
+  std::optional<double> duration;           ///< s; instead of the file's
+  std::filesystem::path csv_folder{};       ///< empty: nothing is recorded
+  std::optional<double> realtime_factor{};  ///< instead of the file's; 0 as fast as possible
+  bool profile{false};                      ///< measure what each system takes
+  Log* log{nullptr};                        ///< receives what systems log
   /// Called after each step with the time; returning false interrupts the run.
   std::function<bool(double time)> progress{};
 };
@@ -36,6 +38,8 @@ struct RunResult {
   double wall_seconds;
   std::string metrics;  ///< JSON object; `{}` without a MotionMetrics
   std::vector<ExpectationResult> expectations;
+  bool paced{false};                ///< by the wall clock
+  std::vector<SystemTime> profile;  ///< if it was asked for
   bool interrupted{false};
   std::string failure;  ///< why the run ended early; empty if it did not
 
@@ -44,7 +48,8 @@ struct RunResult {
 
 /// Runs a loaded diagram from time 0. A calculation that fails ends the run with `failure`; what
 /// was recorded and measured up to there is kept.
-/// throws ConfigError if a record cannot be written or the simulator's options are wrong.
+/// throws ConfigError if the realtime factor is negative or not finite, if a record cannot be
+/// written or the simulator's options are wrong.
 RunResult Run(const LoadedDiagram& loaded, const RunOptions& options);
 
 }  // namespace oca::diagrams

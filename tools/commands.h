@@ -24,6 +24,8 @@ struct RunArguments {
   std::optional<double> duration;
   std::optional<int> seed;
   std::string csv_folder;
+  std::optional<double> realtime;  ///< simulated seconds a second
+  bool profile{false};
   bool json{false};
   bool no_progress{false};
   std::string log_level{"debug"};

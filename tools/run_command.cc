@@ -80,6 +80,14 @@ ordered_json ToJson(const diagrams::LoadedDiagram& loaded, const diagrams::RunRe
                       {"derivative_calls", integrator.derivative_calls},
                       {"restarts", integrator.restarts}}},
                     {"interrupted", result.interrupted}};
+  if (result.paced) {
+    json["overruns"] = result.statistics.overruns;
+    json["worst_overrun"] = result.statistics.worst_overrun;
+  }
+  for (const SystemTime& time : result.profile) {
+    json["profile"].push_back(
+        {{"system", time.system}, {"calls", time.calls}, {"seconds", time.seconds}});
+  }
   if (!result.failure.empty()) json["failure"] = result.failure;
   return json;
 }
@@ -104,6 +112,8 @@ int RunCommand(const RunArguments& arguments) {
   diagrams::RunOptions options;
   options.duration = arguments.duration;
   options.csv_folder = arguments.csv_folder;
+  options.realtime_factor = arguments.realtime;
+  options.profile = arguments.profile;
   options.log = &log;
   std::signal(SIGINT, Interrupt);
   std::signal(SIGTERM, Interrupt);
@@ -121,7 +131,7 @@ int RunCommand(const RunArguments& arguments) {
   if (arguments.json) {
     std::cout << ToJson(loaded, result).dump(2) << '\n';
   } else {
-    std::cout << RunSummary(loaded, result, WantsColour(STDOUT_FILENO));
+    std::cout << RunSummary(loaded, result, WantsColour(STDOUT_FILENO)) << ProfileTable(result);
   }
   if (!result.failure.empty()) fmt::print(stderr, "error: {}\n", result.failure);
   return StatusOf(result);

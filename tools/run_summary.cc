@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "tools/terminal.h"
 
@@ -77,6 +79,12 @@ std::string ExpectationLines(const diagrams::RunResult& result, bool colour) {
   return lines;
 }
 
+std::string PaceText(const SimulatorStatistics& statistics) {
+  if (statistics.overruns == 0) return "no overruns";
+  return fmt::format("{} overruns of {} steps, the worst {:.3g} ms", statistics.overruns,
+                     statistics.steps, 1e3 * statistics.worst_overrun);
+}
+
 }  // namespace
 
 std::string RunSummary(const diagrams::LoadedDiagram& loaded, const diagrams::RunResult& result,
@@ -92,7 +100,28 @@ std::string RunSummary(const diagrams::LoadedDiagram& loaded, const diagrams::Ru
   text += Line("time", fmt::format("{:g} s in {:.3g} s, {:.0f} times real time; {} steps",
                                    result.duration, result.wall_seconds,
                                    result.duration / result.wall_seconds, result.statistics.steps));
+  if (result.paced) text += Line("pace", PaceText(result.statistics));
   return text;
+}
+
+std::string ProfileTable(const diagrams::RunResult& result) {
+  if (result.profile.empty()) return "";
+  std::vector<SystemTime> rows = result.profile;
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const SystemTime& a, const SystemTime& b) { return a.seconds > b.seconds; });
+  double rest = result.wall_seconds;
+  for (const SystemTime& row : rows) rest -= row.seconds;
+  std::string text = fmt::format("  {:<28}{:>10}{:>12}{:>12}{:>8}\n", "system", "calls", "total ms",
+                                 "ns a call", "share");
+  for (const SystemTime& row : rows) {
+    const auto calls = static_cast<double>(row.calls);
+    text += fmt::format("  {:<28}{:>10}{:>12.3f}{:>12.0f}{:>7.1f}%\n", row.system, row.calls,
+                        1e3 * row.seconds, row.calls == 0 ? 0.0 : 1e9 * row.seconds / calls,
+                        100.0 * row.seconds / result.wall_seconds);
+  }
+  return text + fmt::format("  {:<28}{:>10}{:>12.3f}{:>12}{:>7.1f}%\n",
+                            result.paced ? "(engine, record, waiting)" : "(engine, record)", "",
+                            1e3 * rest, "", 100.0 * rest / result.wall_seconds);
 }
 
 }  // namespace oca::tools

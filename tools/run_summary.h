@@ -12,4 +12,8 @@ namespace oca::tools {
 std::string RunSummary(const diagrams::LoadedDiagram& loaded, const diagrams::RunResult& result,
                        bool colour);
 
+/// What each system took, the most costly first, and what is left for the engine, the integrator
+/// and the record; empty unless it was measured.
+std::string ProfileTable(const diagrams::RunResult& result);
+
 }  // namespace oca::tools

@@ -27,7 +27,7 @@ class CommandLine {
 
   int Main(int argc, char** argv) {
     try {
-      app_.parse(argc, argv);
+      app_.parse(Words(argc, argv));
     } catch (const CLI::Success& help_or_version) {
       return app_.exit(help_or_version);
     } catch (const CLI::ParseError& error) {
@@ -47,6 +47,16 @@ class CommandLine {
   }
 
  private:
+  /// The words of the command line, last first as CLI11 wants them. `--realtime` alone would take
+  /// the word after it for its factor.
+  static std::vector<std::string> Words(int argc, char** argv) {
+    std::vector<std::string> words(argv + 1, argv + argc);
+    std::replace(words.begin(), words.end(), std::string("--realtime"),
+                 std::string("--realtime=1"));
+    std::reverse(words.begin(), words.end());
+    return words;
+  }
+
   void AddRun() {
     CLI::App* const run = app_.add_subcommand("run", "run a diagram file and judge the motion");
     run->add_option("FILE", run_.file, "diagram file")->required();
@@ -56,6 +66,9 @@ class CommandLine {
     run->add_option("--seed", run_.seed, "seed of everything random")
         ->check(CLI::NonNegativeNumber);
     run->add_option("--csv", run_.csv_folder, "folder to write the recorded signals to");
+    run->add_option("--realtime", run_.realtime,
+                    "hold to the wall clock: =FACTOR simulated seconds a second, or 1");
+    run->add_flag("--profile", run_.profile, "print what each system took");
     run->add_flag("--json", run_.json, "print one JSON object instead of the summary");
     run->add_flag("--no-progress", run_.no_progress, "no progress bar");
     run->add_option("--log-level", run_.log_level, "least level that is logged")

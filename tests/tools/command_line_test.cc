@@ -70,6 +70,42 @@ TEST_F(CommandLineTest, ABadFileEndsWithTwoAndNothingOnStandardOutput) {
   }
 }
 
+TEST_F(CommandLineTest, AProfileShowsWhatEachSystemTook) {
+  const Ran ran = run("$S run " + Small() + " --profile");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  for (const char* part : {"calls", "source", "lag", "(engine, record)", "share"}) {
+    EXPECT_THAT(ran.out, HasSubstr(part));
+  }
+  const json profile = json::parse(run("$S run " + Small() + " --profile --json").out)["profile"];
+  ASSERT_EQ(profile.size(), 2u);
+  EXPECT_EQ(profile[0]["system"], "source");
+  EXPECT_EQ(profile[0]["calls"], 1) << "a constant is computed once";
+  EXPECT_GT(profile[1]["calls"].get<int>(), 1);
+  EXPECT_FALSE(json::parse(run("$S run " + Small() + " --json").out).contains("profile"));
+}
+
+TEST_F(CommandLineTest, RealTimeIsKeptAndOverrunsAreTold) {
+  const Ran ran = run("$S run --realtime=50 " + Small());
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("overruns"));
+  const json result = json::parse(run("$S run --realtime=50 --json " + Small()).out);
+  EXPECT_GE(result["wall_seconds"].get<double>(), 0.5 / 50.0);
+  EXPECT_TRUE(result.contains("overruns"));
+  EXPECT_TRUE(result.contains("worst_overrun"));
+  const std::string paced = Small("seed: 7", "realtime_factor: 25");
+  EXPECT_GE(json::parse(run("$S run --json " + paced).out)["wall_seconds"].get<double>(), 0.02);
+  // The command line wins over the file; without a number it is 1.
+  EXPECT_FALSE(json::parse(run("$S run --realtime=0 --json " + paced).out).contains("overruns"));
+  const json slow = json::parse(run("$S run --realtime --json " + paced).out);
+  EXPECT_GE(slow["wall_seconds"].get<double>(), 0.5);
+}
+
+TEST_F(CommandLineTest, ANegativeRealTimeFactorIsRefused) {
+  EXPECT_EQ(run("$S run --realtime=-1 " + Small()).status, 2);
+  EXPECT_EQ(run("$S run " + Small("seed: 7", "realtime_factor: -1")).status, 2);
+  EXPECT_EQ(run("$S run --realtime=often " + Small()).status, 64);
+}
+
 TEST_F(CommandLineTest, ErrorsInAFileAreToldWithPlaceAndSuggestion) {
   const Ran ran = run("$S check " + Small("type: Constant, value", "type: Constnat, vaule"));
   EXPECT_EQ(ran.status, 2);
