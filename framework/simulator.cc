@@ -355,6 +355,7 @@ void Simulator::Integrate(double to) {
     }
   } catch (...) {
     plan.SetTimeAndState(context_, from, saved_state_.data());
+    ForgetPending(System::Stage::kReset);
     restart_ = true;
     throw;
   }

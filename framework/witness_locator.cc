@@ -48,7 +48,6 @@ WitnessLocator::WitnessLocator(const Plan& plan, const IntegratorOptions& option
       end_state_(plan.continuous_size),
       at_(plan.continuous_size),
       start_value_(plan.witnesses.size()),
-      start_rest_(plan.witnesses.size()),
       end_value_(plan.witnesses.size()),
       scale_(plan.witnesses.size()),
       crossing_(plan.witnesses.size()) {}
@@ -56,22 +55,15 @@ WitnessLocator::WitnessLocator(const Plan& plan, const IntegratorOptions& option
 bool WitnessLocator::Advance(Context& context, Integrator* integrator, double to) {
   integrator_ = integrator;
   Start(context);
-  try {
-    for (int steps = 0; context.time() < to; ++steps) {
-      CheckSteps(context, steps);
-      begin_ = context.time();
-      if (integrator_ != nullptr) {
-        integrator_->Step(context, to);
-      } else {
-        context.SetTime(to);
-      }
-      if (FindCrossings(context, to)) return true;
+  for (int steps = 0; context.time() < to; ++steps) {
+    CheckSteps(context, steps);
+    begin_ = context.time();
+    if (integrator_ != nullptr) {
+      integrator_->Step(context, to);
+    } else {
+      context.SetTime(to);
     }
-  } catch (...) {
-    for (std::size_t i = 0; i < start_rest_.size(); ++i) {
-      plan_.witness_states(context)[i].rest = start_rest_[i];
-    }
-    throw;
+    if (FindCrossings(context, to)) return true;
   }
   return false;
 }
@@ -86,13 +78,17 @@ void WitnessLocator::CheckSteps(const Context& context, int steps) const {
 
 void WitnessLocator::Start(Context& context) {
   for (std::size_t i = 0; i < start_value_.size(); ++i) {
-    double& rest = plan_.witness_states(context)[i].rest;
-    const double value = plan_.EvaluateWitness(context, static_cast<int>(i));
-    const bool resting = std::fabs(value) <= rest;
-    start_value_[i] = resting ? 0.0 : value;
-    if (!resting) rest = 0.0;
-    start_rest_[i] = rest;
+    start_value_[i] = Value(context, static_cast<int>(i));
   }
+}
+
+/// The witness at the context's time and state; 0 while it is at rest.
+double WitnessLocator::Value(Context& context, int witness) const {
+  const double w = plan_.EvaluateWitness(context, witness);
+  const Plan::WitnessState& state = plan_.witness_states(context)[witness];
+  const bool just_crossed =
+      state.count > 0 && context.time() - state.last <= 2.0 * Resolution(context.time());
+  return just_crossed && std::fabs(w) <= state.rest ? 0.0 : w;
 }
 
 bool WitnessLocator::FindCrossings(Context& context, double to) {
@@ -107,7 +103,7 @@ bool WitnessLocator::FindCrossings(Context& context, double to) {
   // What will cross right after the step belongs to it only if an event is there anyway.
   if (earliest == kNever || (earliest > end_ && end_ < to)) {
     MoveTo(context, end_);
-    LeaveRest(context);
+    start_value_ = end_value_;
     return false;
   }
   double at = earliest;  // the last of the simultaneous ones, so that all have crossed
@@ -124,13 +120,6 @@ bool WitnessLocator::FindCrossings(Context& context, double to) {
     if (crossing_[i] <= last) Trigger(context, static_cast<int>(i));
   }
   return true;
-}
-
-void WitnessLocator::LeaveRest(Context& context) {
-  for (std::size_t i = 0; i < start_value_.size(); ++i) {
-    start_value_[i] = end_value_[i];
-    if (end_value_[i] != 0.0) plan_.witness_states(context)[i].rest = 0.0;
-  }
 }
 
 bool WitnessLocator::Fires(int witness, double before, double after) const {
@@ -182,7 +171,7 @@ double WitnessLocator::CrossingFromRest(Context& context, int witness, Look star
   while (next.t - start.t > shortest) {
     const Look sooner = LookAt(context, witness, 0.5 * (start.t + next.t));
     if (sooner.w != 0.0) {
-      crossing = std::min(crossing, Crossing(context, witness, sooner, next, 2));
+      crossing = std::min(crossing, Crossing(context, witness, sooner, next, kDepth - 1));
     } else if (next.w == 0.0) {
       break;  // it stays there
     }
@@ -199,7 +188,9 @@ double WitnessLocator::CrossingAndBack(Context& context, int witness, Look left,
   const Look middle = LookAt(context, witness, 0.5 * (left.t + right.t));
   if (SameSign(left.w, middle.w)) {
     const double bend = std::fabs(middle.w - 0.5 * (left.w + right.w));
-    if (std::min(std::fabs(left.w), std::fabs(right.w)) > 4.0 * bend) return kNever;
+    const bool away = std::min(std::fabs(left.w), std::fabs(right.w)) > 4.0 * bend;
+    // Three looks may lie on a line by chance, so the first halves are looked at in any case.
+    if (away && depth < kDepth) return kNever;
     if (depth <= 0) return CrossingInDip(context, witness, left, right);
   }
   const double crossing = Crossing(context, witness, left, middle, depth - 1);
@@ -289,9 +280,9 @@ std::pair<WitnessLocator::Look, WitnessLocator::Look> WitnessLocator::Bracket(Co
 
 WitnessLocator::Look WitnessLocator::LookAt(Context& context, int witness, double t) {
   MoveTo(context, t);
-  const double w = plan_.EvaluateWitness(context, witness);
+  const double w = Value(context, witness);
   scale_[witness] = std::max(scale_[witness], std::fabs(w));
-  return {t, std::fabs(w) <= plan_.witness_states(context)[witness].rest ? 0.0 : w};
+  return {t, w};
 }
 
 void WitnessLocator::MoveTo(Context& context, double t) {

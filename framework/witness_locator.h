@@ -16,8 +16,8 @@ namespace oca {
 /// included, so that two crossings in one step are seen. Crossings are bracketed to less than
 /// 1e-12 s (relative beyond 1 s); the earliest ends the step, with all others no further from it.
 ///
-/// What has just crossed is at rest: as long as it is no larger than where the bracket ended, it
-/// counts as zero, so that its own rounding is no second crossing.
+/// What has just crossed is at rest: right after, as long as it is no larger than where the bracket
+/// ended, it counts as zero, so that its own rounding is no second crossing.
 class WitnessLocator {
  public:
   WitnessLocator(const Plan& plan, const IntegratorOptions& options);
@@ -47,7 +47,7 @@ class WitnessLocator {
   std::pair<Look, Look> Bracket(Context& context, int witness, Look left, Look right);
   Look LookAt(Context& context, int witness, double t);
   void MoveTo(Context& context, double t);
-  void LeaveRest(Context& context);
+  double Value(Context& context, int witness) const;
   void Trigger(Context& context, int witness);
   void CheckSteps(const Context& context, int steps) const;
   void CheckZeno(const Context& context, int witness) const;
@@ -61,7 +61,6 @@ class WitnessLocator {
   double begin_{0.0}, end_{0.0};        // s; of the present step
   std::vector<double> end_state_, at_;  // x at the end of the step; x at a look
   std::vector<double> start_value_;     // of each witness, 0 at rest
-  std::vector<double> start_rest_;      // at the start of Advance
   std::vector<double> end_value_;
   std::vector<double> scale_;     // the largest |w| seen in the step
   std::vector<double> crossing_;  // s; infinity for none
