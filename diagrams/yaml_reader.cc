@@ -7,19 +7,15 @@
 #include <yaml-cpp/parser.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
-#include <cmath>
 #include <fstream>
-#include <limits>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <sstream>
 #include <utility>
 #include <vector>
 
+#include "diagrams/plain_scalar.h"
 #include "framework/error.h"
 
 namespace oca::diagrams {
@@ -29,77 +25,6 @@ constexpr int kDeepest = 64;
 /// Maps are searched key by key, so their size is limited.
 constexpr std::size_t kMostKeys = 5000;
 constexpr std::size_t kMostProblems = 50;
-
-bool IsDigit(char c) { return c >= '0' && c <= '9'; }
-
-/// YAML 1.2 core schema: [-+]? (digits [. digits*]? | . digits) ([eE] [-+]? digits)?
-bool LooksLikeNumber(std::string_view text) {
-  std::size_t i = 0;
-  const auto digits = [&] {
-    const std::size_t from = i;
-    while (i < text.size() && IsDigit(text[i])) ++i;
-    return i - from;
-  };
-  if (i < text.size() && (text[i] == '+' || text[i] == '-')) ++i;
-  std::size_t count = digits();
-  if (i < text.size() && text[i] == '.') {
-    ++i;
-    count += digits();
-  }
-  if (count == 0) return false;
-  if (i < text.size() && (text[i] == 'e' || text[i] == 'E')) {
-    ++i;
-    if (i < text.size() && (text[i] == '+' || text[i] == '-')) ++i;
-    if (digits() == 0) return false;
-  }
-  return i == text.size();
-}
-
-/// What a plain scalar means, or why it is refused.
-class PlainScalar {
- public:
-  static Value::Data Read(const std::string& text, std::string& problem) {
-    if (text == "true") return true;
-    if (text == "false") return false;
-    if (text == "null" || text == "~" || text == "Null" || text == "NULL") {
-      problem = "got null; expected a value";
-      return {};
-    }
-    static constexpr std::array kAmbiguous = {"yes", "no",  "on",   "off",  "Yes",   "No",   "On",
-                                              "Off", "YES", "NO",   "ON",   "OFF",   "y",    "n",
-                                              "Y",   "N",   "True", "TRUE", "False", "FALSE"};
-    if (std::find(kAmbiguous.begin(), kAmbiguous.end(), text) != kAmbiguous.end()) {
-      problem =
-          fmt::format("got {0}; expected true or false, or '{0}' in quotes for the text", text);
-      return {};
-    }
-    return LooksLikeNumber(text) ? ReadNumber(text, problem) : Value::Data(text);
-  }
-
- private:
-  static Value::Data ReadNumber(const std::string& text, std::string& problem) {
-    const char* first = text.data() + (text[0] == '+' ? 1 : 0);
-    const char* const last = text.data() + text.size();
-    const char* const digits = first + (*first == '-' ? 1 : 0);
-    if (last - digits > 1 && digits[0] == '0' && IsDigit(digits[1])) {
-      problem =
-          fmt::format("got {}; expected a number without leading zeros, or text in quotes", text);
-      return {};
-    }
-    std::int64_t whole = 0;
-    if (const auto [end, error] = std::from_chars(first, last, whole);
-        error == std::errc() && end == last) {
-      return whole;
-    }
-    double real = 0.0;
-    const auto [end, error] = std::from_chars(first, last, real);
-    if (error != std::errc() || end != last || !std::isfinite(real)) {
-      problem = fmt::format("got {}; expected a number that a double can hold", text);
-      return {};
-    }
-    return real;
-  }
-};
 
 /// Builds the tree from yaml-cpp's events, which carry true positions.
 class TreeBuilder final : public YAML::EventHandler {
@@ -134,7 +59,7 @@ class TreeBuilder final : public YAML::EventHandler {
     if (quoted) CheckClosed(mark);
     if (ExpectsKey()) return TakeKey(mark, value);
     std::string problem;
-    Value::Data data = quoted ? Value::Data(value) : PlainScalar::Read(value, problem);
+    Value::Data data = quoted ? Value::Data(value) : ReadPlainScalar(value, problem);
     if (!problem.empty()) problems_.Add(At(mark), Here() + problem);
     Put(Value(std::move(data), At(mark)));
   }
@@ -318,45 +243,6 @@ bool NestsTooDeep(std::string_view text, int& line) {
   return false;
 }
 
-Value FromJson(const nlohmann::ordered_json& json, const Location& location, int depth) {
-  if (depth > kDeepest) throw ConfigError(fmt::format("nested deeper than {} levels", kDeepest));
-  if (json.is_boolean()) return Value(json.get<bool>(), location);
-  const bool beyond = json.is_number_unsigned() &&
-                      json.get<std::uint64_t>() > std::numeric_limits<std::int64_t>::max();
-  if (json.is_number_integer() && !beyond) return Value(json.get<std::int64_t>(), location);
-  if (json.is_number()) return Value(json.get<double>(), location);
-  if (json.is_string()) return Value(json.get<std::string>(), location);
-  if (json.is_array()) {
-    Value::List list;
-    for (const auto& item : json) list.push_back(FromJson(item, location, depth + 1));
-    return Value(std::move(list), location);
-  }
-  if (json.is_object()) {
-    Value::Map map;
-    for (const auto& [key, item] : json.items()) {
-      map.push_back({key, location, FromJson(item, location, depth + 1)});
-    }
-    return Value(std::move(map), location);
-  }
-  throw ConfigError("null; expected a value");
-}
-
-/// nlohmann keeps one of two equal keys without a word.
-nlohmann::ordered_json ParseStrictly(std::string_view text) {
-  using Json = nlohmann::ordered_json;
-  std::vector<std::set<std::string>> open;
-  const auto check = [&open](int /*depth*/, Json::parse_event_t event, Json& parsed) {
-    if (event == Json::parse_event_t::object_start) open.emplace_back();
-    if (event == Json::parse_event_t::object_end) open.pop_back();
-    if (event == Json::parse_event_t::key &&
-        !open.back().insert(parsed.get<std::string>()).second) {
-      throw ConfigError(fmt::format("{}: duplicate key", parsed.get<std::string>()));
-    }
-    return true;
-  };
-  return Json::parse(text, check);
-}
-
 /// The brace of an unquoted `${...}` ends a map in braces: the commonest slip of all.
 std::string Advice(std::string_view text, const YAML::Mark& mark) {
   const auto at = std::min(static_cast<std::size_t>(std::max(mark.pos, 0)), text.size());
@@ -420,20 +306,6 @@ std::string ReadTextFile(const std::filesystem::path& file) {
         fmt::format("{}: error: holds control characters; expected a text file", file.string()));
   }
   return text;
-}
-
-Value ReadJson(std::string_view text, const std::string& name) {
-  const Location location{std::make_shared<const std::string>(name), 0, 0};
-  try {
-    return FromJson(ParseStrictly(text), location, 0);
-  } catch (const ConfigError& error) {
-    throw ConfigError(fmt::format("{}: error: {}", name, error.what()));
-  } catch (const nlohmann::json::exception& error) {
-    const std::string what = error.what();
-    const auto start = what.find("] ");
-    throw ConfigError(fmt::format("{}: error: {}", name,
-                                  start == std::string::npos ? what : what.substr(start + 2)));
-  }
 }
 
 }  // namespace oca::diagrams

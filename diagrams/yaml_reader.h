@@ -22,7 +22,4 @@ Value ReadYaml(std::string_view text, const std::string& name, Problems& problem
 /// throws ConfigError if the file cannot be read, is too large or no text.
 std::string ReadTextFile(const std::filesystem::path& file);
 
-/// The same tree from JSON text. throws ConfigError saying where it breaks off.
-Value ReadJson(std::string_view text, const std::string& name);
-
 }  // namespace oca::diagrams

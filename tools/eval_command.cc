@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "diagrams/catalogue.h"
+#include "diagrams/json_reader.h"
 #include "diagrams/package_paths.h"
-#include "diagrams/yaml_reader.h"
 #include "framework/dynamic_port.h"
 #include "framework/error.h"
 #include "framework/nearest.h"

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "diagrams/catalogue.h"
+#include "diagrams/json_reader.h"
 #include "diagrams/package_paths.h"
 #include "diagrams/yaml_reader.h"
 #include "framework/dynamic_port.h"

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "diagrams/json_reader.h"
 #include "framework/error.h"
 #include "tests/diagrams/yaml_text.h"
 
