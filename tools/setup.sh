@@ -4,6 +4,8 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 preset=${1:-release}
+# Clones share what they compile, wherever they lie.
+export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=true
 [ $# -gt 0 ] && shift
 
 mapfile -t packages < <(grep -v '^#' tools/packages.txt)
