@@ -4,45 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <string_view>
 
 #include "framework/error.h"
+#include "systems/csv_table.h"
 
 namespace oca::systems {
 namespace {
-
-constexpr std::uintmax_t kLargestFile = 64u << 20;  // bytes; days of key points
-
-std::string_view Trimmed(std::string_view text) {
-  const auto begin = text.find_first_not_of(" \t\r");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
-}
-
-std::vector<std::string_view> Cells(std::string_view line) {
-  std::vector<std::string_view> cells;
-  for (;;) {
-    const auto comma = line.find(',');
-    cells.push_back(Trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return cells;
-    line.remove_prefix(comma + 1);
-  }
-}
-
-double Number(std::string_view cell, const std::string& where) {
-  double number = 0.0;
-  const std::string_view digits = cell.starts_with('+') ? cell.substr(1) : cell;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  if (error == std::errc() && end == digits.data() + digits.size() && std::isfinite(number)) {
-    return number;
-  }
-  throw ConfigError(fmt::format("{}: not a number; got '{}'; expected a finite number", where,
-                                cell.substr(0, 40)));
-}
 
 /// How many columns hold positions, velocities and accelerations.
 struct Columns {
@@ -68,20 +37,19 @@ Columns ReadNames(const std::vector<std::string_view>& cells, const std::string&
       where, cells.size()));
 }
 
-KeyPoint ReadLine(const std::vector<std::string_view>& cells, const Columns& columns,
-                  const std::string& where) {
-  if (static_cast<Eigen::Index>(cells.size()) != columns.count()) {
-    throw ConfigError(fmt::format("{}: wrong length; got {} numbers; expected {}", where,
-                                  cells.size(), columns.count()));
+KeyPoint ReadRow(const CsvTable& table, const Columns& columns) {
+  if (static_cast<Eigen::Index>(table.cells().size()) != columns.count()) {
+    throw ConfigError(fmt::format("{}: wrong length; got {} numbers; expected {}", table.where(),
+                                  table.cells().size(), columns.count()));
   }
-  auto cell = cells.begin();
+  std::size_t column = 0;
   const auto vector = [&] {
     Eigen::VectorXd values(columns.joints);
-    for (double& value : values) value = Number(*cell++, where);
+    for (double& value : values) value = table.Number(column++);
     return values;
   };
   KeyPoint point;
-  point.time = Number(*cell++, where);
+  point.time = table.Number(column++);
   point.position = vector();
   if (columns.velocities) point.velocity = vector();
   if (columns.accelerations) point.acceleration = vector();
@@ -133,32 +101,18 @@ void KeyPoint::Describe(Fields<KeyPoint>& fields) {
 }
 
 std::vector<KeyPoint> ReadKeyPoints(const std::string& path) {
-  std::error_code error;
-  const std::uintmax_t bytes = std::filesystem::file_size(path, error);
-  std::ifstream file(path);
-  if (error || !file) {
-    throw ConfigError(fmt::format("{}: cannot be read; expected a CSV file", path));
-  }
-  if (bytes > kLargestFile) {
-    throw ConfigError(
-        fmt::format("{}: too large; got {} bytes; expected at most {}", path, bytes, kLargestFile));
-  }
+  CsvTable table(path);
   std::vector<KeyPoint> points;
   Columns columns;
-  std::string text;
-  for (int line = 1; std::getline(file, text); ++line) {
-    const std::string_view trimmed = Trimmed(text);
-    if (trimmed.empty() || trimmed.starts_with('#')) continue;
-    const std::string where = fmt::format("{}:{}", path, line);
-    const auto cells = Cells(trimmed);
+  while (table.NextRow()) {
     if (columns.joints == 0) {
-      if (cells.front() == "time") {
-        columns = ReadNames(cells, where);
+      if (table.cells().front() == "time") {
+        columns = ReadNames(table.cells(), table.where());
         continue;
       }
-      columns.joints = static_cast<Eigen::Index>(cells.size()) - 1;
+      columns.joints = static_cast<Eigen::Index>(table.cells().size()) - 1;
     }
-    points.push_back(ReadLine(cells, columns, where));
+    points.push_back(ReadRow(table, columns));
   }
   return points;
 }

@@ -19,9 +19,9 @@ struct KeyPoint {
   static void Describe(Fields<KeyPoint>& fields);
 };
 
-/// Reads key points from a CSV file: one a line, columns `time` (s), then the n positions. Blank
-/// lines and lines that start with # are skipped. A first line of names may say more: names that
-/// start with p, v and a are positions, velocities and accelerations, n of each, in that order.
+/// Reads key points from a CSV file as CsvTable does: one a row, columns `time` (s), then the n
+/// positions. A first row of names may say more: names that start with p, v and a are positions,
+/// velocities and accelerations, n of each, in that order.
 /// throws ConfigError `file:line: ...`.
 std::vector<KeyPoint> ReadKeyPoints(const std::string& path);
 

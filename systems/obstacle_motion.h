@@ -69,8 +69,9 @@ using Motion = std::function<MotionState(double time)>;
 Motion MakeMotion(const MotionParams& params, const Eigen::Isometry3d& X_0,
                   const std::string& where);
 
-/// The waypoints in a CSV file, whose first line names the columns. throws ConfigError naming file
-/// and line
+/// The waypoints in a CSV file as CsvTable reads it. The first row names the columns, time,x,y,z or
+/// time,x,y,z,roll,pitch,yaw; s, m and rad.
+/// throws ConfigError `file:line: ...`.
 std::vector<WaypointParams> ReadWaypoints(const std::string& file);
 
 }  // namespace oca::systems

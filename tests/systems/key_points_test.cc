@@ -88,7 +88,8 @@ TEST(KeyPointsTest, RefusesNamesThatDoNotMatchThePositions) {
 }
 
 TEST(KeyPointsTest, RefusesBinaryJunkEmptyAndMissingFiles) {
-  EXPECT_THAT(RefusalOf(std::string("\x7f\x45LF\0\0\n\xff", 8)), HasSubstr("not a number"));
+  EXPECT_THAT(RefusalOf(std::string("\x7f\x45LF\0\0\n\xff", 8)),
+              HasSubstr(":1: control character; got byte 0x7f"));
   EXPECT_THAT(RefusalOf("# nothing\n"), HasSubstr("expected at least one"));
   EXPECT_THROW(ReadKeyPoints("no/such/file.csv"), ConfigError);
   EXPECT_THROW(ReadKeyPoints(testing::TempDir()), ConfigError);

@@ -245,10 +245,12 @@ TEST_F(CsvMotionTest, ReadsRotationsIfThereAreColumnsForThem) {
 }
 
 TEST_F(CsvMotionTest, RefusesWhatIsNoSuchTable) {
-  EXPECT_THAT(Refusal(""), HasSubstr(":1: columns"));
-  EXPECT_THAT(Refusal("t,x,y,z\n"), HasSubstr(":1: columns"));
-  EXPECT_THAT(Refusal("time,x,y,z\n0,1,2\n"), HasSubstr(":2: got 3 cells; expected 4"));
-  EXPECT_THAT(Refusal("time,x,y,z\n0,1,2,3\n1,1,nan,3\n"), HasSubstr(":3: got 'nan'"));
+  EXPECT_THAT(Refusal(""), HasSubstr("names of columns; got none"));
+  EXPECT_THAT(Refusal("t,x,y,z\n"), HasSubstr(":1: names of columns"));
+  EXPECT_THAT(Refusal("time,x,y,z\n0,1,2\n"),
+              HasSubstr(":2: wrong length; got 3 numbers; expected 4"));
+  EXPECT_THAT(Refusal("time,x,y,z\n0,1,2,3\n1,1,nan,3\n"),
+              HasSubstr(":3: not a number; got 'nan'"));
   EXPECT_THAT(Refusal("time,x,y,z\n0,1,2,3m\n"), HasSubstr("'3m'"));
   MotionParams params;
   params.type = MotionType::kCsv;
