@@ -11,18 +11,18 @@ namespace oca::systems {
 
 /// Measures a run: how near it came, how hard it was pushed, how smoothly it moved and whether it
 /// arrived. Samples are taken every `period`, which should be that of control, at the state before
-/// the updates of the instant:
+/// the updates of the instant.
 ///
-///     min_distance                   least distance of all samples, its pair and its time
-///     contact_time                   sum of the times from samples at distance <= 0 to the next
-///     one first_contact_time             time of the first sample at distance <= 0 max_abs_delta
-///     largest |delta| of any joint final_error                    max_i |position_i - goal_i| now;
-///     without a goal, the request delta_sign_changes_per_second  reversals of the change of delta
-///     from sample to sample, if
-///                                    above 1e-6, a joint and s
-///     total_variation_ratio          sum |d position| / sum |d request| over joints and samples
-///     max_joint_speed                largest |d position| / period
-///     max_joint_acceleration         largest |change of d position| / period^2
+/// - min_distance: the least distance of all samples, with its pair and its time
+/// - contact_time: sum of the times from samples at distance <= 0 to the next one
+/// - first_contact_time: of the first sample at distance <= 0
+/// - max_abs_delta: largest |delta| of any joint
+/// - final_error: max_i |position_i - goal_i| now; without a goal, the request takes its place
+/// - delta_sign_changes_per_second: how often the change of delta from sample to sample, where it
+///   is above 1e-6, reverses; a joint and s
+/// - total_variation_ratio: sum |d position| / sum |d request| over joints and samples
+/// - max_joint_speed: largest |d position| / period
+/// - max_joint_acceleration: largest |change of d position| / period^2
 ///
 /// The output at a sampling instant whose update is pending has its sample in it, so the end of a
 /// run counts, once. A metric whose inputs are not connected or without a value is null.
