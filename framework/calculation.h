@@ -13,7 +13,8 @@ namespace oca {
 /// One thing that a calculation reads.
 struct Read {
   enum class Kind { kOfTime, kOfLog, kInput, kOutput, kState } kind;
-  int index{-1};  ///< of the input, output or state in its system
+  int index{-1};                  ///< of the input, output or state in its system
+  const System* system{nullptr};  ///< the one that declared it; none for the time and the log
 };
 
 /// A member function of a system with the list of what it reads. `function` finds the values in
@@ -61,27 +62,37 @@ struct Access<LogAccess> {
 template <class T>
 struct Access<Input<T>> {
   static decltype(auto) Get(std::byte* arena, Slot slot) { return ViewOf<T>::Read(arena, slot); }
-  static Read Declare(const Handle& handle) { return {Read::Kind::kInput, handle.index}; }
+  static Read Declare(const Handle& handle) {
+    return {Read::Kind::kInput, handle.index, handle.system};
+  }
 };
 template <class T>
 struct Access<OptionalInput<T>> {
   static auto Get(std::byte* arena, Slot slot) { return ViewOf<T>::ReadOptional(arena, slot); }
-  static Read Declare(const Handle& handle) { return {Read::Kind::kInput, handle.index}; }
+  static Read Declare(const Handle& handle) {
+    return {Read::Kind::kInput, handle.index, handle.system};
+  }
 };
 template <class T>
 struct Access<Output<T>> {
   static decltype(auto) Get(std::byte* arena, Slot slot) { return ViewOf<T>::Read(arena, slot); }
-  static Read Declare(const Handle& handle) { return {Read::Kind::kOutput, handle.index}; }
+  static Read Declare(const Handle& handle) {
+    return {Read::Kind::kOutput, handle.index, handle.system};
+  }
 };
 template <class T>
 struct Access<DiscreteState<T>> {
   static decltype(auto) Get(std::byte* arena, Slot slot) { return ViewOf<T>::Read(arena, slot); }
-  static Read Declare(const Handle& handle) { return {Read::Kind::kState, handle.index}; }
+  static Read Declare(const Handle& handle) {
+    return {Read::Kind::kState, handle.index, handle.system};
+  }
 };
 template <>
 struct Access<ContinuousState> {
   static VectorView Get(std::byte* arena, Slot slot) { return ViewOf<Vector>::Read(arena, slot); }
-  static Read Declare(const Handle& handle) { return {Read::Kind::kState, handle.index}; }
+  static Read Declare(const Handle& handle) {
+    return {Read::Kind::kState, handle.index, handle.system};
+  }
 };
 template <class T>
 struct Access<WriteOf<T>> {

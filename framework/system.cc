@@ -56,14 +56,31 @@ InputHandle System::AddInput(InputInfo info) {
   return {{this, static_cast<int>(inputs_.size()) - 1}};
 }
 
+void System::CheckReads(const std::string& what, const Calculation& calculation) const {
+  for (std::size_t i = 0; i < calculation.reads.size(); ++i) {
+    const Read& read = calculation.reads[i];
+    const auto check = [&](const char* kind, std::size_t count) {
+      if (read.system == this && read.index >= 0 && read.index < static_cast<int>(count)) return;
+      throw WiringError({fmt::format(
+          "{}: reads; got {} of another system in place {}; expected one declared before it", what,
+          kind, i)});
+    };
+    if (read.kind == Read::Kind::kInput) check("an input", inputs_.size());
+    if (read.kind == Read::Kind::kOutput) check("an output", outputs_.size());
+    if (read.kind == Read::Kind::kState) check("a state", states_.size());
+  }
+}
+
 OutputHandle System::AddOutput(OutputInfo info) {
+  CheckReads(fmt::format("output '{}'", info.name), info.calculation);
   outputs_.push_back(std::move(info));
   return {{this, static_cast<int>(outputs_.size()) - 1}};
 }
 
-OutputHandle System::AddStateOutput(std::string name, int state) {
-  const StateInfo& shown = states_.at(state);
-  return AddOutput({std::move(name), shown.type, shown.spec, {}, state});
+OutputHandle System::AddStateOutput(std::string name, const StateHandle& state) {
+  const int index = StateIndex(state);
+  const StateInfo& shown = states_.at(index);
+  return AddOutput({std::move(name), shown.type, shown.spec, {}, index});
 }
 
 StateHandle System::AddState(StateInfo info) {
@@ -71,7 +88,21 @@ StateHandle System::AddState(StateInfo info) {
   return {{this, static_cast<int>(states_.size()) - 1}};
 }
 
+int System::StateIndex(const StateHandle& state) const {
+  const int count = static_cast<int>(states_.size());
+  if (state.system == this && state.index >= 0 && state.index < count) return state.index;
+  throw WiringError(
+      {"state: shown or written; got one of another system; expected one of its own"});
+}
+
+void System::SetDerivative(const StateHandle& state, Calculation calculation) {
+  StateInfo& driven = states_[StateIndex(state)];
+  CheckReads(fmt::format("derivative of '{}'", driven.name), calculation);
+  driven.derivative = std::move(calculation);
+}
+
 Witness System::AddWitness(WitnessInfo info) {
+  CheckReads(fmt::format("witness '{}'", info.name), info.calculation);
   for (const WitnessInfo& other : witnesses_) {
     if (other.name != info.name) continue;
     throw WiringError({fmt::format("witness '{}' is declared twice", info.name)});
@@ -86,6 +117,8 @@ int System::WitnessIndex(const Witness& witness) const {
 }
 
 void System::AddEvent(EventInfo info) {
+  constexpr const char* kNames[] = {"initialization", "reset", "update", "publish"};
+  CheckReads(kNames[static_cast<int>(info.stage)], info.calculation);
   const bool timed = info.witness < 0;
   if (timed && info.stage != Stage::kInitialization && !info.every.period.positive()) {
     throw ConfigError(fmt::format("period: got {}; expected > 0 s", info.every.period.ToString()));

@@ -129,10 +129,10 @@ class System {
   /// An output that shows a state; it costs nothing and breaks algebraic loops.
   template <class T>
   Output<T> DeclareStateOutput(std::string name, const DiscreteState<T>& state) {
-    return {AddStateOutput(std::move(name), state.index)};
+    return {AddStateOutput(std::move(name), state)};
   }
   Output<Vector> DeclareStateOutput(std::string name, const ContinuousState& state) {
-    return {AddStateOutput(std::move(name), state.index)};
+    return {AddStateOutput(std::move(name), state)};
   }
 
   /// A vector state, `initial` at the start; a scalar `initial` counts for every component.
@@ -153,7 +153,7 @@ class System {
   }
   template <auto kMethod, class... Reads>
   void DeclareDerivative(const ContinuousState& state, const Reads&... reads) {
-    states_.at(state.index).derivative = MakeCalculation<kMethod, WriteOf<Vector>>(reads...);
+    SetDerivative(state, MakeCalculation<kMethod, WriteOf<Vector>>(reads...));
   }
 
   /// Discrete update: `kMethod(reads..., next states...)`. The next states arrive holding the
@@ -213,17 +213,24 @@ class System {
     return MakeCalculation<kMethod, WriteOf<typename SignalOf<States>::Type>...>(reads...);
   }
   template <class... States>
-  static std::vector<int> WrittenBy(const Writes<States...>& writes) {
-    return std::apply([](const auto&... state) { return std::vector<int>{state.index...}; },
-                      writes.states);
+  std::vector<int> WrittenBy(const Writes<States...>& writes) const {
+    return std::apply(
+        [this](const auto&... state) { return std::vector<int>{StateIndex(state)...}; },
+        writes.states);
   }
+  /// throws WiringError if another system declared the state.
+  int StateIndex(const StateHandle& state) const;
   /// throws WiringError if another system declared the witness.
   int WitnessIndex(const Witness& witness) const;
+  /// throws WiringError if the calculation of `what` reads a port or a state that this system has
+  /// not declared: its index would lead to another one.
+  void CheckReads(const std::string& what, const Calculation& calculation) const;
 
   InputHandle AddInput(InputInfo info);
   OutputHandle AddOutput(OutputInfo info);
-  OutputHandle AddStateOutput(std::string name, int state);
+  OutputHandle AddStateOutput(std::string name, const StateHandle& state);
   StateHandle AddState(StateInfo info);
+  void SetDerivative(const StateHandle& state, Calculation calculation);
   Witness AddWitness(WitnessInfo info);
   void AddEvent(EventInfo info);
 
