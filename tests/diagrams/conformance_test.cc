@@ -67,9 +67,10 @@ class ConformanceTest : public testing::TestWithParam<std::string> {
     }
   }
 
-  /// Zeros for vectors, whatever their length, and empty sets.
-  static void FixInputs(const Diagram& diagram, Context& context) {
+  /// Zeros for vectors, whatever their length, and empty sets; for all inputs but one, if named.
+  static void FixInputs(const Diagram& diagram, Context& context, const std::string& but = "") {
     for (const auto& input : diagram.inputs()) {
+      if (input.name == but) continue;
       if (input.type != &kVectorType) {
         FixJson(diagram.FindInput(input.name), context, Neutral(*input.type));
         continue;
@@ -227,11 +228,31 @@ TEST_P(ConformanceTest, ItsInputsRefuseWhatIsNotFinite) {
 
 TEST_P(ConformanceTest, AnInputThatNobodyFixedIsNeverReadAsZero) {
   const auto diagram = MakeDiagram();
+  for (const auto& input : diagram->inputs()) {
+    Simulator simulator(*diagram);
+    FixInputs(*diagram, simulator.context(), input.name);
+    try {
+      simulator.Initialize();
+      ADD_FAILURE() << input.name << " was read";
+    } catch (const SimulationError& error) {
+      EXPECT_EQ(error.port, input.name);
+      EXPECT_THAT(error.what(), HasSubstr("has not been fixed"));
+    }
+  }
+}
+
+TEST_P(ConformanceTest, NoOutputThatReadsAnInputHasAValueBeforeItIsFixed) {
+  const auto diagram = MakeDiagram();
   const Context context = diagram->MakeContext();
-  bool vectors = false;
-  for (const auto& input : diagram->inputs()) vectors |= input.type == &kVectorType;
-  if (!vectors) return;
-  EXPECT_THAT(Outputs(*diagram, context), testing::Not(HasSubstr("nan")));
+  for (const auto& output : diagram->FindSystem("system")->outputs()) {
+    for (const Read& read : output.calculation.reads) {
+      if (read.kind != Read::Kind::kInput) continue;
+      if (read.system->inputs()[read.index].optional) continue;
+      std::string text;
+      EXPECT_THROW(EvalJson(diagram->FindOutput(output.name), context, text), SimulationError)
+          << output.name << " is " << text;
+    }
+  }
 }
 
 TEST_P(ConformanceTest, RunsWithoutTheHeap) {
@@ -240,13 +261,15 @@ TEST_P(ConformanceTest, RunsWithoutTheHeap) {
   Simulator simulator(*diagram);
   FixInputs(*diagram, simulator.context());
   try {
-    simulator.AdvanceTo(0.2);
-  } catch (const SimulationError&) {
-    return;  // it refuses neutral inputs, which another test looks at
+    simulator.Initialize();
+    // A Delay makes room for its samples at its first tick, where it learns their length.
+    if (GetParam() == "Delay") simulator.AdvanceTo(0.2);
+    const std::int64_t before = AllocationCount();
+    simulator.AdvanceTo(0.4);
+    EXPECT_EQ(AllocationCount(), before);
+  } catch (const SimulationError& error) {
+    GTEST_SKIP() << "it refuses neutral inputs, which another test looks at: " << error.what();
   }
-  const std::int64_t before = AllocationCount();
-  simulator.AdvanceTo(0.4);
-  EXPECT_EQ(AllocationCount(), before);
 }
 
 std::vector<std::string> Types() {
