@@ -60,6 +60,12 @@ class Includer {
       problems_.Add(from, fmt::format("include: {} includes itself", file.string()));
       return {};
     }
+    if (++files_ > kMostFiles) {
+      if (files_ == kMostFiles + 1) {
+        problems_.Add(from, fmt::format("include: more than {} files", kMostFiles));
+      }
+      return {};
+    }
     open_.push_back(canonical);
     Value value;
     try {
@@ -108,7 +114,9 @@ class Includer {
   }
 
   Problems& problems_;
+  static constexpr int kMostFiles = 200;
   std::vector<fs::path> open_;
+  int files_{0};
 };
 
 std::vector<std::string> SplitPath(const std::string& path) {

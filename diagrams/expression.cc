@@ -18,6 +18,7 @@
 namespace oca::diagrams {
 namespace {
 
+constexpr std::size_t kLargestCopies = 100000;
 constexpr int kDeepest = 32;
 constexpr std::size_t kLongest = 1000;
 constexpr int kLongestChain = 100;
@@ -90,6 +91,19 @@ bool IsReserved(const std::string& name) {
          parser.GetFunDef().contains(name);
 }
 
+/// Values in a tree; a text counts for every 16 characters.
+std::size_t SizeOf(const Value& value) {
+  std::size_t size = 1;
+  if (value.string() != nullptr) size += value.string()->size() / 16;
+  if (value.list() != nullptr) {
+    for (const Value& item : *value.list()) size += SizeOf(item);
+  }
+  if (value.map() != nullptr) {
+    for (const Value::Entry& entry : *value.map()) size += SizeOf(entry.value);
+  }
+  return size;
+}
+
 std::string Text(const Value& value) {
   if (value.string() != nullptr) return *value.string();
   double number = 0.0;
@@ -109,6 +123,7 @@ Expressions::Expressions(const Value& parameters, Problems& problems) : problems
       continue;
     }
     written_[entry.key] = &entry.value;
+    places_[entry.key] = entry.location;
   }
   for (const auto& [name, value] : written_) Parameter(name, value->location());
 }
@@ -135,6 +150,29 @@ const Value* Expressions::Parameter(const std::string& name, const Location& loc
   --chain_;
   open_[name] = false;
   return &resolved_.insert_or_assign(name, std::move(value)).first->second;
+}
+
+const Value* Expressions::Use(const std::string& name, const Location& location) {
+  used_.insert(name);
+  const Value* const value = Parameter(name, location);
+  if (value == nullptr || copied_ > kLargestCopies) return nullptr;
+  copied_ += SizeOf(*value);
+  if (copied_ <= kLargestCopies) return value;
+  problems_.Add(location, fmt::format("${{{}}}: parameters that use parameters add up to more than "
+                                      "{} values",
+                                      name, kLargestCopies));
+  return nullptr;
+}
+
+std::vector<std::string> Expressions::Unused() const {
+  std::vector<std::string> lines;
+  const std::vector<std::string> used(used_.begin(), used_.end());
+  for (const auto& [name, place] : places_) {
+    if (used_.contains(name)) continue;
+    lines.push_back(fmt::format("{}: warning: parameters.{}: nothing uses it{}", place.ToString(),
+                                name, DidYouMean(name, used)));
+  }
+  return lines;
 }
 
 Value Expressions::Resolve(const Value& value) {
@@ -212,7 +250,7 @@ Value Expressions::Evaluate(const std::string& expression, const Location& locat
   }
   if (expression == "true" || expression == "false") return Value(expression == "true", location);
   if (IsName(expression) && expression != "pi" && expression != "deg") {
-    const Value* const value = Parameter(expression, location);
+    const Value* const value = Use(expression, location);
     return value == nullptr ? Value({}, location) : Value(value->data(), location);
   }
   return Arithmetic(expression, location);
@@ -239,7 +277,7 @@ Value Expressions::Arithmetic(const std::string& expression, const Location& loc
     }
     for (const std::string& name : names) {
       if (!written_.contains(name)) continue;
-      const Value* const value = Parameter(name, location);
+      const Value* const value = Use(name, location);
       if (value == nullptr) return Value({}, location);
       double number = 0.0;
       if (value->boolean() != nullptr) number = *value->boolean() ? 1.0 : 0.0;

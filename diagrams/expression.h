@@ -2,7 +2,9 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "framework/value.h"
 
@@ -21,19 +23,25 @@ class Expressions {
 
   /// `value` with all expressions replaced; what fails is added to the problems.
   Value Resolve(const Value& value);
-  /// All parameters, resolved.
-  const std::map<std::string, Value>& parameters() const { return resolved_; }
+  /// A line for each parameter that neither the tree nor another parameter uses, with its place and
+  /// the nearest one that is used. Complete once everything is resolved.
+  std::vector<std::string> Unused() const;
 
  private:
   Value ResolveText(const std::string& text, const Location& location);
   Value Evaluate(const std::string& expression, const Location& location, int depth);
   Value Arithmetic(const std::string& expression, const Location& location);
   const Value* Parameter(const std::string& name, const Location& location);
+  /// The parameter's value where an expression uses it; counts what copies of it add up to.
+  const Value* Use(const std::string& name, const Location& location);
 
   std::map<std::string, const Value*> written_;
   std::map<std::string, Value> resolved_;
   std::map<std::string, bool> open_;  ///< parameters being resolved, to find circles
   int chain_{0};                      ///< how many are open
+  std::set<std::string> used_;
+  std::map<std::string, Location> places_;
+  std::size_t copied_{0};  ///< size of all values that expressions were replaced by
   Problems& problems_;
 };
 

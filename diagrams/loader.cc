@@ -82,6 +82,7 @@ class Loader {
       if (entry.key == "parameters") continue;
       resolved.push_back({entry.key, entry.location, expressions.Resolve(entry.value)});
     }
+    loaded_.warnings = expressions.Unused();
     return Value(std::move(resolved), document.location());
   }
 

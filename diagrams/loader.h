@@ -22,6 +22,7 @@ struct LoadedDiagram {
   };
 
   std::string file;
+  std::vector<std::string> warnings;  ///< a line each, with its place
   std::string name;
   std::string description;
   SimulatorParams simulator;

@@ -132,6 +132,7 @@ class ExpectationReader {
     if (metrics.empty()) return Fail(": a metric needs a system of type MotionMetrics");
     result_.output = metrics.front().second;
     result_.member = entry_.key;
+    result_.metric = true;
     return CheckMember();
   }
 

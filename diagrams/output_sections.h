@@ -26,6 +26,7 @@ struct Expectation {
   OutputHandle output;
   int index{-1};
   std::string member;
+  bool metric{false};  ///< of all arms together, as the run reports it
   ExpectParams bound;
 };
 
@@ -36,8 +37,8 @@ using NamedOutputs = std::vector<std::pair<std::string, OutputHandle>>;
 std::vector<RecordedSignal> ReadRecord(const Value& root, const NamedOutputs& outputs,
                                        Problems& problems);
 
-/// Section `expect`. A lone word is a metric, looked up in the first of `metrics`. `diagram` is
-/// nullptr if it could not be built; lengths are then not checked.
+/// Section `expect`. A lone word is a metric; with several `metrics` the worst of them counts.
+/// `diagram` is nullptr if it could not be built; lengths are then not checked.
 std::vector<Expectation> ReadExpectations(const Value& root, const NamedOutputs& outputs,
                                           const NamedOutputs& metrics, const Diagram* diagram,
                                           double duration, Problems& problems);

@@ -12,11 +12,18 @@
 #include "diagrams/signal_recorder.h"
 #include "framework/dynamic_port.h"
 #include "framework/error.h"
+#include "framework/plan.h"
 
 namespace oca::diagrams {
 namespace {
 
 using nlohmann::ordered_json;
+
+std::optional<double> MemberOf(const std::string& json, const std::string& member) {
+  const auto value = ordered_json::parse(json).value(member, ordered_json());
+  if (!value.is_number()) return std::nullopt;
+  return value.get<double>();
+}
 
 std::optional<double> ValueOf(const Expectation& expectation, const Context& context) {
   if (expectation.member.empty()) {
@@ -24,9 +31,7 @@ std::optional<double> ValueOf(const Expectation& expectation, const Context& con
   }
   std::string text;
   EvalJson(expectation.output, context, text);
-  const auto value = ordered_json::parse(text).value(expectation.member, ordered_json());
-  if (!value.is_number()) return std::nullopt;
-  return value.get<double>();
+  return MemberOf(text, expectation.member);
 }
 
 std::string BoundText(const ExpectParams& bound) {
@@ -100,6 +105,10 @@ class Runner {
     }
     for (const Expectation& expectation : loaded.expectations) {
       const double at = expectation.bound.at.value_or(duration_);
+      if (at > duration_) {
+        throw ConfigError(fmt::format("expect.{}.at: got {} s; expected at most the duration {} s",
+                                      expectation.name, at, duration_));
+      }
       result_.expectations.push_back(
           {expectation.name, std::nullopt, BoundText(expectation.bound), at, false});
     }
@@ -123,7 +132,11 @@ class Runner {
     } catch (const SimulationError&) {
       result_.metrics = "{}";  // what failed the run fails here again
     }
-    if (recorder_) recorder_->Finish();
+    try {
+      if (recorder_) recorder_->Finish();
+    } catch (const ConfigError& error) {
+      if (result_.failure.empty()) result_.failure = error.what();
+    }
     return std::move(result_);
   }
 
@@ -135,7 +148,7 @@ class Runner {
     }
     std::sort(stops.begin(), stops.end());
     for (const double stop : stops) {
-      if (!simulator_.AdvanceTo(stop)) {
+      if (!AdvanceTo(stop)) {
         result_.interrupted = true;
         return;
       }
@@ -143,12 +156,24 @@ class Runner {
     }
   }
 
+  /// Without events a run is one step, after which alone an interrupt would be seen.
+  bool AdvanceTo(double stop) {
+    constexpr double kSlice = 1.0;  // s
+    while (loaded_.diagram->plan().groups.empty() && stop - simulator_.context().time() > kSlice) {
+      if (!simulator_.AdvanceTo(simulator_.context().time() + kSlice)) return false;
+    }
+    return simulator_.AdvanceTo(stop);
+  }
+
   void CheckAt(double time) {
     for (std::size_t i = 0; i < loaded_.expectations.size(); ++i) {
       ExpectationResult& result = result_.expectations[i];
       if (result.at != time || result.value) continue;
-      result.value = ValueOf(loaded_.expectations[i], simulator_.context());
-      result.ok = result.value && Holds(loaded_.expectations[i].bound, *result.value);
+      const Expectation& expectation = loaded_.expectations[i];
+      result.value = expectation.metric
+                         ? MemberOf(MetricsOf(loaded_, simulator_.context()), expectation.member)
+                         : ValueOf(expectation, simulator_.context());
+      result.ok = result.value && Holds(expectation.bound, *result.value);
     }
   }
 

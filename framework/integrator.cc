@@ -23,9 +23,10 @@ void CheckPositive(double value, const char* name) {
 /// Explicit Runge-Kutta with equal steps no longer than `fixed_step` between two events.
 class FixedStepIntegrator : public Integrator {
  public:
-  FixedStepIntegrator(const Plan& plan, double fixed_step)
+  FixedStepIntegrator(const Plan& plan, const IntegratorOptions& options)
       : plan_(plan),
-        fixed_step_(fixed_step),
+        fixed_step_(options.fixed_step),
+        max_steps_(options.max_steps),
         start_(plan.continuous_size),
         at_(start_.size()),
         slope_(start_.size()),
@@ -36,6 +37,12 @@ class FixedStepIntegrator : public Integrator {
   void IntegrateTo(Context& context, double to) override {
     const double from = context.time();
     const double count = StepsTo(from, to);
+    if (!(count <= max_steps_)) {
+      throw SimulationError(
+          "simulator", "", from,
+          fmt::format("steps to the next event; got {:g}; expected at most max_steps = {}", count,
+                      max_steps_));
+    }
     const double h = (to - from) / count;
     for (double i = 0.0; i < count; ++i) {
       std::copy_n(plan_.continuous(context), start_.size(), start_.data());
@@ -88,6 +95,7 @@ class FixedStepIntegrator : public Integrator {
 
   const Plan& plan_;
   const double fixed_step_;
+  const int max_steps_;        ///< between two events
   std::vector<double> start_;  // x at the start of a step
   std::vector<double> at_;     // argument of the next evaluation; x at the end of a step
   std::vector<double> slope_, end_slope_;  // x' at the start and the end of a step
@@ -125,8 +133,8 @@ constexpr Tableau<6> kDormandPrince5{
 template <std::size_t S>
 class TableauIntegrator final : public FixedStepIntegrator {
  public:
-  TableauIntegrator(const Plan& plan, double fixed_step, const Tableau<S>& tableau)
-      : FixedStepIntegrator(plan, fixed_step), tableau_(tableau) {
+  TableauIntegrator(const Plan& plan, const IntegratorOptions& options, const Tableau<S>& tableau)
+      : FixedStepIntegrator(plan, options), tableau_(tableau) {
     for (auto& stage : stages_) stage.resize(start_.size());
   }
 
@@ -176,9 +184,9 @@ std::unique_ptr<Integrator> MakeIntegrator(const Plan& plan, const IntegratorOpt
   CheckPositive(options.max_steps, "max_steps");
   switch (options.integrator) {
     case IntegratorKind::kFixedRk4:
-      return std::make_unique<TableauIntegrator<4>>(plan, options.fixed_step, kRk4);
+      return std::make_unique<TableauIntegrator<4>>(plan, options, kRk4);
     case IntegratorKind::kFixedDp5:
-      return std::make_unique<TableauIntegrator<6>>(plan, options.fixed_step, kDormandPrince5);
+      return std::make_unique<TableauIntegrator<6>>(plan, options, kDormandPrince5);
     default:
       return MakeSundialsIntegrator(plan, options);
   }

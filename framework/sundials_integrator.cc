@@ -16,6 +16,7 @@
 #include <exception>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -139,7 +140,11 @@ class SundialsIntegrator : public Integrator {
     if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
     if (flag >= 0) return;
     throw SimulationError("simulator", "", context_ == nullptr ? 0.0 : context_->time(),
-                          fmt::format("{} failed with {}", call, name));
+                          fmt::format("{} failed with {}{}", call, name,
+                                      std::string_view(name).ends_with("TOO_MUCH_WORK")
+                                          ? "; it took more than max_steps to the next event (a "
+                                            "stiff system wants cvode_bdf)"
+                                          : ""));
   }
 
   const Plan& plan_;

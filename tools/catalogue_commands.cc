@@ -16,8 +16,8 @@ namespace {
 std::string UnitText(const Unit& unit) {
   if (unit.any()) return "any unit";
   std::string text = unit.variable() >= 0 ? "u" : unit.text();
-  for (int i = 0; i < unit.rates(); ++i) text += "/s";
-  return text;
+  if (unit.rates() == 0) return text;
+  return unit.rates() == 1 ? text + "/s" : fmt::format("{}/s^{}", text, unit.rates());
 }
 
 template <class Info>

@@ -12,6 +12,7 @@ int CheckCommand(const std::vector<std::string>& files) {
   for (const std::string& file : files) {
     try {
       const auto loaded = diagrams::LoadDiagram(file);
+      for (const std::string& warning : loaded.warnings) std::cerr << warning << '\n';
       std::cout << file << ": fine, " << loaded.systems.size() << " systems, "
                 << loaded.diagram->connections().size() << " connections\n";
     } catch (const std::exception& error) {

@@ -25,7 +25,11 @@ using nlohmann::ordered_json;
 std::atomic<bool> interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-void Interrupt(int /*signal*/) { interrupted.store(true, std::memory_order_relaxed); }
+/// The first signal ends the run after the present step; a second one ends the program.
+void Interrupt(int signal) {
+  interrupted.store(true, std::memory_order_relaxed);
+  std::signal(signal, SIG_DFL);
+}
 
 /// What systems log, on standard error.
 class StderrLog final : public Log {
@@ -108,6 +112,7 @@ int RunCommand(const RunArguments& arguments) {
   if (arguments.seed) overrides.push_back({"simulator.seed", std::to_string(*arguments.seed)});
   const diagrams::LoadedDiagram loaded = diagrams::LoadDiagram(arguments.file, overrides);
 
+  for (const std::string& warning : loaded.warnings) fmt::print(stderr, "{}\n", warning);
   StderrLog log(arguments.log_level);
   diagrams::RunOptions options;
   options.duration = arguments.duration;

@@ -23,7 +23,13 @@ std::string Line(const char* label, const std::string& text) {
 
 std::string ClearanceLine(const ordered_json& metrics, bool colour) {
   const auto& distance = metrics.value("min_distance", ordered_json());
-  if (!distance.is_number()) return "";
+  if (!distance.is_number()) {
+    const bool looked = metrics.value("contact_time", ordered_json()).is_number();
+    return looked ? Line("clearance", Good("clear", colour) +
+                                          ": nothing came within reach of the "
+                                          "distance measurement")
+                  : "";
+  }
   const auto& pair = metrics["min_distance_pair"];
   std::string where;
   if (pair.is_array()) {

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <functional>
 #include <iostream>
 
@@ -34,7 +35,10 @@ class CommandLine {
       return Usage(error, argc, argv);
     }
     try {
-      return command_();
+      const int status = command_();
+      if (std::cout.flush() && std::fflush(stdout) == 0) return status;
+      fmt::print(stderr, "error: standard output cannot be written\n");
+      return kRunFailed;
     } catch (const SimulationError& error) {
       fmt::print(stderr, "error: {}\n", error.what());
       return kRunFailed;

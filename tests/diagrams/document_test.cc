@@ -230,5 +230,16 @@ TEST_F(OverrideTest, WhatIsNoPathAndValueIsRefused) {
   EXPECT_EQ(parsed.value, "c=d");
 }
 
+TEST_F(DocumentTest, FilesThatIncludeOneAnotherTwiceEachAreRefusedQuickly) {
+  folder.Write("main.yaml", "include: [i0.yaml]\n");
+  for (int i = 0; i < 30; ++i) {
+    const std::string next = "i" + std::to_string(i + 1) + ".yaml";
+    folder.Write("i" + std::to_string(i) + ".yaml", "include: [" + next + ", " + next + "]\n");
+  }
+  folder.Write("i30.yaml", "name: end\n");
+  Load();
+  EXPECT_THAT(problems, HasSubstr("include: more than 200 files"));
+}
+
 }  // namespace
 }  // namespace oca::diagrams

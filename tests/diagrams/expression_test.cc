@@ -260,5 +260,28 @@ TEST(ExpressionTest, AProblemIsToldWhereTheExpressionStands) {
   EXPECT_THAT(problems.all().front(), HasSubstr("f.yaml:3:5: error: "));
 }
 
+TEST(ExpressionTest, ParametersThatMultiplyOneAnotherAreRefusedQuickly) {
+  for (const bool list : {true, false}) {
+    std::string parameters = list ? "{a0: [1, 1]" : "{a0: xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx";
+    for (int i = 1; i < 30; ++i) {
+      const std::string use =
+          list ? fmt::format("\"${{a{}}}\"", i - 1) : fmt::format("${{a{}}}", i - 1);
+      parameters += list ? fmt::format(", a{}: [{}, {}]", i, use, use)
+                         : fmt::format(", a{}: \"{}{}\"", i, use, use);
+    }
+    EXPECT_THAT(ProblemOf("${a29}", parameters + "}"), HasSubstr("more than 100000 values"));
+  }
+}
+
+TEST(ExpressionTest, AParameterThatNothingUsesIsNamedWithItsNearest) {
+  YamlText document("parameters: {reach: 1, raech: 2, twice: \"${2 * reach}\"}\n");
+  Problems problems;
+  Expressions expressions(At(document.value, "parameters"), problems);
+  expressions.Resolve(Value(std::string("${twice}"), Location()));
+  ASSERT_EQ(expressions.Unused().size(), 1u);
+  EXPECT_THAT(expressions.Unused()[0],
+              HasSubstr("parameters.raech: nothing uses it; did you mean 'reach'?"));
+}
+
 }  // namespace
 }  // namespace oca::diagrams

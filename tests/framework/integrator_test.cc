@@ -183,6 +183,18 @@ TEST(IntegratorOrderTest, HalvingAFixedStepGainsTheOrderOfTheMethod) {
       0.5);
 }
 
+TEST(FixedStepTest, MoreStepsThanAllowedAreAnErrorAndNotAnEndlessRun) {
+  const auto still = [](double, double, double) { return 0.0; };
+  for (const IntegratorKind kind : {IntegratorKind::kFixedDp5, IntegratorKind::kFixedRk4}) {
+    EXPECT_NO_THROW(
+        Solve(still, 1.0, 1.0, {.integrator = kind, .fixed_step = 0.1, .max_steps = 10}));
+    EXPECT_THROW(Solve(still, 1.0, 1.0, {.integrator = kind, .fixed_step = 0.1, .max_steps = 9}),
+                 SimulationError);
+    EXPECT_THROW(Solve(still, 1.0, 1.0, {.integrator = kind, .fixed_step = 1e-300}),
+                 SimulationError);
+  }
+}
+
 TEST(IntegratorOrderTest, AFixedStepDividesAPeriodIntoEqualParts) {
   IntegratorStatistics statistics;
   const auto rest = [](double, double, double) { return 0.0; };
