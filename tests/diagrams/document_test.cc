@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "framework/error.h"
-#include "tests/diagrams/temporary_folder.h"
 #include "tests/diagrams/yaml_text.h"
+#include "tests/temporary_folder.h"
 
 namespace oca::diagrams {
 namespace {
@@ -29,7 +29,7 @@ class DocumentTest : public testing::Test {
     Load({override_text});
     return problems;
   }
-  TemporaryFolder folder;
+  test::TemporaryFolder folder;
   std::string problems;
 };
 

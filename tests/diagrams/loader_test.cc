@@ -8,7 +8,7 @@
 #include "diagrams/run.h"
 #include "framework/error.h"
 #include "models/robot/robot_model.h"
-#include "tests/diagrams/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace oca::diagrams {
 namespace {
@@ -36,7 +36,7 @@ class LoaderTest : public testing::Test {
       return what;
     }
   }
-  TemporaryFolder folder;
+  test::TemporaryFolder folder;
 };
 
 /// A source, a gain and a lag in a row: line 2 is the simulator, 4 to 6 the systems, 8 and 9 the

@@ -9,8 +9,8 @@
 #include <random>
 
 #include "framework/error.h"
-#include "tests/diagrams/temporary_folder.h"
 #include "tests/diagrams/yaml_text.h"
+#include "tests/temporary_folder.h"
 
 namespace oca::diagrams {
 namespace {
@@ -40,7 +40,7 @@ std::string Refusal(const fs::path& file) {
 }
 
 TEST(YamlHostileTest, AFileOfAHundredMegabytesIsRefusedUnread) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const fs::path file = folder.Write("large.yaml", "a: 1\n");
   fs::resize_file(file, 100'000'000);
   std::string refusal;
@@ -49,7 +49,7 @@ TEST(YamlHostileTest, AFileOfAHundredMegabytesIsRefusedUnread) {
 }
 
 TEST(YamlHostileTest, TheLargestFileIsReadAndAByteMoreIsNot) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const fs::path file = folder.Write("edge.yaml", std::string(kLargestFile, '#'));
   EXPECT_EQ(ReadTextFile(file).size(), kLargestFile);
   fs::resize_file(file, kLargestFile + 1);
@@ -57,7 +57,7 @@ TEST(YamlHostileTest, TheLargestFileIsReadAndAByteMoreIsNot) {
 }
 
 TEST(YamlHostileTest, WhatIsNoTextFileIsRefused) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_THAT(Refusal(folder.path()), HasSubstr("is a folder; expected a file"));
   EXPECT_THAT(Refusal(folder.path() / "missing.yaml"), HasSubstr("No such file"));
   EXPECT_THAT(Refusal("/dev/zero"), HasSubstr("cannot be read"));

@@ -10,6 +10,7 @@
 #include "framework/error.h"
 #include "systems/key_points.h"
 #include "systems/obstacle_motion.h"
+#include "tests/temporary_folder.h"
 
 namespace oca::systems {
 namespace {
@@ -20,8 +21,6 @@ using ::testing::HasSubstr;
 
 class CsvTableTest : public ::testing::Test {
  protected:
-  void SetUp() override { std::filesystem::remove(file_); }
-  void TearDown() override { std::filesystem::remove(file_); }
   const std::string& Write(std::string_view text) const {
     std::ofstream(file_, std::ios::binary) << text;
     return file_;
@@ -39,8 +38,8 @@ class CsvTableTest : public ::testing::Test {
     return "accepted";
   }
 
-  const std::string file_{::testing::TempDir() + "oca_csv_table_" +
-                          ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv"};
+  const test::TemporaryFolder folder_;
+  const std::string file_ = (folder_.path() / "table.csv").string();
 };
 
 /// What both readers of tables say of a file; of different words, both.

@@ -3,11 +3,10 @@
 
 #include <gmock/gmock.h>
 
-#include <cstdio>
-#include <fstream>
 #include <limits>
 
 #include "framework/error.h"
+#include "tests/temporary_folder.h"
 
 namespace oca::systems {
 namespace {
@@ -18,14 +17,11 @@ using ::testing::HasSubstr;
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& text)
-      : path_(testing::TempDir() + "oca_key_points_" +
-              testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv") {
-    std::ofstream(path_, std::ios::binary) << text;
-  }
-  ~TemporaryFile() { std::remove(path_.c_str()); }
+      : path_(folder_.Write("key_points.csv", text).string()) {}
   const std::string& path() const { return path_; }
 
  private:
+  test::TemporaryFolder folder_;
   std::string path_;
 };
 

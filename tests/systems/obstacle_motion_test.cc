@@ -5,12 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <numbers>
 
 #include "framework/error.h"
+#include "tests/temporary_folder.h"
 
 namespace oca::systems {
 namespace {
@@ -209,11 +208,8 @@ TEST(ObstacleMotionTest, RefusesNumbersThatMakeNoMotion) {
 
 class CsvMotionTest : public ::testing::Test {
  protected:
-  std::string Write(const std::string& text) {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    file_ = std::filesystem::path(::testing::TempDir()) / (std::string(test->name()) + ".csv");
-    std::ofstream(file_) << text;
-    return file_.string();
+  std::string Write(const std::string& text) const {
+    return folder_.Write("motion.csv", text).string();
   }
   std::string Refusal(const std::string& text) {
     try {
@@ -224,9 +220,8 @@ class CsvMotionTest : public ::testing::Test {
     ADD_FAILURE() << "was accepted: " << text;
     return "";
   }
-  void TearDown() override { std::filesystem::remove(file_); }
 
-  std::filesystem::path file_;
+  const test::TemporaryFolder folder_;
 };
 
 TEST_F(CsvMotionTest, FollowsTheRowsOfATable) {

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <string>
 
-#include "tests/diagrams/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace oca::tools {
 
@@ -32,14 +32,14 @@ class Program {
             .c_str());
     return {WIFEXITED(raw) ? WEXITSTATUS(raw) : -WTERMSIG(raw), Read("out"), Read("err")};
   }
-  const diagrams::TemporaryFolder& folder() const { return folder_; }
+  const test::TemporaryFolder& folder() const { return folder_; }
   std::string Read(const std::string& name) const {
     std::ifstream stream(folder_.path() / name, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
   }
 
  private:
-  diagrams::TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 }  // namespace oca::tools

@@ -1,41 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <unistd.h>
-
 #include <array>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
 namespace oca::models {
-
-/// A folder for the files of one test; gone with it.
-class MeshFolder {
- public:
-  MeshFolder() {
-    static int count = 0;
-    folder_ = std::filesystem::temp_directory_path() /
-              ("oca_mesh_" + std::to_string(getpid()) + "_" + std::to_string(count++));
-    std::filesystem::create_directories(folder_);
-  }
-  ~MeshFolder() { std::filesystem::remove_all(folder_); }
-  MeshFolder(const MeshFolder&) = delete;
-  MeshFolder& operator=(const MeshFolder&) = delete;
-
-  std::filesystem::path path() const { return folder_; }
-  std::filesystem::path Write(const std::string& name, const std::string& content) const {
-    const auto file = folder_ / name;
-    std::ofstream(file, std::ios::binary) << content;
-    return file;
-  }
-
- private:
-  std::filesystem::path folder_;
-};
 
 using StlTriangle = std::array<std::array<float, 3>, 3>;
 

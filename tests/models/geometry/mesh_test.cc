@@ -11,6 +11,7 @@
 
 #include "models/error.h"
 #include "tests/models/geometry/mesh_files.h"
+#include "tests/temporary_folder.h"
 
 namespace oca::models {
 namespace {
@@ -59,7 +60,7 @@ std::string RefusalOf(const std::filesystem::path& file, const Vector3d& scale =
 }
 
 TEST(MeshTest, TextAndBinaryStlAndObjAreTheSameBody) {
-  const MeshFolder folder;
+  const test::TemporaryFolder folder;
   const Vector3d high(1, 2, 3);
   ExpectTetrahedron(LoadMesh(folder.Write("a.stl", TextStl(Tetrahedron()))), high);
   ExpectTetrahedron(LoadMesh(folder.Write("b.stl", BinaryStl(Tetrahedron()))), high);
@@ -68,13 +69,13 @@ TEST(MeshTest, TextAndBinaryStlAndObjAreTheSameBody) {
 }
 
 TEST(MeshTest, BinaryStlMayBeginWithSolid) {
-  const MeshFolder folder;
+  const test::TemporaryFolder folder;
   ExpectTetrahedron(LoadMesh(folder.Write("a.stl", BinaryStl(Tetrahedron(), "solid part"))),
                     Vector3d(1, 2, 3));
 }
 
 TEST(MeshTest, PolygonsOfAnObjAreCutIntoTriangles) {
-  const MeshFolder folder;
+  const test::TemporaryFolder folder;
   const auto mesh = LoadMesh(
       folder.Write("box.obj",
                    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
@@ -84,7 +85,7 @@ TEST(MeshTest, PolygonsOfAnObjAreCutIntoTriangles) {
 }
 
 TEST(MeshTest, ColladaUnitIsAppliedAndUpAxisIsNot) {
-  const MeshFolder folder;
+  const test::TemporaryFolder folder;
   for (const char* up : {"X_UP", "Y_UP", "Z_UP"}) {
     ExpectTetrahedron(LoadMesh(folder.Write("m.dae", Collada("1", up, ""))), Vector3d(1, 2, 3));
     ExpectTetrahedron(LoadMesh(folder.Write("mm.dae", Collada("0.001", up, ""))),
@@ -93,7 +94,7 @@ TEST(MeshTest, ColladaUnitIsAppliedAndUpAxisIsNot) {
 }
 
 TEST(MeshTest, ColladaNodeTransformsAreApplied) {
-  const MeshFolder folder;
+  const test::TemporaryFolder folder;
   const auto moved =
       LoadMesh(folder.Write("t.dae", Collada("0.5", "Z_UP", "<translate>10 20 30</translate>")));
   EXPECT_TRUE(Low(moved).isApprox(Vector3d(5, 10, 15), 1e-6)) << Low(moved).transpose();
@@ -104,7 +105,7 @@ TEST(MeshTest, ColladaNodeTransformsAreApplied) {
 }
 
 TEST(MeshTest, ScaleStretchesEachAxisAndAMirrorKeepsTheOutside) {
-  const MeshFolder folder;
+  const test::TemporaryFolder folder;
   const auto file = folder.Write("a.stl", BinaryStl(Tetrahedron()));
   ExpectTetrahedron(LoadMesh(file, Vector3d(2, 1, 0.5)), Vector3d(2, 2, 1.5));
   for (const Vector3d& scale : {Vector3d(-1, 1, 1), Vector3d(-1, -1, 1), Vector3d(-1, -1, -1)}) {
@@ -114,7 +115,7 @@ TEST(MeshTest, ScaleStretchesEachAxisAndAMirrorKeepsTheOutside) {
 }
 
 TEST(MeshTest, HullIsNamedAfterTheFileAndContainsTheMesh) {
-  const MeshFolder folder;
+  const test::TemporaryFolder folder;
   const auto file = folder.Write("a.stl", BinaryStl(Tetrahedron()));
   const auto hull = LoadConvexHull(file);
   EXPECT_EQ(hull->name, file.string());
@@ -122,7 +123,7 @@ TEST(MeshTest, HullIsNamedAfterTheFileAndContainsTheMesh) {
 }
 
 TEST(MeshTest, VerticesThatNoTriangleUsesAreLeftOut) {
-  const MeshFolder folder;
+  const test::TemporaryFolder folder;
   const auto mesh = LoadMesh(folder.Write("a.obj",
                                           "v 99 99 99\nv 0 0 0\nv 1 0 0\nv 0 2 0\n"
                                           "v 0 0 3\nf 2 4 3\nf 2 3 5\nf 2 5 4\nf 3 4 5\n"));
@@ -130,7 +131,7 @@ TEST(MeshTest, VerticesThatNoTriangleUsesAreLeftOut) {
 }
 
 TEST(MeshTest, RefusesAFileThatIsMissingEmptyOrAFolder) {
-  const MeshFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_THAT(RefusalOf(folder.path() / "no.stl"), HasSubstr("mesh not found"));
   EXPECT_THAT(RefusalOf(folder.Write("e.stl", "")), HasSubstr("got 0 bytes"));
   std::filesystem::create_directory(folder.path() / "d.stl");
@@ -138,20 +139,20 @@ TEST(MeshTest, RefusesAFileThatIsMissingEmptyOrAFolder) {
 }
 
 TEST(MeshTest, RefusesAnUnknownExtension) {
-  const MeshFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_THAT(RefusalOf(folder.Write("a.ply", "ply")), HasSubstr("got extension '.ply'"));
   EXPECT_THAT(RefusalOf(folder.Write("a", "x")), HasSubstr("expected .stl, .obj, .dae"));
 }
 
 TEST(MeshTest, RefusesAFileAboveAHundredMegabytes) {
-  const MeshFolder folder;
+  const test::TemporaryFolder folder;
   const auto file = folder.Write("big.stl", "solid");
   std::filesystem::resize_file(file, 100'000'001);
   EXPECT_THAT(RefusalOf(file), HasSubstr("mesh too large; got 100 MB; expected at most 100 MB"));
 }
 
 TEST(MeshTest, RefusesBinaryJunkOfEveryKind) {
-  const MeshFolder folder;
+  const test::TemporaryFolder folder;
   std::mt19937 random(5);
   for (const char* extension : {".stl", ".obj", ".dae"}) {
     for (const int size : {1, 3, 83, 84, 134, 5'000, 300'000}) {
@@ -164,7 +165,7 @@ TEST(MeshTest, RefusesBinaryJunkOfEveryKind) {
 }
 
 TEST(MeshTest, RefusesTruncatedFiles) {
-  const MeshFolder folder;
+  const test::TemporaryFolder folder;
   const std::string stl = BinaryStl(Tetrahedron());
   const std::string dae = Collada("1", "Z_UP", "");
   for (const double part : {0.2, 0.5, 0.7}) {
@@ -174,20 +175,20 @@ TEST(MeshTest, RefusesTruncatedFiles) {
 }
 
 TEST(MeshTest, RefusesAMeshWithoutTriangles) {
-  const MeshFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_NE(RefusalOf(folder.Write("p.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2 3\n")), "accepted");
   EXPECT_NE(RefusalOf(folder.Write("t.stl", "solid part\nendsolid part\n")), "accepted");
   EXPECT_NE(RefusalOf(folder.Write("b.stl", BinaryStl({}))), "accepted");
 }
 
 TEST(MeshTest, RefusesFacesWithoutTheirVertices) {
-  const MeshFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_NE(RefusalOf(folder.Write("f.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 999999999\n")),
             "accepted");
 }
 
 TEST(MeshTest, RefusesADegenerateMesh) {
-  const MeshFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_THAT(RefusalOf(folder.Write("flat.obj",
                                      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n"
                                      "f 1 2 3\nf 2 4 3\n")),
@@ -196,7 +197,7 @@ TEST(MeshTest, RefusesADegenerateMesh) {
 }
 
 TEST(MeshTest, RefusesVerticesThatAreNotFinite) {
-  const MeshFolder folder;
+  const test::TemporaryFolder folder;
   for (const float bad : {std::nanf(""), std::numeric_limits<float>::infinity()}) {
     auto triangles = Tetrahedron();
     triangles[2][1][1] = bad;
@@ -205,7 +206,7 @@ TEST(MeshTest, RefusesVerticesThatAreNotFinite) {
 }
 
 TEST(MeshTest, RefusesAScaleOfZeroOrNaN) {
-  const MeshFolder folder;
+  const test::TemporaryFolder folder;
   const auto file = folder.Write("a.stl", BinaryStl(Tetrahedron()));
   for (const double bad : {0.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
     EXPECT_THAT(RefusalOf(file, Vector3d(1, bad, 1)), HasSubstr("scale; got (1, "));
@@ -213,7 +214,7 @@ TEST(MeshTest, RefusesAScaleOfZeroOrNaN) {
 }
 
 TEST(MeshTest, RefusesAColladaOfNothingButOpeningTags) {
-  const MeshFolder folder;
+  const test::TemporaryFolder folder;
   std::string bomb = "<?xml version=\"1.0\"?><COLLADA version=\"1.4.1\">";
   for (int i = 0; i < 1'000'000; ++i) bomb += "<node>";
   EXPECT_THAT(RefusalOf(folder.Write("bomb.dae", bomb)), HasSubstr("nested too deep"));

@@ -3,10 +3,8 @@
 
 #include <gmock/gmock.h>
 
-#include <filesystem>
-#include <fstream>
-
 #include "models/error.h"
+#include "tests/temporary_folder.h"
 
 namespace oca::models::test {
 namespace {
@@ -19,9 +17,8 @@ using testing::Pair;
 using testing::ThrowsMessage;
 
 std::vector<std::pair<int, int>> Load(const std::string& content) {
-  const std::string file = testing::TempDir() + "oca_srdf_test.srdf";
-  std::ofstream(file) << content;
-  return LoadDisabledPairs(file, {"base", "arm", "hand"});
+  const oca::test::TemporaryFolder folder;
+  return LoadDisabledPairs(folder.Write("pairs.srdf", content).string(), {"base", "arm", "hand"});
 }
 
 TEST(SrdfTest, DisabledPairsAreFoundInAnyOrder) {

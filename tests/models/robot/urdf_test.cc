@@ -10,6 +10,7 @@
 #include "models/error.h"
 #include "models/robot/kinematics.h"
 #include "random_robot.h"
+#include "tests/temporary_folder.h"
 
 namespace oca::models::test {
 namespace {
@@ -172,11 +173,9 @@ TEST(UrdfTest, NothingIsPrintedWhileUrdfdomComplains) {
 class MeshTest : public testing::Test {
  protected:
   void SetUp() override {
-    std::filesystem::create_directories(folder_ / "parts" / "meshes");
-    std::ofstream(folder_ / "parts" / "meshes" / "tetra.obj")
-        << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    temporary_.Write("parts/meshes/tetra.obj",
+                     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
 
   static std::string WithMesh(const std::string& path, const char* element = "collision") {
     return std::string("<robot name='r'><link name='a'><") + element +
@@ -184,10 +183,8 @@ class MeshTest : public testing::Test {
            "></link></robot>";
   }
 
-  const std::filesystem::path folder_ =
-      std::filesystem::path(testing::TempDir()) /
-      (std::string("oca_mesh_test_") +
-       testing::UnitTest::GetInstance()->current_test_info()->name());
+  const oca::test::TemporaryFolder temporary_;
+  const std::filesystem::path folder_ = temporary_.path();
 };
 
 TEST_F(MeshTest, RelativePathsStartAtTheFilesFolder) {

@@ -8,6 +8,7 @@
 #include "models/error.h"
 #include "models/robot/xml_file.h"
 #include "models/robot/xml_numbers.h"
+#include "tests/temporary_folder.h"
 
 namespace oca::models::test {
 namespace {
@@ -87,13 +88,12 @@ TEST(XmlTest, RefusesFilesThatCannotBeRead) {
 }
 
 TEST(XmlTest, RefusesFilesAbove50Megabytes) {
-  const std::string file = testing::TempDir() + "oca_large.urdf";
-  std::ofstream(file) << "<robot/>";
+  const oca::test::TemporaryFolder folder;
+  const std::string file = folder.Write("large.urdf", "<robot/>").string();
   std::filesystem::resize_file(file, 50'000'000);
   EXPECT_EQ(ReadXmlFile(file).size(), 50'000'000u);
   std::filesystem::resize_file(file, 50'000'001);
   EXPECT_THAT([&] { ReadXmlFile(file); }, ThrowsMessage<ModelError>(HasSubstr("50000001 bytes")));
-  std::filesystem::remove(file);
 }
 
 TEST(XmlNumbersTest, ReadsNumbersSeparatedByAnySpace) {

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <system_error>
 
-namespace oca::diagrams {
+namespace oca::test {
 
 /// A folder of its own for one test, gone with it.
 class TemporaryFolder {
@@ -41,4 +41,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace oca::diagrams
+}  // namespace oca::test
