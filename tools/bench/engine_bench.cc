@@ -261,13 +261,7 @@ void Register() {
   RegisterBenchmark("engine/clone", CloneContext);
 }
 
+const bool kRegistered = (Register(), true);
+
 }  // namespace
 }  // namespace oca::bench
-
-int main(int argc, char** argv) {
-  oca::bench::Register();
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
-}
