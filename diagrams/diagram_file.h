@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/integrator.h"
+#include "framework/integrator_options.h"
 #include "framework/params.h"
 #include "systems/geometry_params.h"
 

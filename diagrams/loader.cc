@@ -13,6 +13,7 @@
 #include "diagrams/expression.h"
 #include "diagrams/model_section.h"
 #include "diagrams/section.h"
+#include "framework/dynamic_port.h"
 #include "framework/error.h"
 #include "framework/nearest.h"
 
@@ -34,7 +35,10 @@ namespace fs = std::filesystem;
 /// Walks the resolved tree section by section and collects every problem on the way.
 class Loader {
  public:
-  explicit Loader(const fs::path& file) { loaded_.file = file.string(); }
+  explicit Loader(const fs::path& file, std::vector<std::string> part = {})
+      : part_(std::move(part)) {
+    loaded_.file = file.string();
+  }
 
   LoadedDiagram Load(const fs::path& file, const std::vector<Override>& overrides) {
     const Value document = LoadDocument(file, overrides, problems_);
@@ -48,8 +52,13 @@ class Loader {
     ReadSystems();
     ReadConnections();
     CheckTolerances();
+    CheckPart();
     problems_.Throw();
     Build();
+    if (!part_.empty()) {
+      problems_.Throw();
+      return std::move(loaded_);
+    }
     const NamedOutputs outputs = AllOutputs();
     loaded_.record = ReadRecord(root_, outputs, problems_);
     loaded_.expectations = ReadExpectations(root_, outputs, loaded_.metrics, loaded_.diagram.get(),
@@ -171,6 +180,10 @@ class Loader {
       auto system = row.make(params, where, loaded_.models, problems_);
       if (!system) return;
       locations_[entry.key] = entry.location;
+      if (!Inside(entry.key)) {
+        systems_[entry.key] = outside_.emplace_back(std::move(system)).get();
+        return;
+      }
       systems_[entry.key] = &builder_.AddSystem(entry.key, std::move(system));
       loaded_.systems.push_back({entry.key, row.type});
     } catch (const WiringError& error) {
@@ -214,8 +227,12 @@ class Loader {
                  [&](const System& system) { output = system.FindOutput(from->port); }) &
           Locate(*to, item.location(),
                  [&](const System& system) { input = system.FindInput(to->port); });
-      if (!good) return;
-      builder_.ConnectPorts(output, input);
+      if (!good || !Inside(to->system)) return;
+      if (Inside(from->system)) {
+        builder_.ConnectPorts(output, input);
+      } else {
+        Import(*from, output, input, item.location());
+      }
       connection_locations_[to->system + "." + to->port] = item.location();
     } catch (const WiringError& error) {
       problems_.Add(item.location(), error.what());
@@ -261,8 +278,51 @@ class Loader {
     }
   }
 
+  bool Inside(const std::string& system) const {
+    return part_.empty() || std::find(part_.begin(), part_.end(), system) != part_.end();
+  }
+
+  void CheckPart() {
+    for (const std::string& name : part_) {
+      const auto& names = system_names_;
+      if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+      problems_.Add(root_.location(),
+                    fmt::format("part: no system '{}'{}", name, DidYouMean(name, names)));
+    }
+  }
+
+  /// Exports an input of the part under the name of the output outside that drives it.
+  void Import(const PortName& from, const OutputHandle& output, const InputHandle& input,
+              const Location& location) {
+    const SignalType& got = TypeOfPort(output);
+    const SignalType& expected = TypeOfPort(input);
+    const std::string name = from.system + "_" + from.port;
+    const std::string port = from.system + "." + from.port;
+    const auto [imported, fresh] = imports_.emplace(name, port);
+    if (!fresh && imported->second != port) {
+      problems_.Add(location, fmt::format("part: {} and {} would both become the input {}",
+                                          imported->second, port, name));
+    } else if (&got != &expected) {
+      problems_.Add(location,
+                    fmt::format("{} -> {}: type; got {}; expected {}", port,
+                                input.system->inputs()[input.index].name, got.name, expected.name));
+    } else {
+      builder_.ExportInput(name, input);
+    }
+  }
+
+  void ExportOutputs() {
+    for (const auto& block : loaded_.systems) {
+      const System& system = *systems_.at(block.name);
+      for (const System::OutputInfo& output : system.outputs()) {
+        builder_.ExportOutput(block.name + "_" + output.name, system.FindOutput(output.name));
+      }
+    }
+  }
+
   void Build() {
     try {
+      if (!part_.empty()) ExportOutputs();
       loaded_.diagram = builder_.Build();
     } catch (const WiringError& error) {
       for (const std::string& problem : error.problems) problems_.Add(Place(problem), problem);
@@ -296,6 +356,7 @@ class Loader {
     return outputs;
   }
 
+  const std::vector<std::string> part_;  // systems to build; empty: all
   LoadedDiagram loaded_;
   Problems problems_;
   Value root_;
@@ -303,6 +364,8 @@ class Loader {
   DiagramBuilder builder_;
   std::vector<std::string> system_names_;
   std::map<std::string, const System*> systems_;
+  std::vector<std::unique_ptr<System>> outside_;  // of the part
+  std::map<std::string, std::string> imports_;    // exported inputs and the outputs they stand for
   std::map<std::string, Location> locations_;
   std::map<std::string, Location> connection_locations_;
 };
@@ -311,6 +374,12 @@ class Loader {
 
 LoadedDiagram LoadDiagram(const fs::path& file, const std::vector<Override>& overrides) {
   return Loader(file).Load(file, overrides);
+}
+
+LoadedDiagram LoadPart(const fs::path& file, const std::vector<std::string>& systems,
+                       const std::vector<Override>& overrides) {
+  if (systems.empty()) throw ConfigError("part: got no system; expected at least one");
+  return Loader(file, systems).Load(file, overrides);
 }
 
 }  // namespace oca::diagrams

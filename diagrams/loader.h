@@ -44,4 +44,14 @@ struct LoadedDiagram {
 LoadedDiagram LoadDiagram(const std::filesystem::path& file,
                           const std::vector<Override>& overrides = {});
 
+/// The named systems of a diagram file alone, for a program that takes the place of the others, as
+/// a robot's control loop does with the plant; the whole file is checked all the same.
+///
+/// Where a system outside drives one inside, the diagram exports an input with the name of that
+/// output, `plant.position` as `plant_position`; every output inside is exported in the same way.
+/// What the file records and expects is left out.
+/// throws ConfigError as LoadDiagram does, and if there is no system of a name.
+LoadedDiagram LoadPart(const std::filesystem::path& file, const std::vector<std::string>& systems,
+                       const std::vector<Override>& overrides = {});
+
 }  // namespace oca::diagrams

@@ -36,6 +36,7 @@ class Context {
   void SetContinuousState(const Eigen::Ref<const Eigen::VectorXd>& state);
 
  private:
+  friend class ControlLoop;
   friend class Diagram;
   friend class Plan;
   friend class PlanCompiler;

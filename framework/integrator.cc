@@ -170,12 +170,6 @@ class TableauIntegrator final : public FixedStepIntegrator {
 
 }  // namespace
 
-std::span<const char* const> EnumNames(IntegratorKind) {
-  static constexpr const char* kNames[] = {"erk_dp5",   "erk_bs3",   "cvode_adams",
-                                           "cvode_bdf", "fixed_dp5", "fixed_rk4"};
-  return kNames;
-}
-
 std::unique_ptr<Integrator> MakeIntegrator(const Plan& plan, const IntegratorOptions& options) {
   CheckPositive(options.relative_tolerance, "relative_tolerance");
   CheckPositive(options.absolute_tolerance, "absolute_tolerance");

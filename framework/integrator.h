@@ -2,35 +2,14 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
-#include <map>
 #include <memory>
-#include <span>
-#include <string>
+
+#include "framework/integrator_options.h"
 
 namespace oca {
 
 class Context;
 class Plan;
-
-enum class IntegratorKind { kErkDp5, kErkBs3, kCvodeAdams, kCvodeBdf, kFixedDp5, kFixedRk4 };
-std::span<const char* const> EnumNames(IntegratorKind);
-
-/// Error per step that an adaptive integrator may make: absolute + relative |x|.
-struct Tolerances {
-  double relative;
-  double absolute;  ///< in the unit of the state
-};
-
-struct IntegratorOptions {
-  IntegratorKind integrator{IntegratorKind::kErkDp5};
-  double relative_tolerance{1e-6};
-  double absolute_tolerance{1e-9};
-  std::map<std::string, Tolerances> tolerances{};            ///< of single systems, by path
-  double max_step{std::numeric_limits<double>::infinity()};  ///< s
-  double fixed_step{1e-3};                                   ///< s; of the fixed-step integrators
-  int max_steps{100000};                                     ///< between two events
-};
 
 struct IntegratorStatistics {
   std::int64_t steps{0};

@@ -230,6 +230,15 @@ bool Simulator::AdvanceTo(double time) {
   }
 }
 
+Status Simulator::TryAdvanceTo(double time) noexcept {
+  try {
+    AdvanceTo(time);
+    return {};
+  } catch (...) {
+    return Status::OfCurrentException(context_.time());
+  }
+}
+
 bool Simulator::AdvanceSteps(double time) {
   FollowTime();
   if (pacer_) pacer_->Start(context_.time());

@@ -11,6 +11,7 @@
 #include "framework/integrator.h"
 #include "framework/pacer.h"
 #include "framework/profile.h"
+#include "framework/status.h"
 
 namespace oca {
 
@@ -91,6 +92,9 @@ class Simulator {
   /// calculation fails; the context then holds the last state before the failure, and a further
   /// call tries again from there.
   bool AdvanceTo(double time);
+  /// As AdvanceTo, but tells a failure instead of throwing it. A run that a monitor ended is fine;
+  /// its context shows how far it came.
+  Status TryAdvanceTo(double time) noexcept;
 
   const SimulatorStatistics& statistics() const { return statistics_; }
 
