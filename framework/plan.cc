@@ -116,7 +116,9 @@ std::string Plan::PathOf(const System& system) const {
 }
 
 void Plan::EvaluateDerivatives(Context& context, double* result) const {
-  PullRange(context, derivative_pull_begin, derivative_pull_end);
+  if (derivative_pull_begin != derivative_pull_end) {
+    PullRange(context, derivative_pull_begin, derivative_pull_end);
+  }
   for (const Derivative& derivative : derivatives) {
     try {
       Call(derivative.function, *derivative.system, arena(context), derivative.first_slot,

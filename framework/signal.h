@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <new>
 #include <optional>
 #include <string>
@@ -110,14 +111,20 @@ struct ViewOf<Vector> {
 
 /// True if none of the `n` doubles is a NaN or an infinity.
 inline bool AllFinite(const double* values, std::size_t n) {
-  // Adding one to an exponent field of all ones carries into the sign bit: no branch a value.
+  // Adding one to an exponent field of all ones carries into the sign bit: no branch a value. Two
+  // values a time, in a register that every x86-64 and ARM64 processor has.
+  using Pair = std::uint64_t __attribute__((vector_size(16)));
   constexpr std::uint64_t kExponent = 0x7ff0000000000000;
   constexpr std::uint64_t kOne = 0x0010000000000000;
-  std::uint64_t carry = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    carry |= (std::bit_cast<std::uint64_t>(values[i]) & kExponent) + kOne;
+  Pair carry{};
+  std::size_t i = 0;
+  for (; i + 2 <= n; i += 2) {
+    Pair bits;
+    std::memcpy(&bits, values + i, sizeof bits);
+    carry |= (bits & kExponent) + kOne;
   }
-  return (carry >> 63) == 0;
+  if (i < n) carry[0] |= (std::bit_cast<std::uint64_t>(values[i]) & kExponent) + kOne;
+  return ((carry[0] | carry[1]) >> 63) == 0;
 }
 
 /// A vector as a JSON array of shortest round-trip numbers; null stands for NaN and infinity.

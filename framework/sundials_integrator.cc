@@ -202,18 +202,30 @@ class ErkIntegrator final : public SundialsIntegrator {
     if (std::isfinite(options.max_step)) {
       CheckFlag(ERKStepSetMaxStep(memory_, options.max_step), "ERKStepSetMaxStep");
     }
+    CheckFlag(ERKStepSetAdaptivityMethod(memory_, ARK_ADAPT_I, 1, 0, nullptr),
+              "ERKStepSetAdaptivityMethod");
+    // Every step ends with an interpolation at its end, which a straight line gives as exactly.
+    if (plan.witnesses.empty()) {
+      CheckFlag(ERKStepSetInterpolantDegree(memory_, 1), "ERKStepSetInterpolantDegree");
+    }
     WarmUp();
   }
   ~ErkIntegrator() override { ERKStepFree(&memory_); }
 
   void Restart(Context& context, bool jumped) override {
     LoadState(context);
-    // Always a full re-initialization, with the step kept in the Context: what follows then
-    // depends on the Context alone, and a resumed run gives the same bits.
-    if (jumped) plan_.integrator_step(context) = 0.0;
-    CheckFlag(ERKStepReInit(memory_, RightHandSide, context.time(), y_), "ERKStepReInit");
-    CheckFlag(ERKStepSetInitStep(memory_, plan_.integrator_step(context)), "ERKStepSetInitStep");
-    ForgetCounters();
+    // What follows must depend on the Context alone, so that a resumed run gives the same bits: the
+    // step is the one that the Context keeps, and the controller looks at no earlier errors.
+    const double step = jumped ? 0.0 : plan_.integrator_step(context);
+    plan_.integrator_step(context) = step;
+    if (step == 0.0) {
+      CheckFlag(ERKStepReInit(memory_, RightHandSide, context.time(), y_), "ERKStepReInit");
+      counted_ = {};
+    } else {
+      CheckFlag(ERKStepReset(memory_, context.time(), y_), "ERKStepReset");
+    }
+    CheckFlag(ERKStepSetInitStep(memory_, step), "ERKStepSetInitStep");
+    ++statistics_.restarts;
   }
 
   void IntegrateTo(Context& context, double to) override { Evolve(context, to, ARK_NORMAL); }
