@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The distance work of one tick: seven mesh links against N obstacles. Rows
+// geometry/tick/N/path|random/cull|all, each with its peer .../fcl; `cull` leaves out what is
+// beyond 0.3 m, `all` measures every pair.
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include "models/robot/kinematics.h"
+#include "systems/bullet_distance.h"
+#include "systems/model_links.h"
+#include "tests/system_bench.h"
+#include "tools/bench/allocation_counter.h"
+#include "tools/bench/bench_scene.h"
+#include "tools/bench/fcl_bodies.h"
+
+namespace oca::bench {
+namespace {
+
+constexpr double kNear = 0.3;   // m
+constexpr double kAll = 100.0;  // m
+constexpr int kConfigurations = 1000;
+
+struct TickScene {
+  TickScene(int obstacle_count, bool path)
+      : arm(MeshArm() ? MeshArm() : PrimitiveArm()),
+        obstacles(ToSet(MakeObstacles(*arm, obstacle_count))) {
+    for (const auto& q :
+         path ? PathConfigurations(kConfigurations) : RandomConfigurations(*arm, kConfigurations)) {
+      systems::LinkPoses links;
+      systems::NameLinks(*arm, links);
+      links.poses = models::LinkPoses(*arm, q);
+      poses.push_back(std::move(links));
+    }
+  }
+  std::shared_ptr<const models::RobotModel> arm;
+  systems::ObstacleSet obstacles;
+  std::vector<systems::LinkPoses> poses;
+};
+
+void Tick(benchmark::State& state, int obstacle_count, bool path, double max_distance) {
+  const TickScene scene(obstacle_count, path);
+  systems::ModelSet models;
+  models.Add("arm", scene.arm);
+  SystemBench<systems::BulletDistance> bench(
+      systems::BulletDistance::Params{.model = "arm", .max_distance = max_distance}, models);
+  bench->obstacles.Fix(bench.context(), scene.obstacles);
+  bench->links.Fix(bench.context(), scene.poses[0]);
+  std::size_t found = bench->proximities.Eval(bench.context()).proximities.size();
+  std::size_t i = 0;
+  std::size_t ticks = 0;
+  found = 0;
+  const AllocationCounter allocations(state);
+  for (auto _ : state) {
+    i = i + 1 == scene.poses.size() ? 0 : i + 1;
+    bench->links.Fix(bench.context(), scene.poses[i]);
+    found += bench->proximities.Eval(bench.context()).proximities.size();
+    ++ticks;
+  }
+  state.counters["found"] = static_cast<double>(found) / static_cast<double>(ticks);
+}
+
+void FclTick(benchmark::State& state, int obstacle_count, bool path, double max_distance) {
+  const TickScene scene(obstacle_count, path);
+  std::vector<systems::LinkCollider> links = systems::MakeLinkColliders(*scene.arm);
+  std::erase_if(links, [&](const auto& link) { return scene.arm->body(link.number) < 0; });
+  FclScene fcl(links, scene.obstacles, max_distance, max_distance == kNear);
+  std::size_t i = 0;
+  const AllocationCounter allocations(state);
+  for (auto _ : state) {
+    i = i + 1 == scene.poses.size() ? 0 : i + 1;
+    benchmark::DoNotOptimize(fcl.Calc(scene.poses[i].poses).data());
+  }
+}
+
+void Register() {
+  for (const bool path : {true, false}) {
+    for (const int n : {1, 10, 100, 1000}) {
+      for (const double max_distance : {kNear, kAll}) {
+        const std::string name = fmt::format("geometry/tick/{}/{}/{}", n, path ? "path" : "random",
+                                             max_distance == kNear ? "cull" : "all");
+        benchmark::RegisterBenchmark(
+            name.c_str(), [=](benchmark::State& state) { Tick(state, n, path, max_distance); });
+        benchmark::RegisterBenchmark((name + "/fcl").c_str(), [=](benchmark::State& state) {
+          FclTick(state, n, path, max_distance);
+        });
+      }
+    }
+  }
+}
+
+const bool kRegistered = (Register(), true);
+
+}  // namespace
+}  // namespace oca::bench
