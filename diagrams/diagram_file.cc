@@ -45,6 +45,15 @@ void ToleranceParams::Describe(Fields<ToleranceParams>& fields) {
       .Above(0.0);
 }
 
+void AttachedParams::Describe(Fields<AttachedParams>& fields) {
+  fields.Add("id", &AttachedParams::id, "", "its name, as a link of the robot").Required();
+  fields.Add("link", &AttachedParams::link, "", "link that carries it").Required();
+  fields.Add("shape", &AttachedParams::shape, "", "its solid").Required();
+  fields.Add("pose", &AttachedParams::pose, "", "of the shape in the frame of that link");
+  fields.Add("touches", &AttachedParams::touches, "",
+             "links of the robot that it may touch, besides those rigidly connected to it");
+}
+
 void ModelParams::Describe(Fields<ModelParams>& fields) {
   fields.Add("urdf", &ModelParams::urdf, "", "robot description: a path or package://NAME/PATH")
       .Required();
@@ -58,6 +67,8 @@ void ModelParams::Describe(Fields<ModelParams>& fields) {
       .Add("jerk_limits", &ModelParams::jerk_limits, "rad/s^3",
            "which URDF lacks; a number or one a joint")
       .Above(0.0);
+  fields.Add("attached", &ModelParams::attached, "",
+             "tools and grasped objects: they move with a link of the robot and collide");
 }
 
 void ExpectParams::Describe(Fields<ExpectParams>& fields) {

@@ -33,6 +33,16 @@ struct ToleranceParams {
   static void Describe(Fields<ToleranceParams>& fields);
 };
 
+/// An entry of `attached` of a model: a tool or a grasped object.
+struct AttachedParams {
+  std::string id;
+  std::string link;
+  systems::ShapeParams shape;
+  std::optional<systems::PoseParams> pose;
+  std::vector<std::string> touches;
+  static void Describe(Fields<AttachedParams>& fields);
+};
+
 /// An entry of `models`.
 struct ModelParams {
   std::string urdf;
@@ -40,6 +50,7 @@ struct ModelParams {
   systems::PoseParams base_pose;
   std::optional<PerComponent> acceleration_limits;
   std::optional<PerComponent> jerk_limits;
+  std::vector<AttachedParams> attached;
   static void Describe(Fields<ModelParams>& fields);
 };
 

@@ -5,12 +5,14 @@
 
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "diagrams/diagram_file.h"
 #include "diagrams/package_paths.h"
 #include "diagrams/section.h"
 #include "framework/error.h"
 #include "models/error.h"
+#include "models/robot/attach_objects.h"
 #include "models/robot/urdf.h"
 
 namespace oca::diagrams {
@@ -25,6 +27,20 @@ fs::path FolderOf(const Location& location) {
 Location LocationOf(const Value& map, const char* key) {
   const Value* const value = map.Find(key);
   return value == nullptr ? map.location() : value->location();
+}
+
+std::vector<models::AttachedObject> MakeAttached(const std::vector<AttachedParams>& params,
+                                                 const std::string& where) {
+  std::vector<models::AttachedObject> objects;
+  for (std::size_t i = 0; i < params.size(); ++i) {
+    const AttachedParams& from = params[i];
+    const std::string at = fmt::format("{}.attached[{}]", where, i);
+    const auto body = systems::MakeObstacleBody(from.id, from.shape, at + ".shape");
+    objects.push_back({from.id, from.link,
+                       from.pose.value_or(systems::PoseParams{}).Pose(at + ".pose"),
+                       body->collider->shape(), from.touches});
+  }
+  return objects;
 }
 
 }  // namespace
@@ -55,7 +71,7 @@ void ModelSection::ReadModel(const Value::Entry& entry) {
   const std::string where = "models." + entry.key;
   ModelParams params;
   Problems own;
-  ReadFields(entry.value, FieldsOf<ModelParams>(), where, &params, own);
+  ReadFields(ResolveFiles(entry.value), FieldsOf<ModelParams>(), where, &params, own);
   if (!own.empty()) {
     problems_.Add(own);
     failed_ = true;
@@ -74,8 +90,10 @@ void ModelSection::ReadModel(const Value::Entry& entry) {
       return found == packages_.end() ? fs::path() : found->second;
     };
     options.package_directories = PackageFolders();
-    models_.Add(entry.key, std::make_shared<const models::RobotModel>(models::LoadUrdf(
-                               Resolve(params.urdf, LocationOf(entry.value, "urdf")), options)));
+    const models::RobotModel robot =
+        models::LoadUrdf(Resolve(params.urdf, LocationOf(entry.value, "urdf")), options);
+    models_.Add(entry.key, std::make_shared<const models::RobotModel>(
+                               models::AttachObjects(robot, MakeAttached(params.attached, where))));
   } catch (const std::runtime_error& error) {
     failed_ = true;
     problems_.Add(entry.location, fmt::format("{}: {}", where, error.what()));

@@ -2,6 +2,7 @@
 #include "systems/bullet_distance.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -35,8 +36,12 @@ int LowestMovable(const models::RobotModel& model) {
 
 Proximity ToProximity(models::Name link, models::Name obstacle,
                       const models::SignedDistance& found) {
-  return {link,          obstacle,     found.distance,         found.point_a,
-          found.point_b, found.normal, Eigen::Vector3d::Zero()};
+  Proximity proximity{link, obstacle};
+  proximity.distance = found.distance;
+  proximity.point_on_link = found.point_a;
+  proximity.point_on_obstacle = found.point_b;
+  proximity.normal = found.normal;
+  return proximity;
 }
 
 }  // namespace
@@ -95,6 +100,17 @@ std::vector<BulletDistance::Neighbour> BulletDistance::MakeNeighbours(
 
 std::vector<BulletDistance::Other> BulletDistance::MakeOthers(const Params& params,
                                                               const ModelSet& models) {
+  if (params.calculate_link_forces && params.others.empty()) {
+    std::vector<std::string> names;
+    for (const auto& entry : models.all()) {
+      if (entry.first != NameOfModel(models, params.model)) names.push_back(entry.first);
+    }
+    throw ConfigError(fmt::format(
+        "calculate_link_forces: got true without `others`; expected the models whose links push{}",
+        names.empty()
+            ? "; the file has no other model (self_collision is for the robot's own links)"
+            : fmt::format(", of: {}", fmt::join(names, ", "))));
+  }
   std::vector<Other> others;
   for (const std::string& name : params.others) {
     const auto model = models.Get(name);
@@ -168,6 +184,9 @@ void BulletDistance::CalcProximities(const LinkPoses& poses, const ObstacleSet& 
                                      const Poses&... others, ProximitySet& result) const {
   const std::array<const LinkPoses*, sizeof...(Poses) + 1> poses_of_others{&others..., nullptr};
   CheckNames(poses);
+  for (std::size_t i = 0; i < sizeof...(Poses); ++i) {
+    CheckVelocities(others_[i], *poses_of_others[i]);
+  }
   std::size_t most = set.obstacles.capacity() + own_.size();
   for (const Other& other : others_) most += other.links.size();
   result.proximities.clear();
@@ -196,7 +215,9 @@ void BulletDistance::AddLink(const LinkCollider& link, const LinkPoses& poses, i
       continue;
     }
     const int at = poses.Find(own.collider.link, own.collider.number);
-    if (at >= 0) AddOther(link, X_WL, own, poses.poses[at], result);
+    if (at >= 0 && AddOther(link, X_WL, own, poses.poses[at], result)) {
+      result.proximities.back().own_link = own.collider.link;
+    }
   }
   if (!link_forces_) return;
   const bool lowest = model_->body(link.number) == LowestMovable(*model_);
@@ -208,18 +229,22 @@ void BulletDistance::AddLink(const LinkCollider& link, const LinkPoses& poses, i
         continue;
       }
       const int at = others[i]->Find(other.collider.link, other.collider.number);
-      if (at >= 0) AddOther(link, X_WL, other, others[i]->poses[at], result);
+      if (at >= 0 && AddOther(link, X_WL, other, others[i]->poses[at], result)) {
+        Proximity& found = result.proximities.back();
+        found.obstacle_velocity = others[i]->VelocityAt(at, found.point_on_obstacle);
+      }
     }
   }
 }
 
-void BulletDistance::AddOther(const LinkCollider& link, const Eigen::Isometry3d& X_WL,
+bool BulletDistance::AddOther(const LinkCollider& link, const Eigen::Isometry3d& X_WL,
                               const Neighbour& other, const Eigen::Isometry3d& X_WO,
                               ProximitySet& result) const {
-  if (Ignored(link.link, other.name)) return;
+  if (Ignored(link.link, other.name)) return false;
   const auto found = DistanceToLink(link, X_WL, other.collider, X_WO, max_distance_);
-  if (found.status == models::DistanceStatus::kBeyond) return;
+  if (found.status == models::DistanceStatus::kBeyond) return false;
   result.proximities.push_back(ToProximity(link.link, other.name, found));
+  return true;
 }
 
 bool BulletDistance::Ignored(models::Name link, models::Name obstacle) const {
@@ -239,6 +264,15 @@ void BulletDistance::CheckNames(const LinkPoses& poses) const {
     throw ConfigError(fmt::format("links: got '{}'; expected a link of model '{}'",
                                   poses.links[i].text(), name_));
   }
+}
+
+// Who takes a moving arm for one at rest learns too late that it comes nearer.
+void BulletDistance::CheckVelocities(const Other& other, const LinkPoses& poses) const {
+  if (poses.velocities.size() == poses.size()) return;
+  throw ConfigError(fmt::format(
+      "links_{0}: got poses without velocities; expected both: connect the input `velocity` of the "
+      "RobotKinematics of '{0}'",
+      other.name));
 }
 
 }  // namespace oca::systems

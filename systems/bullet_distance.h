@@ -20,22 +20,25 @@ namespace oca::systems {
 /// of the same model, then, with calculate_link_forces, links of `others`. Pairs farther apart than
 /// max_distance are left out, as are links whose pose does not come in.
 ///
-/// Links count as obstacles named <model>/<link>, at rest. Left out are the pairs of `ignore`; of
-/// the same model those that are adjacent or disabled in the SRDF; and the lowest pair of two arms,
-/// which cannot avoid each other: the lowest movable link against the other arm's lowest movable
-/// link and what of the other arm cannot move.
+/// Links count as obstacles named <model>/<link>. A pair of the same model is found from either
+/// side, so that its forces push both links apart. Links of `others` move with the velocities that
+/// come in with their poses. Left out are the pairs of `ignore`; of the same model those that are
+/// adjacent or disabled in the SRDF; and the lowest pair of two arms, which cannot avoid each
+/// other: the lowest movable link against the other arm's lowest movable link and what of the other
+/// arm cannot move.
 ///
 /// Every tick is computed afresh: warm starts would let the last bits depend on which ticks were
 /// looked at before.
 ///
 /// in    links         LinkPoses    of `model`
 /// in    obstacles     ObstacleSet
-/// in    links_<name>  LinkPoses    for each of `others` that has movable joints
+/// in    links_<name>  LinkPoses    for each of `others` that has movable joints; with velocities
 /// out   proximities   ProximitySet
 /// state -
 /// throws ConfigError if a model or a link of `ignore` does not exist, a pair is no pair,
-///        max_distance is not positive, or more than 3 of `others` move; while running if a link
-///        comes in that is not of the model
+///        max_distance is not positive, calculate_link_forces has no `others`, or more than 3 of
+///        them move; while running if a link comes in that is not of the model, or links of
+///        `others` without velocities
 /// source report section 3.2, Algorithm 2; THEORY.md section 1
 class BulletDistance final : public System {
  public:
@@ -82,10 +85,11 @@ class BulletDistance final : public System {
                        ProximitySet& result) const;
   void AddLink(const LinkCollider& link, const LinkPoses& poses, int index, const ObstacleSet& set,
                const LinkPoses* const* others, ProximitySet& result) const;
-  void AddOther(const LinkCollider& link, const Eigen::Isometry3d& X_WL, const Neighbour& other,
+  bool AddOther(const LinkCollider& link, const Eigen::Isometry3d& X_WL, const Neighbour& other,
                 const Eigen::Isometry3d& X_WO, ProximitySet& result) const;
   bool Ignored(models::Name link, models::Name obstacle) const;
   void CheckNames(const LinkPoses& poses) const;
+  void CheckVelocities(const Other& other, const LinkPoses& poses) const;
 
   const std::string name_;
   const std::shared_ptr<const models::RobotModel> model_;

@@ -32,6 +32,11 @@ PortSpec PositionSpec(const models::RobotModel& model) {
   return {model.num_positions(), unit == "mixed" ? Unit::Any() : Unit(std::string(unit))};
 }
 
+PortSpec RateSpec(const models::RobotModel& model) {
+  const PortSpec position = PositionSpec(model);
+  return {position.size, position.unit.Rate()};
+}
+
 void NameLinks(const models::RobotModel& model, LinkPoses& poses) {
   for (int i = 0; i < model.num_links(); ++i) {
     poses.links.push_back(model.links()[i].name);

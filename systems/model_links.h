@@ -21,6 +21,9 @@ std::shared_ptr<const models::RobotModel> MovableModel(const ModelSet& models,
 /// Length and unit of the joint positions.
 PortSpec PositionSpec(const models::RobotModel& model);
 
+/// Length and unit of their rates.
+PortSpec RateSpec(const models::RobotModel& model);
+
 /// Fills in names and bodies, and as many poses.
 void NameLinks(const models::RobotModel& model, LinkPoses& poses);
 

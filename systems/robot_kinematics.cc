@@ -13,11 +13,17 @@ void RobotKinematics::Params::Describe(Fields<Params>& fields) {
 RobotKinematics::RobotKinematics(const Params& params, const ModelSet& models)
     : model_(MovableModel(models, params.model)),
       position(DeclareInput<Vector>("position", PositionSpec(*model_))),
-      links(DeclareOutput<LinkPoses, &RobotKinematics::CalcLinks>("links", {}, position)) {}
+      velocity(DeclareOptionalInput<Vector>("velocity", RateSpec(*model_))),
+      links(
+          DeclareOutput<LinkPoses, &RobotKinematics::CalcLinks>("links", {}, position, velocity)) {}
 
-void RobotKinematics::CalcLinks(VectorView q, LinkPoses& poses) const {
+void RobotKinematics::CalcLinks(VectorView q, std::optional<VectorView> qdot,
+                                LinkPoses& poses) const {
   if (poses.links.empty()) NameLinks(*model_, poses);
   models::ForwardKinematics(*model_, q, poses.poses);
+  if (!qdot) return;
+  poses.velocities.resize(poses.poses.size());
+  models::LinkVelocities(*model_, poses.poses, *qdot, poses.velocities);
 }
 
 }  // namespace oca::systems

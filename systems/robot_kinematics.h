@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "framework/params.h"
@@ -13,9 +14,12 @@ namespace oca::systems {
 
 /// Poses of all links of a robot from the positions of its joints: X_WL = X_WB X_B1(q) ...
 /// Everything else that follows from a configuration (screws, Jacobians) follows from the poses.
+/// With `velocity` connected the links carry their velocities too: J(q) velocity. Robots that keep
+/// away from this one need them.
 ///
-/// in    position  n  rad, m   one a joint that has a position
-/// out   links     LinkPoses   all links, parents first
+/// in    position  n  rad, m      one a joint that has a position
+/// in    velocity  n  rad/s, m/s  optional
+/// out   links     LinkPoses      all links, parents first
 /// state -
 /// throws ConfigError if there is no such model or it has no movable joint
 class RobotKinematics final : public System {
@@ -32,10 +36,11 @@ class RobotKinematics final : public System {
 
  private:
   const std::shared_ptr<const models::RobotModel> model_;
-  void CalcLinks(VectorView q, LinkPoses& poses) const;
+  void CalcLinks(VectorView q, std::optional<VectorView> qdot, LinkPoses& poses) const;
 
  public:
   const Input<Vector> position;
+  const OptionalInput<Vector> velocity;
   const Output<LinkPoses> links;
 };
 

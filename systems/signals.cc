@@ -53,24 +53,29 @@ Json ToJson(const Obstacle& obstacle) {
             {"angular", systems::ToJson(obstacle.angular)}}}};
 }
 
+/// Zero if there is none.
+models::LinkVelocity ReadTwist(const JsonReader& json) {
+  if (!json.Has("twist")) return {};
+  const JsonReader twist = json.At("twist");
+  twist.CheckKeys({"linear", "angular"});
+  return {twist.At("linear").Vector3(), twist.At("angular").Vector3()};
+}
+
 Obstacle ReadObstacle(const JsonReader& json) {
   json.CheckKeys({"id", "shape", "pose"}, {"twist"});
   Obstacle obstacle;
   const std::string id = json.At("id").Label();
   obstacle.body = MakeObstacleBody(id, ReadShape(json.At("shape")), "obstacle '" + id + "'.shape");
   obstacle.X_WO = json.At("pose").Pose();
-  if (json.Has("twist")) {
-    const JsonReader twist = json.At("twist");
-    twist.CheckKeys({"linear", "angular"});
-    obstacle.linear = twist.At("linear").Vector3();
-    obstacle.angular = twist.At("angular").Vector3();
-  }
+  const models::LinkVelocity velocity = ReadTwist(json);
+  obstacle.linear = velocity.linear;
+  obstacle.angular = velocity.angular;
   return obstacle;
 }
 
 Proximity ReadProximity(const JsonReader& json) {
   json.CheckKeys({"link", "obstacle", "distance", "point_on_link", "point_on_obstacle", "normal"},
-                 {"obstacle_velocity"});
+                 {"obstacle_velocity", "own_link"});
   Proximity proximity;
   proximity.link = models::Name(json.At("link").Label());
   proximity.obstacle = models::Name(json.At("obstacle").Label());
@@ -81,6 +86,7 @@ Proximity ReadProximity(const JsonReader& json) {
   if (json.Has("obstacle_velocity")) {
     proximity.obstacle_velocity = json.At("obstacle_velocity").Vector3();
   }
+  if (json.Has("own_link")) proximity.own_link = models::Name(json.At("own_link").Label());
   return proximity;
 }
 
@@ -147,7 +153,9 @@ ObstacleSet Signal<ObstacleSet>::ReadJson(std::string_view text) {
 }
 
 bool Signal<LinkPoses>::Finite(const LinkPoses& value) {
-  return std::all_of(value.poses.begin(), value.poses.end(), FinitePose);
+  return std::all_of(value.poses.begin(), value.poses.end(), FinitePose) &&
+         std::all_of(value.velocities.begin(), value.velocities.end(),
+                     [](const auto& V) { return Finite3(V.linear) && Finite3(V.angular); });
 }
 
 void Signal<LinkPoses>::WriteJson(const LinkPoses& value, std::string& out) {
@@ -161,12 +169,13 @@ void Signal<LinkPoses>::WriteJson(const LinkPoses& value, std::string& out) {
 LinkPoses Signal<LinkPoses>::ReadJson(std::string_view text) {
   LinkPoses links;
   ReadList(text, "links", [&](const JsonReader& item) {
-    item.CheckKeys({"link", "pose"});
+    item.CheckKeys({"link", "pose"}, {"twist"});
     const std::string name = item.At("link").Label();
     if (links.Find(models::Name(name)) >= 0) item.Fail("'" + name + "' again", "unique links");
     links.bodies.push_back(static_cast<int>(links.size()));
     links.links.emplace_back(name);
     links.poses.push_back(item.At("pose").Pose());
+    links.velocities.push_back(ReadTwist(item));
   });
   return links;
 }

@@ -11,6 +11,7 @@
 #include "framework/signal.h"
 #include "models/geometry/collider.h"
 #include "models/name.h"
+#include "models/robot/kinematics.h"
 
 namespace oca::systems {
 
@@ -45,15 +46,23 @@ struct ObstacleSet {
 /// Poses X_WL of the links of a robot, in three columns of equal length so that kinematics writes
 /// the poses as they are. `bodies` holds for each link the index (into these columns) of the link
 /// that the last movable joint before it leads to: itself if its own joint moves, -1 if it cannot
-/// move.
+/// move. `velocities` of the links' origins, world axes, are as many, or none if they are not
+/// known. JSON: "twist" as of an obstacle, optional on input (a link without one rests), never
+/// written.
 struct LinkPoses {
   std::vector<models::Name> links;
   std::vector<Eigen::Isometry3d> poses;
   std::vector<int> bodies;
+  std::vector<models::LinkVelocity> velocities{};
 
   std::size_t size() const { return links.size(); }
   /// -1 if there is none of that name. `hint` is looked at first.
   int Find(models::Name link, int hint = 0) const;
+  /// Velocity of the point of link number `index` that is now at p_W, m/s; needs `velocities`.
+  Eigen::Vector3d VelocityAt(int index, const Eigen::Vector3d& p_W) const {
+    const models::LinkVelocity& V = velocities[index];
+    return V.linear + V.angular.cross(p_W - poses[index].translation());
+  }
 };
 
 /// Nearest points of one link and one obstacle. `distance` is signed (negative: penetration);
@@ -67,6 +76,10 @@ struct Proximity {
   Eigen::Vector3d normal{Eigen::Vector3d::UnitX()};
   /// Velocity of the obstacle at point_on_obstacle, m/s. JSON: optional on input, never written.
   Eigen::Vector3d obstacle_velocity{Eigen::Vector3d::Zero()};
+  /// The link that the obstacle is, if it is one of the same robot, else empty. Its motion is that
+  /// of the robot's own joints, so obstacle_velocity is 0 and the row of the distance takes two
+  /// links: see models::DistanceRow. JSON: as obstacle_velocity.
+  models::Name own_link{};
 };
 
 struct ProximitySet {

@@ -1,11 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 list(APPEND headers
+  robot/attach_objects.h
+  robot/collision_check.h
   robot/jacobian_mapping.h
   robot/kinematics.h
   robot/pseudo_inverse.h
   robot/robot_model.h
+  robot/srdf.h
   robot/urdf.h)
 list(APPEND sources
+  robot/attach_objects.cc
+  robot/collision_check.cc
   robot/fuse_capsules.cc
   robot/jacobian_mapping.cc
   robot/kinematics.cc

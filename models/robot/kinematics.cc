@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -149,6 +150,49 @@ void LinkJacobian(const RobotModel& model, std::span<const Eigen::Isometry3d> X_
   assert(std::ssize(X_WL) == model.num_links());
   assert(J.cols() == model.num_positions());
   FillLinkJacobian(model, X_WL, link, J);
+}
+
+void LinkVelocities(const RobotModel& model, std::span<const Eigen::Isometry3d> X_WL,
+                    const Eigen::Ref<const Eigen::VectorXd>& qdot,
+                    std::span<LinkVelocity> velocities) {
+  assert(std::ssize(X_WL) == model.num_links());
+  assert(std::ssize(velocities) == model.num_links());
+  assert(qdot.size() == model.num_positions());
+  velocities[0] = {};
+  for (int link = 1; link < model.num_links(); ++link) {
+    const KinematicStep& step = model.steps()[link - 1];
+    const LinkVelocity& parent = velocities[step.parent_link];
+    LinkVelocity& V = velocities[link];
+    V = parent;
+    V.linear +=
+        parent.angular.cross(X_WL[link].translation() - X_WL[step.parent_link].translation());
+    if (step.column < 0) continue;
+    const Eigen::Vector3d rate =
+        step.multiplier * qdot[step.column] * (X_WL[link].linear() * step.axis);
+    (step.type == JointType::kPrismatic ? V.linear : V.angular) += rate;
+  }
+}
+
+void DistanceRow(const RobotModel& model, std::span<const Eigen::Isometry3d> X_WL, int link_a,
+                 const Eigen::Vector3d& p_A, int link_b, const Eigen::Vector3d& p_B,
+                 const Eigen::Vector3d& n, Eigen::Ref<Eigen::VectorXd> row) {
+  assert(std::ssize(X_WL) == model.num_links());
+  assert(row.size() == model.num_positions());
+  row.setZero();
+  // Parents have the smaller numbers, so the two paths to the root meet where they become one.
+  int a = link_a;
+  int b = std::max(link_b, 0);
+  while (a != b) {
+    const bool of_a = a > b;
+    int& at = of_a ? a : b;
+    const KinematicStep& step = model.steps()[at - 1];
+    if (step.column >= 0) {
+      Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+      AddColumn(step, X_WL[at], of_a ? p_A : p_B, velocity, static_cast<Eigen::Vector3d*>(nullptr));
+      row[step.column] += (of_a ? 1.0 : -1.0) * n.dot(velocity);
+    }
+    at = step.parent_link;
+  }
 }
 
 void StackedJacobian(const RobotModel& model, std::span<const Eigen::Isometry3d> X_WL,

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -11,6 +12,9 @@
 
 namespace oca::models {
 namespace {
+
+// Of the largest moment: what three digits in a file can take from the others.
+constexpr double kInertiaSlack = 2e-3;
 
 // Looks `name` up in the .name of every item.
 template <typename Item>
@@ -74,6 +78,7 @@ void RobotModel::CheckTree() const {
                                  where, joints_.size(), links_.size()));
   }
   CheckPose(X_WB_, where + " base");
+  for (const Link& link : links_) CheckInertia(link);
   for (int j = 0; j < num_joints(); ++j) {
     if (joints_[j].child_link != j + 1 || joints_[j].parent_link < 0 ||
         joints_[j].parent_link > j) {
@@ -116,6 +121,29 @@ void RobotModel::CheckJoint(const Joint& joint) const {
       throw ModelError(
           fmt::format("{}: acceleration or jerk limit; got {}; expected > 0", where, limit));
     }
+  }
+}
+
+void RobotModel::CheckInertia(const Link& link) const {
+  const auto& [mass, p_LC, I_C] = link.inertia;
+  const auto fail = [&](const std::string& what, const std::string& got, const char* expected) {
+    throw ModelError(fmt::format("robot '{}' link '{}': {}; got {}; expected {}", name_.text(),
+                                 link.name.text(), what, got, expected));
+  };
+  if (!std::isfinite(mass) || !p_LC.allFinite() || !I_C.allFinite()) {
+    fail("inertia", "a number that is not finite", "finite numbers");
+  }
+  if (mass < 0.0) fail("mass", fmt::format("{} kg", mass), ">= 0");
+  if (mass == 0.0) return;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(I_C, Eigen::EigenvaluesOnly);
+  const Eigen::Vector3d& moments = axes.eigenvalues();  // ascending
+  // Files round to a few digits; a thin rod or plate lies on the bound itself.
+  const double slack = kInertiaSlack * moments[2];
+  const std::string got = fmt::format("principal moments {:.6g}, {:.6g}, {:.6g} kg m^2", moments[0],
+                                      moments[1], moments[2]);
+  if (moments[0] < -slack) fail("inertia", got, "none below 0");
+  if (moments[2] > moments[0] + moments[1] + slack) {
+    fail("inertia", got, "none above the sum of the other two, as in any body");
   }
 }
 
@@ -230,6 +258,7 @@ bool RobotModel::adjacent(int link_a, int link_b) const {
   const int b = body(link_b);
   // The body one movable joint nearer to the root.
   const auto before = [this](int body_link) { return body(joints_[body_link - 1].parent_link); };
+  if (links_[link_a].attached || links_[link_b].attached) return a == b;
   return a == b || (a > 0 && before(a) == b) || (b > 0 && before(b) == a);
 }
 

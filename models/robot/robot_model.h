@@ -35,7 +35,7 @@ struct VisualElement {
 };
 
 /// `mass` kg; centre of mass `p_LC` m in the link's frame; `I_C` kg m^2 about the centre of mass
-/// in the link's axes.
+/// in the link's axes. Mass 0 says that nothing is known of the link's inertia.
 struct Inertia {
   double mass{0.0};
   Eigen::Vector3d p_LC{Eigen::Vector3d::Zero()};
@@ -49,6 +49,7 @@ struct Link {
   std::vector<CollisionElement> collisions;
   std::vector<VisualElement> visuals;
   Inertia inertia;
+  bool attached{false};  ///< not of the robot itself: see AttachObjects
 };
 
 enum class JointType { kFixed, kRevolute, kContinuous, kPrismatic };
@@ -107,7 +108,9 @@ class RobotModel {
   /// Takes links and joints in the order above (joint j has child_link j + 1 and a parent_link
   /// <= j; indices of parents and positions are filled in here). `X_WB` is the root link's pose in
   /// the world. `disabled_pairs` are pairs of link numbers that are never checked for collision.
-  /// throws ModelError if the tree, an axis, a limit or a mimic rule is wrong
+  /// throws ModelError if the tree, an axis, a limit or a mimic rule is wrong, or if no body can
+  /// have an inertia: numbers that are not finite, a negative mass or moment, moments of which one
+  /// exceeds the sum of the other two
   RobotModel(Name name, std::vector<Link> links, std::vector<Joint> joints,
              const Eigen::Isometry3d& X_WB = Eigen::Isometry3d::Identity(),
              std::vector<std::pair<int, int>> disabled_pairs = {});
@@ -144,7 +147,8 @@ class RobotModel {
   bool collision_disabled(int link_a, int link_b) const;
   /// Pairs of link numbers, each with first < second, ascending.
   const std::vector<std::pair<int, int>>& disabled_pairs() const { return disabled_pairs_; }
-  /// True if the two links are rigidly connected or only one movable joint lies between them.
+  /// True if the two links are rigidly connected or only one movable joint lies between them; of an
+  /// attached object only if rigidly connected, for it was not built to clear the neighbours.
   bool adjacent(int link_a, int link_b) const;
 
   /// Number of the link or joint of that name, the place in q of that joint.
@@ -156,6 +160,7 @@ class RobotModel {
  private:
   void CheckTree() const;
   void CheckJoint(const Joint& joint) const;
+  void CheckInertia(const Link& link) const;
   void NumberPositions();
   void CompileSteps();
   void CollectLimits();

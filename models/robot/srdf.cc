@@ -5,8 +5,10 @@
 #include <tinyxml.h>
 
 #include <algorithm>
+#include <fstream>
 #include <set>
 #include <string_view>
+#include <system_error>
 
 #include "models/error.h"
 #include "models/robot/nearest_name.h"
@@ -29,17 +31,73 @@ int FindLink(const TiXmlElement& element, const char* attribute,
   return static_cast<int>(found - links.begin());
 }
 
+const TiXmlElement& CheckedRoot(const TiXmlDocument& document, const std::string& where) {
+  const TiXmlElement& root = *document.RootElement();
+  if (root.ValueStr() != "robot") {
+    throw ModelError(fmt::format("{}:{}: root element; got {}; expected robot", where, root.Row(),
+                                 root.ValueStr()));
+  }
+  return root;
+}
+
+bool Computed(const std::string& reason) {
+  return reason == "Adjacent" || reason == "Always" || reason == "Never";
+}
+
+std::string TextOf(const TiXmlElement& element, const char* attribute) {
+  const char* const text = element.Attribute(attribute);
+  return text == nullptr ? "" : text;
+}
+
+void RemoveComputedPairs(TiXmlElement& root) {
+  for (TiXmlElement* e = root.FirstChildElement("disable_collisions"); e != nullptr;) {
+    TiXmlElement* const next = e->NextSiblingElement("disable_collisions");
+    if (Computed(TextOf(*e, "reason"))) root.RemoveChild(e);
+    e = next;
+  }
+}
+
+bool Holds(const TiXmlElement& root, const DisabledPair& pair) {
+  for (auto* e = root.FirstChildElement("disable_collisions"); e != nullptr;
+       e = e->NextSiblingElement("disable_collisions")) {
+    const std::string one = TextOf(*e, "link1");
+    const std::string two = TextOf(*e, "link2");
+    if (std::minmax(one, two) == std::minmax(pair.link1, pair.link2)) return true;
+  }
+  return false;
+}
+
+// What the file holds already, without what was computed, or a new document.
+XmlDocument DocumentToFill(const std::filesystem::path& file, const std::string& robot) {
+  const std::string where = file.string();
+  if (std::filesystem::exists(file)) {
+    XmlDocument document = ParseXml(ReadXmlFile(file), where);
+    const TiXmlElement& root = CheckedRoot(*document, where);
+    if (root.FirstChildElement("link") != nullptr || root.FirstChildElement("joint") != nullptr) {
+      throw ModelError(fmt::format("{}: SRDF to write; got a URDF; expected another file", where));
+    }
+    if (const std::string name = TextOf(root, "name"); name != robot) {
+      throw ModelError(
+          fmt::format("{}: robot; got '{}'; expected '{}', the URDF's name", where, name, robot));
+    }
+    RemoveComputedPairs(*document->RootElement());
+    return document;
+  }
+  XmlDocument document(new TiXmlDocument);
+  document->LinkEndChild(new TiXmlDeclaration("1.0", "", ""));
+  auto* const root = new TiXmlElement("robot");
+  root->SetAttribute("name", robot);
+  document->LinkEndChild(root);
+  return document;
+}
+
 }  // namespace
 
 std::vector<std::pair<int, int>> LoadDisabledPairs(const std::filesystem::path& file,
                                                    const std::vector<std::string>& links) {
   const std::string where = file.string();
   const XmlDocument document = ParseXml(ReadXmlFile(file), where);
-  const TiXmlElement& root = *document->RootElement();
-  if (root.ValueStr() != "robot") {
-    throw ModelError(fmt::format("{}:{}: root element; got {}; expected robot", where, root.Row(),
-                                 root.ValueStr()));
-  }
+  const TiXmlElement& root = CheckedRoot(*document, where);
   std::set<std::pair<int, int>> pairs;
   const auto pair_of = [&](const TiXmlElement& element) {
     const int a = FindLink(element, "link1", links, where);
@@ -61,6 +119,36 @@ std::vector<std::pair<int, int>> LoadDisabledPairs(const std::filesystem::path& 
   for_each("enable_collisions", [&](const TiXmlElement& e) { pairs.erase(pair_of(e)); });
   for_each("disable_collisions", [&](const TiXmlElement& e) { pairs.insert(pair_of(e)); });
   return {pairs.begin(), pairs.end()};
+}
+
+void SaveDisabledPairs(const std::filesystem::path& file, const std::string& robot,
+                       const std::vector<DisabledPair>& pairs) {
+  const XmlDocument document = DocumentToFill(file, robot);
+  for (const DisabledPair& pair : pairs) {
+    if (Holds(*document->RootElement(), pair)) continue;
+    auto* const element = new TiXmlElement("disable_collisions");
+    element->SetAttribute("link1", pair.link1);
+    element->SetAttribute("link2", pair.link2);
+    element->SetAttribute("reason", pair.reason);
+    document->RootElement()->LinkEndChild(element);
+  }
+  TiXmlPrinter printer;
+  printer.SetIndent("  ");
+  document->Accept(&printer);
+  std::filesystem::path part = file;
+  part += ".part";
+  std::ofstream out(part, std::ios::binary);
+  out << printer.Str();
+  out.close();
+  std::error_code error;
+  if (out) std::filesystem::rename(part, file, error);
+  if (out && !error) return;
+  const std::string reason = error ? error.message() : "no file";
+  std::filesystem::remove(part, error);
+  throw ModelError(
+      fmt::format("{}: SRDF to write; got {}; expected a folder and a file that can "
+                  "be written",
+                  file.string(), reason));
 }
 
 }  // namespace oca::models

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "framework/error.h"
+#include "models/robot/jacobian_mapping.h"
 #include "models/robot/kinematics.h"
 #include "systems/geometry_params.h"
 #include "systems/model_links.h"
@@ -148,18 +149,70 @@ class TwoArmsTest : public ::testing::Test {
     models_.Add("right", LoadTestModel("planar2", At(0.0, 0.3, 0.0)));
     models_.Add("table_frame", LoadTestModel("table_frame"));
   }
+  LinkPoses RightArm(double rate) const {
+    const auto model = models_.Get("right");
+    LinkPoses links = LinksAt(*model, Eigen::Vector2d::Zero());
+    links.velocities.resize(links.size());
+    models::LinkVelocities(*model, links.poses, Eigen::Vector2d(rate, 0.0), links.velocities);
+    return links;
+  }
   ProximitySet Near(const Params& params) {
     SystemBench<BulletDistance> bench(params, models_);
     bench->links.Fix(bench.context(), LinksAt(*models_.Get("left"), Eigen::Vector2d::Zero()));
     bench->obstacles.Fix(bench.context(), ObstacleSet{{Ball("ball", Vector3d(0.7, 0.4, 0.0))}});
     if (!bench->links_of_others.empty()) {
-      bench->links_of_others[0].Fix(bench.context(),
-                                    LinksAt(*models_.Get("right"), Eigen::Vector2d::Zero()));
+      bench->links_of_others[0].Fix(bench.context(), RightArm(rate_));
     }
     return bench->proximities.Eval(bench.context());
   }
   ModelSet models_;
+  double rate_{0.0};  // of the right arm's first joint, rad/s
 };
+
+TEST_F(TwoArmsTest, CarriesTheVelocityOfAnotherArmAtItsPoint) {
+  rate_ = -2.0;
+  const ProximitySet set = Near(
+      {.model = "left", .max_distance = 0.5, .calculate_link_forces = true, .others = {"right"}});
+  int moving = 0;
+  for (const Proximity& p : set.proximities) {
+    EXPECT_TRUE(p.own_link.empty());
+    if (p.obstacle == models::Name("ball")) continue;
+    // The right arm turns about (0, 0.3, 0).
+    const Vector3d expected =
+        Vector3d(0.0, 0.0, -2.0).cross(p.point_on_obstacle - Vector3d(0.0, 0.3, 0.0));
+    EXPECT_NEAR((p.obstacle_velocity - expected).norm(), 0.0, 1e-12);
+    EXPECT_GT(expected.norm(), 0.5);
+    ++moving;
+  }
+  EXPECT_EQ(moving, 3);
+}
+
+TEST_F(TwoArmsTest, RefusesAMovingArmWhoseVelocitiesAreNotKnown) {
+  SystemBench<BulletDistance> bench(
+      Params{.model = "left", .calculate_link_forces = true, .others = {"right"}}, models_);
+  bench->links.Fix(bench.context(), LinksAt(*models_.Get("left"), Eigen::Vector2d::Zero()));
+  bench->obstacles.Fix(bench.context(), ObstacleSet{});
+  bench->links_of_others[0].Fix(bench.context(),
+                                LinksAt(*models_.Get("right"), Eigen::Vector2d::Zero()));
+  try {
+    bench->proximities.Eval(bench.context());
+    FAIL() << "was taken as at rest";
+  } catch (const SimulationError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("links_right: got poses without velocities"));
+  }
+}
+
+TEST_F(TwoArmsTest, RefusesLinkForcesOfNobodyAndNamesTheModelsThereAre) {
+  try {
+    BulletDistance distance(Params{.model = "left", .calculate_link_forces = true}, models_);
+    FAIL() << "was accepted";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("without `others`"));
+    EXPECT_THAT(error.what(), HasSubstr("right, table_frame"));
+  }
+  EXPECT_THROW(BulletDistance(Params{.calculate_link_forces = true}, TestModels("planar2")),
+               ConfigError);
+}
 
 TEST_F(TwoArmsTest, SeesNoOtherModelUnlessLinkForcesAreAskedFor) {
   EXPECT_THAT(Pairs(Near({.model = "left",
@@ -233,7 +286,39 @@ TEST(BulletDistanceTest, SeesTheArmItselfIfAskedTo) {
                                         "planar3_link_3 planar3/planar3_link_1"));
     EXPECT_NEAR(set.proximities[0].distance, set.proximities[1].distance, 1e-12);
     EXPECT_NEAR((set.proximities[0].normal + set.proximities[1].normal).norm(), 0.0, 1e-9);
+    EXPECT_EQ(set.proximities[0].own_link, models::Name("planar3_link_3"));
+    EXPECT_EQ(set.proximities[1].own_link, models::Name("planar3_link_1"));
   }
+}
+
+// Found from either side, a pair pushes with n^T (J_A - J_B): the joints before both do nothing.
+TEST(BulletDistanceTest, AForceBetweenTwoLinksOfTheArmPushesBoth) {
+  const ModelSet models = TestModels("planar3");
+  const auto model = models.Get("planar3");
+  const LinkPoses links = LinksAt(*model, Vector3d(0.7, 1.5, 1.5));
+  SystemBench<BulletDistance> bench(
+      Params{.model = "planar3", .max_distance = 1.0, .self_collision = true}, models);
+  bench->links.Fix(bench.context(), links);
+  bench->obstacles.Fix(bench.context(), ObstacleSet{});
+  const ProximitySet& set = bench->proximities.Eval(bench.context());
+  ASSERT_EQ(set.proximities.size(), 2u);
+  std::vector<models::BodyWrench> wrenches(model->bodies().size());
+  for (const Proximity& p : set.proximities) {
+    const int link = model->FindLink(p.link.text());
+    const auto wrench =
+        models::WrenchAbout(links.poses[link].translation(), p.point_on_link, 5.0 * p.normal);
+    wrenches[model->body_index(link)].force += wrench.force;
+    wrenches[model->body_index(link)].torque += wrench.torque;
+  }
+  models::MappingWorkspace workspace(*model);
+  Eigen::VectorXd push(3), row(3);
+  models::MultiplyTransposed(*model, links.poses, wrenches, workspace, push);
+  const Proximity& p = set.proximities[0];
+  models::DistanceRow(*model, links.poses, model->FindLink(p.link.text()), p.point_on_link,
+                      model->FindLink(p.own_link.text()), p.point_on_obstacle, p.normal, row);
+  EXPECT_NEAR((push - 5.0 * row).norm(), 0.0, 1e-9);
+  EXPECT_EQ(row[0], 0.0);
+  EXPECT_GT(row.norm(), 0.1);
 }
 
 TEST(BulletDistanceTest, TakesTheLeastOverTheSolidsOfALink) {

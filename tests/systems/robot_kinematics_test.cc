@@ -59,5 +59,21 @@ TEST(RobotKinematicsTest, RefusesAPositionOfAnotherLength) {
   EXPECT_THROW(bench->position.Fix(bench.context(), Eigen::Vector3d::Zero()), ConfigError);
 }
 
+TEST(RobotKinematicsTest, KnowsTheVelocitiesOfItsLinksIfThoseOfTheJointsComeIn) {
+  SystemBench<RobotKinematics> bench(RobotKinematics::Params{}, TestModels("planar2"));
+  bench->position.Fix(bench.context(), Eigen::Vector2d::Zero());
+  EXPECT_TRUE(bench->links.Eval(bench.context()).velocities.empty());
+  Context moving = bench.context();
+  bench.diagram().GetInput<Vector>("velocity").Fix(moving, Eigen::Vector2d(2.0, -1.0));
+  const LinkPoses& links = bench->links.Eval(moving);
+  ASSERT_EQ(links.velocities.size(), links.size());
+  const int tip = links.Find(models::Name("planar2_tip"));
+  // Joint 1 moves the elbow at 2 rad/s * 0.5 m; from there on 1 rad/s is left.
+  EXPECT_NEAR((links.velocities[tip].linear - Eigen::Vector3d(0.0, 1.4, 0.0)).norm(), 0.0, 1e-15);
+  EXPECT_NEAR((links.velocities[tip].angular - Eigen::Vector3d(0.0, 0.0, 1.0)).norm(), 0.0, 1e-15);
+  EXPECT_NEAR((links.VelocityAt(tip, {0.9, 0.1, 0.0}) - Eigen::Vector3d(-0.1, 1.4, 0.0)).norm(),
+              0.0, 1e-15);
+}
+
 }  // namespace
 }  // namespace oca::systems

@@ -225,5 +225,24 @@ TEST(SignalsTest, SeesANumberThatIsNotFiniteAnywhere) {
   EXPECT_FALSE(Signal<WrenchSet>::Finite(wrenches));
 }
 
+TEST(SignalsTest, ALinkWithoutTwistRestsAndATwistIsRead) {
+  const auto links = Signal<LinkPoses>::ReadJson(
+      R"([{"link":"a","pose":{"xyz":[0,0,0]}},{"link":"b","pose":{"xyz":[0,0,1]},)"
+      R"("twist":{"linear":[1,2,3],"angular":[0,0,2]}}])");
+  ASSERT_EQ(links.velocities.size(), 2u);
+  EXPECT_EQ(links.velocities[0].linear, Eigen::Vector3d::Zero());
+  EXPECT_EQ(links.VelocityAt(1, {1.0, 0.0, 1.0}), Eigen::Vector3d(1.0, 4.0, 3.0));
+  EXPECT_THROW(Signal<LinkPoses>::ReadJson(
+                   R"([{"link":"a","pose":{"xyz":[0,0,0]},"twist":{"linear":[1,2,3]}}])"),
+               ConfigError);
+}
+
+TEST(SignalsTest, AProximityTellsWhichLinkOfItsOwnRobotItMeets) {
+  std::string text = kProximity;
+  text.insert(text.size() - 2, R"(,"own_link":"k")");
+  EXPECT_EQ(Signal<ProximitySet>::ReadJson(text).proximities[0].own_link, models::Name("k"));
+  EXPECT_TRUE(Signal<ProximitySet>::ReadJson(kProximity).proximities[0].own_link.empty());
+}
+
 }  // namespace
 }  // namespace oca::systems

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "models/robot/robot_model.h"
+
+namespace oca::models {
+
+/// Why a pair of links need not be checked for collision, or that it must be.
+enum class PairKind {
+  kAdjacent,  ///< see RobotModel::adjacent
+  kAlways,    ///< in collision at every sample: their solids overlap by design
+  kNever,     ///< no sample came nearer than the margin
+  kSometimes  ///< must be checked
+};
+/// As SRDF files write it: "Adjacent", "Always", "Never", "Sometimes".
+std::string_view ToString(PairKind kind);
+
+struct CollisionSampling {
+  int samples{10000};
+  std::uint64_t seed{0};
+  double margin{0.02};  // m; a pair that came nearer counts as one that may collide
+};
+
+/// One pair of links that have solids. `link_a` < `link_b` are link numbers.
+struct LinkPairCheck {
+  int link_a{0};
+  int link_b{0};
+  PairKind kind{PairKind::kSometimes};
+  double least_distance{0.0};  // m, signed, over all samples; of an adjacent pair at q = 0 alone
+  int collisions{0};           // samples with distance <= 0
+};
+
+/// Looks at every pair of links with solids over random positions within the joint limits.
+///
+/// A quarter of all draws of a joint lie on one of its limits, where arms fold; one without limits
+/// is drawn from a whole turn. The same seed gives the same answer on every machine that rounds
+/// alike. What was never seen may still happen: the margin, not the number of samples, is what
+/// makes "never" safe.
+/// throws ModelError if samples < 1, the margin is negative or not finite, a prismatic joint has no
+///        limits, or a solid cannot be prepared for distance queries
+std::vector<LinkPairCheck> CheckCollisions(const RobotModel& model,
+                                           const CollisionSampling& sampling);
+
+}  // namespace oca::models
