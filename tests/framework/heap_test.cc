@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "framework/signal_log.h"
 #include "framework/simulator.h"
 #include "tests/allocation_count.h"
 #include "tests/framework/blocks.h"
@@ -80,6 +81,18 @@ TEST_P(HeapTest, AnUnbrokenRunTakesNothing) {
   const std::int64_t before = AllocationCount();
   simulator.AdvanceTo(10.0);
   EXPECT_EQ(AllocationCount() - before, 0);
+}
+
+TEST_P(HeapTest, ASignalLogThatIsFullTakesNothing) {
+  Loop loop;
+  Simulator simulator(*loop.diagram, {.integrator = GetParam()});
+  const SignalLog log(simulator, {loop.diagram->FindSystem("lag")->FindOutput("out")},
+                      Period(1, 1000), 100);
+  simulator.Initialize();
+  const std::int64_t before = AllocationCount();
+  simulator.AdvanceTo(1.0);
+  EXPECT_EQ(AllocationCount() - before, 0);
+  EXPECT_EQ(log.overwritten(), 901);
 }
 
 TEST_P(HeapTest, SavingIntoAndRestoringFromAContextTakesNothing) {

@@ -81,6 +81,55 @@ class Integrator7 final : public System {
   const Output<Vector> out;
 };
 
+/// Integrator7 with a witness that never crosses.
+class Guarded7 final : public System {
+ public:
+  Guarded7()
+      : x_(DeclareContinuousState("x", {kWidth}, 0.0)),
+        in(DeclareInput<Vector>("in", {kWidth})),
+        out(DeclareStateOutput("out", x_)) {
+    DeclareDerivative<&Guarded7::Derivative>(x_, in);
+    const Witness limit = DeclareWitness<&Guarded7::Limit>("limit", Direction::kBoth, x_);
+    DeclareReset<&Guarded7::Stop>(When{limit}, Writes(x_));
+  }
+
+ private:
+  void Derivative(VectorView u, MutableVectorView xdot) const { xdot = u; }
+  double Limit(VectorView x) const { return 100.0 - x[0]; }
+  void Stop(MutableVectorView x) const { x.setZero(); }
+  const ContinuousState x_;
+
+ public:
+  const Input<Vector> in;
+  const Output<Vector> out;
+};
+
+/// x' = v, v turned round at 0 and 1: from x = 0.5, v = 100 a crossing every 10 ms.
+class Shuttle final : public System {
+ public:
+  Shuttle()
+      : x_(DeclareContinuousState("x", {1}, 0.5)),
+        v_(DeclareDiscreteState("v", {1}, 100.0)),
+        out(DeclareStateOutput("out", x_)) {
+    DeclareDerivative<&Shuttle::Derivative>(x_, v_);
+    const Witness low = DeclareWitness<&Shuttle::Low>("low", Direction::kFalling, x_);
+    const Witness high = DeclareWitness<&Shuttle::High>("high", Direction::kRising, x_);
+    DeclareReset<&Shuttle::Turn>(When{low}, Writes(v_), v_);
+    DeclareReset<&Shuttle::Turn>(When{high}, Writes(v_), v_);
+  }
+
+ private:
+  void Derivative(VectorView v, MutableVectorView xdot) const { xdot = v; }
+  double Low(VectorView x) const { return x[0]; }
+  double High(VectorView x) const { return x[0] - 1.0; }
+  void Turn(VectorView v, MutableVectorView turned) const { turned = -v; }
+  const ContinuousState x_;
+  const DiscreteState<Vector> v_;
+
+ public:
+  const Output<Vector> out;
+};
+
 /// Seven servos of second order behind a held target: x'' = w^2 (u - x) - 2 z w x', w 20, z 1.
 class Servo14 final : public System {
  public:
