@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+import { columnsOf } from "./columns";
+import { dragObstacles } from "./drag";
+import { Knobs } from "./knobs";
+import { limitsOf } from "./limits";
+import { LiveSource } from "./live_source";
+import { bindKeys } from "./keys";
+import type { Layer } from "./overlays";
+import { byId, element, type Page } from "./page";
+import { badges, limits, logLines, parameters, reportOf, summary } from "./panels";
+import { Player } from "./player";
+import { Plots } from "./plots";
+import { Recording } from "./recording";
+import { SceneView } from "./scene_view";
+import { Timeline } from "./timeline";
+
+const kSwitches: [layer: Layer, name: string][] = [
+  ["distances", "Distances"], ["forces", "Forces"], ["torques", "Torques"], ["requested", "Requested path"],
+  ["actual", "Actual path"], ["labels", "Labels"],
+];
+const kTabs = ["Plots", "Summary", "Limits", "Parameters", "Log"] as const;
+type Tab = (typeof kTabs)[number];
+const kLivePast = 60;          // s that a live page remembers
+const kLiveRefresh = 250;      // ms between refreshes of the plots of a live page
+
+/** The page: puts a recording into the scene, the plots and the tabs, and moves them together. */
+export class App {
+  readonly view: SceneView;
+  readonly player: Player;
+  plots: Plots | undefined;
+  recording = new Recording();
+  private readonly timeline: Timeline;
+  private readonly panes = new Map<Tab, HTMLElement>();
+  private live: LiveSource | undefined;
+
+  constructor(readonly page: Page) {
+    this.view = new SceneView(page, byId("view"), byId("labels"), this.recording);
+    this.player = new Player((time) => this.show(time));
+    this.timeline = new Timeline(page, (time) => this.player.seek(time));
+    this.makeTabs();
+    this.makeSwitches();
+    bindKeys(this);
+    page.onTheme(() => this.plots?.refresh());
+    const loop = (now: number): void => {
+      this.player.tick(now);
+      this.view.render();
+      requestAnimationFrame(loop);
+    };
+    requestAnimationFrame(loop);
+  }
+
+  /** Shows a finished record. */
+  load(recording: Recording): void {
+    this.take(recording);
+    const nearest = reportOf(recording).metrics?.["min_distance_time"];
+    this.player.set(typeof nearest === "number" ? nearest : recording.start);
+  }
+
+  /** Shows a simulator while it runs. */
+  follow(url: string): void {
+    const live = new LiveSource(url, {
+      start: (recording) => this.beginLive(recording),
+      parameters: (list) => knobs.show(list),
+      status: (text) => this.page.message(text),
+    });
+    this.live = live;
+    const pane = element("div", "knobs");
+    this.panes.get("Parameters")!.replaceChildren(pane);
+    const knobs = new Knobs(pane, live);
+    dragObstacles(this.view, live);
+    byId("follow").hidden = false;
+    byId("follow").onclick = () => (this.player.following = true);
+    setInterval(() => this.refreshLive(), kLiveRefresh);
+    const loop = (): void => {
+      if (this.player.following && this.recording.end !== this.player.time) {
+        this.player.end = this.recording.end;
+        this.player.set(this.recording.end);
+      }
+      requestAnimationFrame(loop);
+    };
+    loop();
+  }
+
+  show(time: number): void {
+    this.view.show(time);
+    this.plots?.show(time);
+    this.timeline.show(time, this.player.start, this.player.end);
+    byId("clock").textContent = `${time.toFixed(2)} / ${this.player.end.toFixed(2)} s`;
+    byId("follow").classList.toggle("on", this.player.following);
+  }
+
+  turn(layer: Layer, on = !this.view.overlays.isOn(layer)): void {
+    this.view.overlays.turn(layer, on);
+    this.view.touch();
+    byId("switches").querySelector(`[data-layer=${layer}]`)!.setAttribute("aria-pressed", String(on));
+  }
+
+  select(tab: Tab): void {
+    for (const [name, pane] of this.panes) pane.hidden = name !== tab;
+    for (const button of byId("tabs").children) button.setAttribute("aria-selected", String(button.textContent === tab));
+  }
+  selectNumber(index: number): void { if (kTabs[index]) this.select(kTabs[index]); }
+
+  private take(recording: Recording): void {
+    this.recording = recording;
+    this.view.reset(recording);
+    this.player.start = recording.start;
+    this.player.end = recording.end;
+    this.player.frames = recording.topics.get("/tf")?.times ?? [];
+    this.makePlots();
+    const seek = (time: number): void => this.player.seek(time);
+    const report = reportOf(recording);
+    const title = recording.about("name") ?? report.name ?? recording.about("diagram") ?? "OCA";
+    document.title = `${title} – OCA`;
+    byId("title").textContent = title.replace(/^.*\//, "").replace(/\.ya?ml$/, "");
+    byId("subtitle").textContent = recording.about("description") ?? "";
+    byId("badges").replaceChildren(...badges(report, recording.about("outcome")));
+    this.fill("Summary", (pane) => summary(pane, recording, report, seek));
+    this.fill("Limits", (pane) => limits(pane, recording, limitsOf(recording, this.plots!.specs), seek));
+    if (!this.live) this.fill("Parameters", (pane) => parameters(pane, recording));
+    this.fill("Log", (pane) => logLines(pane, recording, seek));
+  }
+
+  private makePlots(): void {
+    const pane = this.panes.get("Plots")!;
+    pane.replaceChildren();
+    this.plots = new Plots(this.page, pane, this.recording, (time) => this.player.seek(time));
+    const distances = this.plots.specs.find((spec) => spec.role === "distance");
+    if (distances?.limit !== undefined) this.view.overlays.limit = distances.limit;
+    this.setNearness();
+  }
+
+  private setNearness(): void {
+    const distances = this.plots?.specs.find((spec) => spec.role === "distance");
+    const topic = distances && this.recording.topics.get(distances.signals[0]!);
+    if (!topic) return;
+    const { times, values } = columnsOf(topic);
+    const least = times.map((_, row) => values.reduce((low, column) => Math.min(low, column[row] ?? Infinity), Infinity));
+    this.timeline.setNearness(times, least, distances.limit ?? 0.3);
+  }
+
+  private beginLive(recording: Recording): void {
+    this.take(recording);
+    this.player.following = true;
+  }
+
+  private refreshLive(): void {
+    this.recording.forgetBefore(this.recording.end - kLivePast);
+    this.player.start = this.recording.start;
+    this.player.end = this.recording.end;
+    const wanted = [...this.recording.topics.values()].filter((topic) => topic.length > 0).length;
+    if (wanted !== this.topicsSeen) {
+      this.topicsSeen = wanted;
+      this.take(this.recording);
+    } else {
+      this.plots?.refresh();
+      this.setNearness();
+    }
+    if (!this.player.following) this.show(this.player.time);
+  }
+  private topicsSeen = 0;
+
+  private fill(tab: Tab, into: (pane: HTMLElement) => void): void {
+    const pane = this.panes.get(tab)!;
+    pane.replaceChildren();
+    into(pane);
+  }
+
+  private makeTabs(): void {
+    byId("tabs").replaceChildren();
+    byId("panes").replaceChildren();
+    for (const tab of kTabs) {
+      const button = element("button", "", tab), pane = element("div", `pane ${tab.toLowerCase()}`);
+      button.setAttribute("role", "tab");
+      pane.setAttribute("role", "tabpanel");
+      button.onclick = () => this.select(tab);
+      byId("tabs").append(button);
+      byId("panes").append(pane);
+      this.panes.set(tab, pane);
+    }
+    this.select("Plots");
+  }
+
+  private makeSwitches(): void {
+    byId("switches").replaceChildren();
+    kSwitches.forEach(([layer, name], i) => {
+      const button = element("button", `switch ${layer}`, name);
+      button.dataset["layer"] = layer;
+      button.title = `${name} (${i + 1})`;
+      button.setAttribute("aria-pressed", "true");
+      button.onclick = () => this.turn(layer);
+      byId("switches").append(button);
+    });
+  }
+
+  static readonly layers = kSwitches.map(([layer]) => layer);
+}

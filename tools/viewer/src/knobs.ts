@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+import { element } from "./page";
+import type { LiveSource, Parameter } from "./live_source";
+
+const kDigits = 4;
+
+/** Sliders for the parameters of a running diagram. */
+export class Knobs {
+  private readonly setters = new Map<string, (value: unknown) => void>();
+
+  constructor(private readonly parent: HTMLElement, private readonly live: LiveSource) {}
+
+  /** Makes what is new, and follows what somebody else changed. */
+  show(list: Parameter[]): void {
+    for (const { name, value } of list) {
+      const set = this.setters.get(name);
+      if (set) set(value);
+      else if (typeof value === "boolean") this.addSwitch(name, value);
+      else if (typeof value === "number") this.addSlider(name, value);
+    }
+  }
+
+  private addSwitch(name: string, value: boolean): void {
+    const row = element("label", "knob");
+    const box = element("input");
+    box.type = "checkbox";
+    box.checked = value;
+    box.onchange = () => this.live.set(name, box.checked);
+    row.append(element("span", "", name), box);
+    this.parent.append(row);
+    this.setters.set(name, (to) => (box.checked = to === true));
+  }
+
+  /** Nobody says how far a knob goes: from 0 (or minus) to three times what it was. */
+  private addSlider(name: string, value: number): void {
+    const row = element("label", "knob");
+    const slider = element("input"), number = element("input");
+    slider.type = "range";
+    const reach = 3 * Math.abs(value) || 1;
+    slider.min = String(value < 0 ? -reach : 0);
+    slider.max = String(reach);
+    slider.step = String(reach / 300);
+    number.type = "number";
+    number.step = "any";
+    const put = (to: number): void => {
+      slider.value = String(to);
+      number.value = String(Number(to.toPrecision(kDigits)));
+    };
+    slider.oninput = () => {
+      number.value = String(Number(Number(slider.value).toPrecision(kDigits)));
+      this.live.set(name, Number(number.value));
+    };
+    number.onchange = () => {
+      if (!Number.isFinite(number.valueAsNumber)) return;
+      slider.value = number.value;
+      this.live.set(name, number.valueAsNumber);
+    };
+    put(value);
+    row.append(element("span", "", name), slider, number);
+    this.parent.append(row);
+    this.setters.set(name, (to) => {
+      const busy = document.activeElement === slider || document.activeElement === number;
+      if (typeof to === "number" && !busy) put(to);
+    });
+  }
+}

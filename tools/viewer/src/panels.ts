@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The tabs beside the plots: how the run went, its parameters, who limited what, its log.
+import type { Expectation, RunReport } from "./messages";
+import { element } from "./page";
+import { short } from "./plots";
+import type { Limited } from "./limits";
+import type { Recording } from "./recording";
+
+type Seek = (time: number) => void;
+
+const kMetrics: [key: string, name: string, unit: string][] = [
+  ["min_distance", "Nearest", "m"], ["contact_time", "In contact", "s"],
+  ["final_error", "Off the goal at the end", "rad"], ["max_abs_delta", "Largest delta", "rad"],
+  ["delta_sign_changes_per_second", "Delta reversals", "1/s"],
+  ["total_variation_ratio", "Path over the request's", ""], ["max_joint_speed", "Fastest joint", "rad/s"],
+  ["max_joint_acceleration", "Largest acceleration", "rad/s²"],
+];
+
+/** The report of a run: its own topic, or the metrics that a MotionMetrics showed last. */
+export function reportOf(recording: Recording): RunReport {
+  const own = recording.last("/metrics") as RunReport | undefined;
+  if (own?.metrics) return own;
+  if (own && "min_distance" in own) return { metrics: own as Record<string, unknown> };
+  for (const topic of recording.topics.values()) {
+    if (!topic.name.endsWith("/metrics") || topic.length === 0) continue;
+    const last = topic.message(topic.length - 1) as Record<string, unknown>;
+    return { metrics: (last["value"] ?? last) as Record<string, unknown> };
+  }
+  return {};
+}
+
+/** Words and a sign, so that nobody needs the colour. */
+export function badges(report: RunReport, outcome: string | undefined): HTMLElement[] {
+  const made: HTMLElement[] = [];
+  const add = (good: boolean, text: string): void => {
+    made.push(element("span", `badge ${good ? "good" : "bad"}`, `${good ? "✓" : "✗"} ${text}`));
+  };
+  const metrics = report.metrics ?? {};
+  const nearest = metrics["min_distance"];
+  if (report.failure) add(false, "failed");
+  if (typeof nearest === "number") add(nearest > 0, nearest > 0 ? `clear by ${short(nearest)} m` : `contact, ${short(nearest)} m`);
+  const met = (report.expectations ?? []).filter((one) => one.ok).length, all = report.expectations?.length ?? 0;
+  if (all > 0) add(met === all, `${met} of ${all} expectations met`);
+  if (made.length === 0 && outcome) made.push(element("span", "badge", outcome));
+  return made;
+}
+
+export function summary(parent: HTMLElement, recording: Recording, report: RunReport, seek: Seek): void {
+  const metrics = report.metrics ?? {};
+  for (const warning of recording.warnings) parent.append(element("p", "warning", `⚠ ${warning}`));
+  const dropped = Number(recording.about("dropped_messages") ?? 0);
+  if (dropped > 0) parent.append(element("p", "warning", `⚠ ${dropped} messages did not fit and are not in this record.`));
+  if (report.failure) parent.append(element("p", "warning", `✗ ${report.failure}`));
+  parent.append(expectationTable(report.expectations ?? []));
+  const cards = element("div", "cards");
+  for (const [key, name, unit] of kMetrics) {
+    const value = metrics[key];
+    if (typeof value !== "number") continue;
+    const card = element("button", "card");
+    card.append(element("b", "", short(value)), element("small", "", unit), element("span", "", name));
+    const when = key === "contact_time" ? metrics["first_contact_time"] : metrics[`${key}_time`];
+    if (typeof when === "number") {
+      const pair = key === "min_distance" ? metrics["min_distance_pair"] : undefined;
+      card.append(element("em", "", `${Array.isArray(pair) ? `${pair.join(" – ")}, ` : ""}at ${when.toFixed(2)} s`));
+      card.onclick = () => seek(when);
+      card.title = "Show this moment";
+    } else {
+      card.disabled = true;
+    }
+    cards.append(card);
+  }
+  parent.append(cards, runTable(recording, report));
+}
+
+function expectationTable(expectations: Expectation[]): HTMLElement {
+  const table = element("table", "expectations");
+  for (const one of expectations) {
+    const row = table.insertRow();
+    row.append(element("td", one.ok ? "good" : "bad", one.ok ? "✓ met" : "✗ missed"), element("th", "", one.name),
+               element("td", "", one.bound), element("td", "number", one.value === null ? "no value" : `got ${short(one.value)}`));
+  }
+  return table;
+}
+
+function runTable(recording: Recording, report: RunReport): HTMLElement {
+  const table = element("table", "facts");
+  const add = (name: string, value: unknown): void => {
+    if (value === undefined || value === null || value === "") return;
+    const row = table.insertRow();
+    row.append(element("th", "", name), element("td", "", String(value)));
+  };
+  add("Diagram", recording.about("diagram"));
+  add("Duration", report.duration !== undefined ? `${report.duration} s` : `${recording.end.toFixed(2)} s`);
+  add("Took", report.wall_seconds !== undefined ? `${short(report.wall_seconds)} s` : undefined);
+  add("Steps", report.steps);
+  add("Seed", recording.about("seed") ?? report.seed);
+  add("OCA", recording.about("version"));
+  add("Overrides", [...(recording.metadata.get("oca.overrides") ?? [])].map(([key, value]) => `${key} = ${value}`).join(", "));
+  return table;
+}
+
+/** Parameters as a table; what was overridden is marked. */
+export function parameters(parent: HTMLElement, recording: Recording): void {
+  const values = recording.metadata.get("oca.parameters");
+  if (!values || values.size === 0) parent.append(element("p", "empty", "No parameters were recorded."));
+  const overrides = new Set([...(recording.metadata.get("oca.overrides")?.keys() ?? [])].map((key) => key.replace(/^parameters\./, "")));
+  const table = element("table", "facts");
+  for (const [name, value] of values ?? []) {
+    const row = table.insertRow();
+    row.append(element("th", "", name), element("td", "number", value),
+               element("td", "", overrides.has(name) ? "overridden" : ""));
+  }
+  parent.append(table);
+  for (const [name, bytes] of recording.attachments) {
+    if (!/\.(ya?ml|urdf|srdf)$/.test(name)) continue;
+    const details = element("details");
+    details.append(element("summary", "", name), element("pre", "", new TextDecoder().decode(bytes)));
+    parent.append(details);
+  }
+}
+
+/** A strip of time a row, dark where the limit held. */
+export function limits(parent: HTMLElement, recording: Recording, found: Limited[], seek: Seek): void {
+  if (found.length === 0) parent.append(element("p", "empty", "Nothing that was recorded shows a limit."));
+  const length = Math.max(1e-9, recording.end - recording.start);
+  let system = "", how = "";
+  for (const one of found) {
+    if (one.system !== system || one.how !== how) {
+      [system, how] = [one.system, one.how];
+      const heading = element("h3", "", system);
+      heading.append(element("small", "", how));
+      parent.append(heading);
+    }
+    const row = element("div", "strip");
+    const bar = element("div", "bar");
+    for (const span of one.spans) {
+      const mark = element("i");
+      mark.style.left = `${(100 * (span.from - recording.start)) / length}%`;
+      mark.style.width = `max(1px, ${(100 * (span.to - span.from)) / length}%)`;
+      bar.append(mark);
+    }
+    bar.onclick = (event) => seek(recording.start + (event.offsetX / bar.clientWidth) * length);
+    row.append(element("span", "", one.what), bar, element("b", "", one.spans.length === 0 ? "never" : `${(100 * one.share).toFixed(0)} %`));
+    parent.append(row);
+  }
+}
+
+interface LogMessage { level?: number; message?: string; name?: string }
+const kLevels = ["", "debug", "info", "warning", "error", "fatal"];
+const kLogLines = 2000;
+
+export function logLines(parent: HTMLElement, recording: Recording, seek: Seek): void {
+  const topic = recording.topics.get("/log");
+  if (!topic || topic.length === 0) parent.append(element("p", "empty", "Nothing was logged."));
+  const list = element("ol", "log");
+  for (let i = Math.max(0, (topic?.length ?? 0) - kLogLines); topic && i < topic.length; ++i) {
+    const line = topic.message(i) as LogMessage, time = topic.times[i]!;
+    const item = element("li", `level${line.level ?? 2}`, `${time.toFixed(2)} s  ${kLevels[line.level ?? 2] ?? ""}  ${line.message ?? ""}`);
+    item.onclick = () => seek(time);
+    list.append(item);
+  }
+  parent.append(list);
+}

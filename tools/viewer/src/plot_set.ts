@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which plots a record asks for: its metadata `oca.plots`, or what the names of its signals say.
+import { columnsOf, lowest, rates, type Columns } from "./columns";
+import type { Recording, Topic } from "./recording";
+
+export type Role = "request" | "delta" | "joints" | "distance" | "speed" | "constraints" | "other";
+export interface PlotSpec {
+  title: string; role: Role; signals: string[]; unit?: string; limit?: number;
+  /** The columns are to be differentiated: nobody recorded the speed itself. */
+  differentiate?: boolean;
+}
+
+const kDistancesShown = 8;
+const kTitles: Record<Role, string> = {
+  request: "Requested joints", delta: "Deltas that avoidance adds", joints: "Final joints",
+  distance: "Distances", speed: "Joint speeds", constraints: "Active constraints", other: "",
+};
+const kOrder: Role[] = ["request", "delta", "joints", "distance", "speed", "constraints", "other"];
+const kReserved = /^\/(tf|log|metrics)$|^\/scene\//;
+
+function roleOf(topic: Topic): Role {
+  if (/proximit|distance/i.test(topic.name)) return "distance";
+  if (/constraint|active/i.test(topic.name)) return "constraints";
+  if (/delta/i.test(topic.name)) return "delta";
+  if (/\/(plant|robot|arm)[^/]*\/position$/i.test(topic.name)) return "joints";
+  if (/(spline|interpolator|trajectory|request)[^/]*\/position$/i.test(topic.name)) return "request";
+  if (/velocity|speed/i.test(topic.name)) return "speed";
+  return "other";
+}
+
+/** Of the deltas the applied one: what was limited, else relaxed, else any. */
+function appliedFirst(a: string, b: string): number {
+  const rank = (name: string): number => (/applied/.test(name) ? 0 : /limited/.test(name) ? 1 : /relaxed/.test(name) ? 2 : 3);
+  return rank(a) - rank(b);
+}
+
+function guess(recording: Recording): PlotSpec[] {
+  const specs: PlotSpec[] = [];
+  for (const topic of recording.topics.values()) {
+    if (kReserved.test(topic.name) || topic.schemaName.startsWith("foxglove.") || topic.length === 0) continue;
+    if (columnsOf(topic).names.length === 0 || /metrics$/.test(topic.name)) continue;
+    const role = roleOf(topic);
+    specs.push({ title: role === "other" ? topic.name : kTitles[role], role, signals: [topic.name] });
+  }
+  return specs.sort((a, b) => appliedFirst(a.signals[0]!, b.signals[0]!));
+}
+
+function asked(recording: Recording): PlotSpec[] {
+  const text = recording.about("plots", "oca.plots") ?? recording.about("plots");
+  if (!text) return [];
+  try {
+    const parsed: unknown = JSON.parse(text);
+    const list = Array.isArray(parsed) ? parsed : (parsed as { plots?: unknown[] }).plots ?? [];
+    return (list as Partial<PlotSpec>[]).flatMap((item) => {
+      const signals = (item.signals ?? []).map((name) => (name.startsWith("/") ? name : `/${name.replace(".", "/")}`));
+      const present = signals.filter((name) => (recording.topics.get(name)?.length ?? 0) > 0);
+      if (present.length === 0) return [];
+      const role = item.role && item.role in kTitles ? item.role : roleOf(recording.topics.get(present[0]!)!);
+      return [{ ...item, title: item.title ?? kTitles[role], role, signals: present }];
+    });
+  } catch {
+    recording.warnings.push("The record's list of plots is no JSON; plots are by name.");
+    return [];
+  }
+}
+
+/** The plots of a record, the report's three first. */
+export function plotsOf(recording: Recording): PlotSpec[] {
+  const wanted = asked(recording);
+  const specs = wanted.length > 0 ? wanted : guess(recording);
+  const limit = Number(recording.about("max_distance", "oca.parameters"));
+  for (const spec of specs) {
+    if (spec.role === "distance" && spec.limit === undefined && limit > 0) spec.limit = limit;
+  }
+  const joints = specs.find((spec) => spec.role === "joints");
+  if (joints && !specs.some((spec) => spec.role === "speed")) {
+    specs.push({ title: kTitles.speed, role: "speed", signals: joints.signals, differentiate: true });
+  }
+  return specs.sort((a, b) => kOrder.indexOf(a.role) - kOrder.indexOf(b.role));
+}
+
+/** What a plot draws; several signals share the times of the first. */
+export function columnsFor(spec: PlotSpec, recording: Recording): Columns {
+  const all = spec.signals.flatMap((name) => recording.topics.get(name) ?? []).map(columnsOf);
+  const first = all[0] ?? { times: [], names: [], values: [], unit: "" };
+  const joined: Columns = { ...first, names: [...first.names], values: [...first.values] };
+  for (let i = 1; i < all.length; ++i) {
+    if (all[i]!.times.length !== first.times.length) continue;
+    joined.names.push(...all[i]!.names.map((name) => `${spec.signals[i]!.split("/")[1]} ${name}`));
+    joined.values.push(...all[i]!.values);
+  }
+  if (spec.unit) joined.unit = spec.unit;
+  if (spec.role === "distance") return lowest({ ...joined, unit: joined.unit || "m" }, kDistancesShown);
+  return spec.differentiate ? rates(joined) : joined;
+}

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: BSD-3-Clause
+import * as THREE from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { EntityHistory } from "./history";
+import { placeLabel } from "./labels";
+import { Overlays } from "./overlays";
+import type { FrameTransform, FrameTransforms, SceneEntity, SceneUpdate } from "./messages";
+import { element, type Page } from "./page";
+import { segments, solid } from "./primitives";
+import type { Recording } from "./recording";
+
+interface Shown { entity: SceneEntity; object: THREE.Object3D }
+
+/** The world at one instant: robots, obstacles, and what pushes them. z is up, lengths in m. */
+export class SceneView {
+  readonly overlays: Overlays;
+  readonly camera = new THREE.PerspectiveCamera(38, 1, 0.02, 60);
+  readonly controls: OrbitControls;
+  private readonly renderer: THREE.WebGLRenderer;
+  private readonly scene = new THREE.Scene();
+  private readonly world = new THREE.Group();
+  private readonly frames = new Map<string, THREE.Group>();
+  private readonly histories = new Map<string, EntityHistory>();
+  private readonly shown = new Map<string, Shown>();
+  private readonly obstacleLabels = new Map<string, HTMLElement>();
+  private grid = new THREE.GridHelper();
+  private framed = false;
+  /** Something moved since the last picture. */
+  private stale = true;
+
+  constructor(private readonly page: Page, private readonly parent: HTMLElement,
+              private readonly labels: HTMLElement, private recording: Recording) {
+    this.renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = THREE.PCFSoftShadowMap;
+    this.renderer.toneMapping = THREE.NeutralToneMapping;
+    parent.append(this.renderer.domElement);
+    this.camera.up.set(0, 0, 1);
+    this.camera.position.set(2.6, -1.9, 1.9);
+    this.controls = new OrbitControls(this.camera, this.renderer.domElement);
+    this.controls.target.set(0, 0.15, 0.75);
+    this.controls.addEventListener("change", () => (this.stale = true));
+    this.scene.add(this.world);
+    this.overlays = new Overlays(page, labels);
+    this.world.add(this.overlays.group);
+    this.addLights();
+    this.applyTheme();
+    page.onTheme(() => this.applyTheme());
+    new ResizeObserver(() => this.resize()).observe(parent);
+    this.resize();
+  }
+
+  /** Starts over with another recording. */
+  reset(recording: Recording): void {
+    this.recording = recording;
+    for (const id of [...this.shown.keys()]) this.remove(id);
+    this.histories.clear();
+    this.framed = false;
+  }
+
+  /** Puts everything where it is at `time`. */
+  show(time: number): void {
+    this.showTransforms(time);
+    for (const name of ["/scene/robots", "/scene/obstacles"]) this.showHistory(name, time);
+    const trails = this.history("/scene/trails");
+    const pieces: SceneEntity[] = [];
+    if (trails) {
+      for (const id of trails.ids) {
+        const piece = trails.at(id, time);
+        if (piece) pieces.push(piece);
+      }
+    }
+    this.overlays.showTrails(pieces, time);
+    const forces = this.recording.topics.get("/scene/forces");
+    const index = forces ? forces.indexAt(time) : -1;
+    this.overlays.showForces(index >= 0 ? (forces!.message(index) as SceneUpdate) : { entities: [] });
+    if (!this.framed && this.shown.size > 0) this.frameAll();
+    this.stale = true;
+  }
+
+  render(): void {
+    if (this.controls.enabled) this.controls.update();
+    if (!this.stale) return;
+    this.stale = false;
+    this.renderer.render(this.scene, this.camera);
+    this.placeLabels();
+  }
+
+  touch(): void { this.stale = true; }
+  get canvas(): HTMLCanvasElement { return this.renderer.domElement; }
+
+  /** Where a frame is in the world, for tests. */
+  positionOf(frame: string): number[] | undefined {
+    const found = this.frames.get(frame);
+    return found && found.getWorldPosition(new THREE.Vector3()).toArray();
+  }
+
+  /** The id of the obstacle at a point of the canvas (CSS pixels), with the point that was hit. */
+  obstacleAt(x: number, y: number): { id: string; point: THREE.Vector3; origin: THREE.Vector3 } | undefined {
+    const hit = this.ray(x, y).intersectObjects([...this.shown.values()].map((one) => one.object), true)[0];
+    for (let object: THREE.Object3D | null | undefined = hit?.object; object; object = object.parent) {
+      const frame = [...this.frames].find(([, group]) => group === object)?.[0];
+      if (frame?.startsWith("obstacle/")) {
+        return { id: frame.slice("obstacle/".length), point: hit!.point, origin: object.getWorldPosition(new THREE.Vector3()) };
+      }
+    }
+    return undefined;
+  }
+
+  ray(x: number, y: number): THREE.Raycaster {
+    const { clientWidth: width, clientHeight: height } = this.renderer.domElement;
+    const caster = new THREE.Raycaster();
+    caster.setFromCamera(new THREE.Vector2((x / width) * 2 - 1, 1 - (y / height) * 2), this.camera);
+    return caster;
+  }
+
+  private frame(name: string): THREE.Group {
+    let group = this.frames.get(name);
+    if (!group) {
+      this.frames.set(name, group = new THREE.Group());
+      this.world.add(group);
+    }
+    return group;
+  }
+
+  private showTransforms(time: number): void {
+    const topic = this.recording.topics.get("/tf");
+    if (!topic) return;
+    const index = topic.indexAt(time);
+    if (index < 0) return;
+    const now = topic.message(index) as FrameTransforms;
+    for (const transform of now.transforms) this.place(transform);
+  }
+
+  private place(transform: FrameTransform): void {
+    const { translation: p, rotation: q } = transform;
+    const group = this.frame(transform.child_frame_id);
+    const parent = transform.parent_frame_id === "world" ? this.world : this.frame(transform.parent_frame_id);
+    if (group.parent !== parent) parent.add(group);
+    group.position.set(p.x, p.y, p.z);
+    group.quaternion.set(q.x, q.y, q.z, q.w);
+  }
+
+  private history(name: string): EntityHistory | undefined {
+    const topic = this.recording.topics.get(name);
+    if (!topic) return undefined;
+    let history = this.histories.get(name);
+    if (!history) this.histories.set(name, history = new EntityHistory(topic));
+    history.follow();
+    return history;
+  }
+
+  private showHistory(name: string, time: number): void {
+    const history = this.history(name);
+    if (!history) return;
+    for (const id of history.ids) {
+      const entity = history.at(id, time), old = this.shown.get(id);
+      if (old && old.entity === entity) continue;
+      if (old) this.remove(id);
+      if (!entity) continue;
+      const object = solid(entity);
+      (entity.frame_id === "world" ? this.world : this.frame(entity.frame_id)).add(object);
+      this.shown.set(id, { entity, object });
+      if (name === "/scene/obstacles") this.addLabel(id);
+    }
+  }
+
+  private addLabel(id: string): void {
+    const label = element("span", "label obstacle", id);
+    this.labels.append(label);
+    this.obstacleLabels.set(id, label);
+  }
+
+  private remove(id: string): void {
+    this.shown.get(id)?.object.removeFromParent();
+    this.shown.delete(id);
+    this.obstacleLabels.get(id)?.remove();
+    this.obstacleLabels.delete(id);
+  }
+
+  private placeLabels(): void {
+    for (const [id, label] of this.obstacleLabels) {
+      const object = this.shown.get(id)!.object;
+      placeLabel(label, object.getWorldPosition(new THREE.Vector3()), this.camera, this.canvas);
+    }
+    this.overlays.placeLabels(this.camera, this.canvas);
+  }
+
+  /** Turns the camera to all there is, robots and obstacles, once. */
+  private frameAll(): void {
+    this.world.updateMatrixWorld(true);
+    const box = new THREE.Box3();
+    for (const { object } of this.shown.values()) box.expandByObject(object);
+    const trails = this.recording.topics.get("/scene/trails");
+    if (trails && trails.length > 0) {
+      for (const entity of (trails.message(trails.length - 1) as SceneUpdate).entities ?? []) {
+        for (const lines of entity.lines ?? []) {
+          for (const p of segments(lines)) box.expandByPoint(new THREE.Vector3(p.x, p.y, p.z));
+        }
+      }
+    }
+    if (box.isEmpty()) return;
+    this.framed = true;
+    const sphere = box.getBoundingSphere(new THREE.Sphere());
+    const narrow = Math.min(1, this.camera.aspect);
+    const distance = (Math.max(0.4, sphere.radius) * 0.92) / Math.sin((this.camera.fov * Math.PI) / 360) / narrow;
+    this.controls.target.copy(sphere.center);
+    this.camera.position.copy(sphere.center).addScaledVector(new THREE.Vector3(0.78, -0.5, 0.38).normalize(), Math.min(distance, 12));
+    this.controls.update();
+  }
+
+  private addLights(): void {
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8f98, 1.7));
+    const sun = new THREE.DirectionalLight(0xffffff, 2.1);
+    sun.position.set(2.5, -2, 5);
+    sun.castShadow = true;
+    sun.shadow.mapSize.set(2048, 2048);
+    sun.shadow.radius = 5;
+    sun.shadow.bias = -0.0005;
+    Object.assign(sun.shadow.camera, { left: -2.5, right: 2.5, top: 2.5, bottom: -2.5, near: 0.5, far: 12 });
+    this.scene.add(sun);
+    const floor = new THREE.Mesh(new THREE.PlaneGeometry(40, 40), new THREE.ShadowMaterial({ opacity: 0.16 }));
+    floor.receiveShadow = true;
+    this.scene.add(floor);
+  }
+
+  private applyTheme(): void {
+    this.scene.background = new THREE.Color(this.page.colour("--stage"));
+    this.grid.removeFromParent();
+    this.grid.dispose();
+    this.grid = new THREE.GridHelper(8, 32, this.page.colour("--grid-strong"), this.page.colour("--grid-3d"));
+    this.grid.rotation.x = Math.PI / 2;
+    this.grid.position.z = -0.002;
+    this.scene.add(this.grid);
+    this.overlays.applyTheme();
+    this.stale = true;
+  }
+
+  private resize(): void {
+    const { clientWidth: width, clientHeight: height } = this.parent;
+    if (width === 0 || height === 0) return;
+    this.renderer.setSize(width, height);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.overlays.resize(width, height);
+    this.stale = true;
+  }
+}
