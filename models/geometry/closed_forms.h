@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
-
 #include "models/geometry/core_pair.h"
 
 namespace oca::models::internal {
 
-/// Signed core distance where algebra gives it: B a point and A a point, segment, box or cylinder,
-/// or two segments. Nothing for other pairs.
-///
-/// Where the direction is not unique (a point in the middle of a box, coincident centres, crossing
-/// axes) one of the shortest is taken, always the same one.
-/// source Ericson 2005, chapter 5
-std::optional<CoreDistance> ClosedForm(const CorePair& pair);
+/// Finds the signed core distance where algebra gives it, with the simpler core second: a point and
+/// anything but a hull, a segment and a segment or box, a half-space and anything that ends. False
+/// for other pairs.
+bool ClosedForm(const CorePair& pair, CoreDistance* found);
+
+/// The same for two cores that are known to overlap or touch: two boxes, a point in a hull.
+bool ClosedOverlap(const CorePair& pair, CoreDistance* found);
 
 }  // namespace oca::models::internal

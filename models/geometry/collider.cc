@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <initializer_list>
+#include <limits>
+#include <string>
 
 #include "models/error.h"
-#include "models/geometry/hull_support.h"
+#include "models/geometry/core_support.h"
 
 namespace oca::models {
 namespace {
@@ -36,71 +38,125 @@ void CheckThickness(const Vector3d& half, std::string_view where) {
                                where, 2 * half.minCoeff(), 2 * half.maxCoeff(), kFlattest));
 }
 
+void CheckPose(const Eigen::Isometry3d& X, std::string_view where) {
+  const Eigen::Matrix3d R = X.linear();
+  const double skew = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (X.translation().allFinite() && skew <= 1e-9 && R.determinant() > 0.0) return;
+  throw ModelError(fmt::format(
+      "{}: pose; got a NaN, an infinity or no rotation; expected a finite rigid motion", where));
+}
+
 }  // namespace
 
 Collider::Collider(const Shape& shape, std::string_view where) : shape_(shape) {
   const auto size = [&](double value, std::string_view what) {
     return CheckedSize(value, where, what);
   };
-  std::visit(
-      Visitor{[&](const Sphere& s) {
-                core_ = Core::kPoint;
-                radius_ = size(s.radius, "sphere radius");
-                bounding_radius_ = radius_;
-              },
-              [&](const Box& s) {
-                core_ = Core::kBox;
-                half_ =
-                    0.5 * Vector3d(size(s.size.x(), "box size x"), size(s.size.y(), "box size y"),
-                                   size(s.size.z(), "box size z"));
-                CheckThickness(half_, where);
-                bounding_radius_ = half_.norm();
-              },
-              [&](const Cylinder& s) {
-                core_ = Core::kCylinder;
-                const double r = size(s.radius, "cylinder radius");
-                half_ = Vector3d(r, r, 0.5 * size(s.length, "cylinder length"));
-                CheckThickness(half_, where);
-                bounding_radius_ = std::hypot(r, half_.z());
-              },
-              [&](const Capsule& s) {
-                core_ = Core::kSegment;
-                radius_ = size(s.radius, "capsule radius");
-                half_.z() = 0.5 * size(s.length, "capsule length");
-                bounding_radius_ = half_.z() + radius_;
-              },
-              [&](const ConvexMesh& s) {
-                if (!s.hull) {
-                  throw ModelError(fmt::format(
-                      "{}: convex mesh; got no hull; expected one of MakeConvexHull", where));
-                }
-                core_ = Core::kHull;
-                hull_ = s.hull.get();
-                centre_ = hull_->centre;
-                bounding_radius_ = hull_->radius;
-              }},
-      shape_);
+  std::visit(Visitor{[&](const Sphere& s) {
+                       core_ = Core::kPoint;
+                       radius_ = size(s.radius, "sphere radius");
+                       bounding_radius_ = radius_;
+                     },
+                     [&](const Box& s) {
+                       core_ = Core::kBox;
+                       half_ = 0.5 * Vector3d(size(s.size.x(), "box size x"),
+                                              size(s.size.y(), "box size y"),
+                                              size(s.size.z(), "box size z"));
+                       CheckThickness(half_, where);
+                       bounding_radius_ = half_.norm();
+                     },
+                     [&](const Cylinder& s) {
+                       core_ = Core::kCylinder;
+                       const double r = size(s.radius, "cylinder radius");
+                       half_ = Vector3d(r, r, 0.5 * size(s.length, "cylinder length"));
+                       CheckThickness(half_, where);
+                       bounding_radius_ = std::hypot(r, half_.z());
+                     },
+                     [&](const Capsule& s) {
+                       core_ = Core::kSegment;
+                       radius_ = size(s.radius, "capsule radius");
+                       half_.z() = 0.5 * size(s.length, "capsule length");
+                       bounding_radius_ = half_.z() + radius_;
+                     },
+                     [&](const Cone& s) {
+                       core_ = Core::kCone;
+                       const double r = size(s.radius, "cone radius");
+                       half_ = Vector3d(r, r, 0.5 * size(s.length, "cone length"));
+                       CheckThickness(half_, where);
+                       bounding_radius_ = std::hypot(r, half_.z());
+                     },
+                     [&](const Ellipsoid& s) {
+                       core_ = Core::kEllipsoid;
+                       half_ = {size(s.radii.x(), "ellipsoid radius x"),
+                                size(s.radii.y(), "ellipsoid radius y"),
+                                size(s.radii.z(), "ellipsoid radius z")};
+                       CheckThickness(half_, where);
+                       bounding_radius_ = half_.maxCoeff();
+                     },
+                     [&](const HalfSpace&) {
+                       core_ = Core::kHalfSpace;
+                       bounding_radius_ = std::numeric_limits<double>::infinity();
+                     },
+                     [&](const auto& s) { Prepare(s, where); }},
+             shape_);
+}
+
+void Collider::Prepare(const ConvexMesh& mesh, std::string_view where) {
+  if (!mesh.hull) {
+    throw ModelError(
+        fmt::format("{}: convex mesh; got no hull; expected one of MakeConvexHull", where));
+  }
+  core_ = Core::kHull;
+  hull_ = mesh.hull.get();
+  centre_ = hull_->centre;
+  bounding_radius_ = hull_->radius;
+}
+
+void Collider::Prepare(const Compound& compound, std::string_view where) {
+  core_ = Core::kCompound;
+  if (compound.parts.empty()) {
+    throw ModelError(fmt::format("{}: compound; got no parts; expected at least one", where));
+  }
+  Eigen::AlignedBox3d box;
+  for (std::size_t i = 0; i < compound.parts.size(); ++i) {
+    const CompoundPart& part = compound.parts[i];
+    const std::string name = fmt::format("{}: part {}", where, i);
+    if (std::holds_alternative<Compound>(part.shape) ||
+        std::holds_alternative<HalfSpace>(part.shape)) {
+      throw ModelError(fmt::format(
+          "{}; got a {}; expected a convex body that ends", name,
+          part.shape.index() == Shape(HalfSpace{}).index() ? "half-space" : "compound"));
+    }
+    CheckPose(part.X_SP, name);
+    parts_.push_back({part.X_SP, MakeCollider(part.shape, name)});
+    const Collider& collider = *parts_.back().collider;
+    const Vector3d centre = part.X_SP * collider.centre();
+    const Vector3d reach = Vector3d::Constant(collider.bounding_radius());
+    box.extend(centre - reach).extend(centre + reach);
+  }
+  centre_ = box.center();
+  for (const Part& part : parts_) {
+    const double offset = (part.X_SP * part.collider->centre() - centre_).norm();
+    bounding_radius_ = std::max(bounding_radius_, offset + part.collider->bounding_radius());
+  }
 }
 
 Vector3d Collider::Support(const Vector3d& direction) const {
-  switch (core_) {
-    case Core::kPoint:
-      return Vector3d::Zero();
-    case Core::kSegment:
-      return {0.0, 0.0, std::copysign(half_.z(), direction.z())};
-    case Core::kBox:
-      return {std::copysign(half_.x(), direction.x()), std::copysign(half_.y(), direction.y()),
-              std::copysign(half_.z(), direction.z())};
-    case Core::kCylinder: {
-      const double across = std::hypot(direction.x(), direction.y());
-      const double scale = across > 0.0 ? half_.x() / across : 0.0;
-      return {direction.x() * scale, direction.y() * scale,
-              std::copysign(half_.z(), direction.z())};
-    }
-    case Core::kHull:
-      break;
+  if (core_ == Core::kHalfSpace) {
+    return Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   }
-  return hull_->vertices[internal::FarthestVertex(*hull_, direction)];
+  if (core_ != Core::kCompound) return internal::CoreSupport(*this, direction);
+  Vector3d farthest = Vector3d::Zero();
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Part& part : parts_) {
+    const Vector3d local = part.X_SP.linear().transpose() * direction;
+    const double radius = part.collider->radius();
+    Vector3d p = part.collider->Support(local);
+    if (radius > 0.0 && !local.isZero(0.0)) p += radius * local.stableNormalized();
+    p = part.X_SP * p;
+    if (direction.dot(p) > most) most = direction.dot(p), farthest = p;
+  }
+  return farthest;
 }
 
 std::shared_ptr<const Collider> MakeCollider(const Shape& shape, std::string_view where) {

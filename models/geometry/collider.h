@@ -2,8 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <memory>
 #include <string_view>
+#include <vector>
 
 #include "models/geometry/convex_hull.h"
 #include "models/shape.h"
@@ -12,35 +14,61 @@ namespace oca::models {
 
 /// A shape prepared for distance queries: the set of all points within `radius` of a convex core.
 ///
-/// | shape    | core                  | radius |
-/// |----------|-----------------------|--------|
-/// | sphere   | point                 | its own|
-/// | capsule  | segment along z       | its own|
-/// | box, cylinder, convex mesh | itself | 0   |
+/// | shape    | core                                        | radius  |
+/// |----------|---------------------------------------------|---------|
+/// | sphere   | point                                       | its own |
+/// | capsule  | segment along z                             | its own |
+/// | box, cylinder, cone, ellipsoid, convex mesh | itself   | 0       |
+/// | half-space, compound | no convex core that ends: see parts() | 0 |
 ///
 /// Rounding costs nothing that way: the core distance less the two radii is exact, also in overlap.
 /// Immutable; made by MakeCollider. Everything in the shape's frame, m.
 class Collider {
  public:
-  enum class Core { kPoint, kSegment, kBox, kCylinder, kHull };
+  /// From simple to intricate; algorithms put the simpler one second.
+  enum class Core {
+    kPoint,
+    kSegment,
+    kBox,
+    kCylinder,
+    kCone,
+    kEllipsoid,
+    kHull,
+    kHalfSpace,
+    kCompound
+  };
+  struct Part {
+    Eigen::Isometry3d X_SP;
+    std::shared_ptr<const Collider> collider;
+  };
 
   Collider(const Shape& shape, std::string_view where);
 
   const Shape& shape() const { return shape_; }
   Core core() const { return core_; }
   double radius() const { return radius_; }
-  /// Half extents of the core's bounding box (segment: (0, 0, half length); point and hull: zero).
+  /// Half extents of the core's bounding box (segment: (0, 0, half length); ellipsoid: semi-axes;
+  /// point, hull, half-space and compound: zero).
   const Eigen::Vector3d& half() const { return half_; }
-  /// Centre and radius of a sphere that contains the whole shape.
+  /// Centre and radius of a sphere that contains the whole shape; infinite for a half-space, whose
+  /// centre is the origin.
   const Eigen::Vector3d& centre() const { return centre_; }
   double bounding_radius() const { return bounding_radius_; }
   /// The same for the core alone.
   double core_bounding_radius() const { return bounding_radius_ - radius_; }
+  /// Of a convex mesh, else null.
+  const ConvexHull* hull() const { return hull_; }
+  /// Of a compound, else none.
+  const std::vector<Part>& parts() const { return parts_; }
 
-  /// A point of the core that lies farthest along `direction` (of any length, zero included).
+  /// A point of the core that lies farthest along `direction` (of any length, zero included); of a
+  /// compound the farthest of all parts. NaN for a half-space, which has none.
   Eigen::Vector3d Support(const Eigen::Vector3d& direction) const;
 
  private:
+  void Prepare(const ConvexMesh& mesh, std::string_view where);
+  void Prepare(const Compound& compound, std::string_view where);
+
   Shape shape_;
   Core core_{Core::kPoint};
   double radius_{0.0};
@@ -48,15 +76,17 @@ class Collider {
   Eigen::Vector3d centre_{Eigen::Vector3d::Zero()};
   double bounding_radius_{0.0};
   const ConvexHull* hull_{nullptr};  // kept alive by shape_
+  std::vector<Part> parts_;
 };
 
 /// Prepares a shape. `where` names it in the error.
-/// throws ModelError for a size that is not finite and positive, a box or cylinder thinner than
-/// 1e-9
-///        of its extent, or a mesh without a hull
+/// throws ModelError for a size that is not finite and positive; a box, cylinder, cone or ellipsoid
+///        thinner than 1e-9 of its extent; a mesh without a hull; a compound without parts, with a
+///        half-space or a compound among them, or with a pose that is not a finite rigid motion
 std::shared_ptr<const Collider> MakeCollider(const Shape& shape, std::string_view where);
 
-/// Radius of a sphere about the origin of the shape's frame that contains the shape, m.
+/// Radius of a sphere about the origin of the shape's frame that contains the shape, m; infinite
+/// for a half-space.
 double BoundingRadius(const Collider& collider);
 
 }  // namespace oca::models

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "models/error.h"
+#include "models/geometry/hull_support.h"
 #include "models/geometry/lattice_hull.h"
 
 namespace oca::models {
@@ -197,6 +198,19 @@ void FillColumns(ConvexHull* hull) {
   }
 }
 
+// A thin triangle has a skew normal; its plane still bounds the hull, for it is moved out to touch.
+void FillPlanes(ConvexHull* hull) {
+  hull->planes.reserve(hull->triangles.size());
+  for (const auto& [a, b, c] : hull->triangles) {
+    const Vector3d& pa = hull->vertices[a];
+    const Vector3d across = (hull->vertices[b] - pa).cross(hull->vertices[c] - pa);
+    if (!(across.stableNorm() > 0.0)) continue;
+    const Vector3d normal = across.stableNormalized();
+    const int farthest = internal::FarthestVertex(*hull, normal);
+    hull->planes.push_back({normal, normal.dot(hull->vertices[farthest])});
+  }
+}
+
 }  // namespace
 
 std::shared_ptr<const ConvexHull> MakeConvexHull(std::span<const Vector3d> points,
@@ -220,6 +234,7 @@ std::shared_ptr<const ConvexHull> MakeConvexHull(std::span<const Vector3d> point
   CopySurface(quickhull.hull(), welded, hull.get());
   Measure(extent.centre, hull.get());
   FillColumns(hull.get());
+  FillPlanes(hull.get());
   return hull;
 }
 

@@ -21,6 +21,12 @@ struct ConvexHull {
   /// the filling repeats the first vertex and so never wins a support search.
   std::vector<double> columns;
   int column_size{0};
+  /// Outer planes of the triangles: no vertex has normal . vertex > offset. Unit normals, m.
+  struct Plane {
+    Eigen::Vector3d normal;
+    double offset;
+  };
+  std::vector<Plane> planes;
   Eigen::Vector3d centre{Eigen::Vector3d::Zero()};    ///< of the bounding sphere
   double radius{0.0};                                 ///< of the bounding sphere, m
   Eigen::Vector3d centroid{Eigen::Vector3d::Zero()};  ///< of the volume; always inside

@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-#include "models/geometry/collider.h"
+#include "models/geometry/core_support.h"
 
 namespace oca::models::internal {
 
@@ -24,7 +24,7 @@ struct CorePair {
   }
   /// The farthest point of A - B along `direction` (frame of A).
   Difference Support(const Eigen::Vector3d& direction) const {
-    return At(a.Support(direction), b.Support(-(X_AB.linear().transpose() * direction)));
+    return At(CoreSupport(a, direction), CoreSupport(b, -(X_AB.linear().transpose() * direction)));
   }
   /// A point well inside A - B or near it.
   Eigen::Vector3d Centre() const { return a.centre() - X_AB * b.centre(); }

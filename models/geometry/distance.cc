@@ -28,22 +28,6 @@ SignedDistance Invalid() {
   return {kNaN, nan, nan, nan, DistanceStatus::kInvalid};
 }
 
-// What the bounding spheres know. kBeyond if that is enough.
-SignedDistance SphereBound(const Collider& a, const Isometry3d& X_WA, const Collider& b,
-                           const Isometry3d& X_WB, double max_distance) {
-  const Vector3d centre_a = X_WA * a.centre(), centre_b = X_WB * b.centre();
-  const Vector3d offset = centre_a - centre_b;
-  SignedDistance result;
-  const double length = offset.norm();
-  result.distance = length - a.bounding_radius() - b.bounding_radius();
-  if (!(result.distance > max_distance) || length == 0.0) return result;
-  result.normal = offset / length;
-  result.point_a = centre_a - a.bounding_radius() * result.normal;
-  result.point_b = centre_b + b.bounding_radius() * result.normal;
-  result.status = DistanceStatus::kBeyond;
-  return result;
-}
-
 bool IsCurved(const CorePair& pair) {
   return pair.a.core() == Collider::Core::kCylinder || pair.b.core() == Collider::Core::kCylinder;
 }
@@ -88,12 +72,8 @@ DistanceStatus Overlap(const CorePair& pair, CoreDistance* found) {
   return StatusOf(pair, *found);
 }
 
-DistanceStatus Solve(const CorePair& pair, double max_core_distance, PairCache* cache,
-                     CoreDistance* found) {
-  if (const auto closed = internal::ClosedForm(pair)) {
-    *found = *closed;
-    return DistanceStatus::kExact;
-  }
+DistanceStatus Search(const CorePair& pair, double max_core_distance, PairCache* cache,
+                      CoreDistance* found) {
   switch (internal::Gjk(pair, max_core_distance, false, cache, found)) {
     case GjkStatus::kBeyond:
       return DistanceStatus::kBeyond;
@@ -103,38 +83,146 @@ DistanceStatus Solve(const CorePair& pair, double max_core_distance, PairCache* 
     case GjkStatus::kTouching:
       break;
   }
+  if (internal::ClosedOverlap(pair, found)) return DistanceStatus::kExact;
   return Overlap(pair, found);
+}
+
+// What the bounding spheres know; false if that is not enough.
+bool SpheresAreBeyond(const CorePair& pair, double max_core_distance, CoreDistance* found) {
+  const Vector3d centre_b = pair.X_AB * pair.b.centre();
+  const Vector3d offset = pair.a.centre() - centre_b;
+  const double reach = pair.Extent() + max_core_distance;
+  const double squared = offset.squaredNorm();
+  if (!(squared > reach * reach)) return false;
+  const double length = std::sqrt(squared);
+  found->normal = offset / length;
+  found->distance = length - pair.Extent();
+  found->point_a = pair.a.centre() - pair.a.core_bounding_radius() * found->normal;
+  found->point_b = centre_b + pair.b.core_bounding_radius() * found->normal;
+  return true;
+}
+
+bool Finite(const Isometry3d& X) {
+  const auto R = X.linear();
+  const auto p = X.translation();
+  const double sum = (R(0, 0) + R(1, 0) + R(2, 0)) + (R(0, 1) + R(1, 1) + R(2, 1)) +
+                     (R(0, 2) + R(1, 2) + R(2, 2)) + (p.x() + p.y() + p.z());
+  return std::isfinite(sum);
+}
+
+// X_WA^-1 X_WB of rotations.
+void SetRelative(const Isometry3d& X_WA, const Isometry3d& X_WB, Isometry3d* X_AB) {
+  const auto R_AW = X_WA.linear().transpose();
+  X_AB->linear().noalias() = R_AW.lazyProduct(X_WB.linear());
+  X_AB->translation().noalias() = R_AW.lazyProduct(X_WB.translation() - X_WA.translation());
+}
+
+SignedDistance ToWorld(const Isometry3d& X_WA, double radius_a, double radius_b,
+                       const CoreDistance& core) {
+  SignedDistance result;
+  result.distance = core.distance - (radius_a + radius_b);
+  result.normal = X_WA.linear() * core.normal;
+  result.point_a = X_WA * (core.point_a - radius_a * core.normal);
+  result.point_b = result.point_a - result.distance * result.normal;
+  return result;
+}
+
+SignedDistance OfSpheres(double radius_a, const Vector3d& centre_a, double radius_b,
+                         const Vector3d& centre_b) {
+  const Vector3d offset = centre_a - centre_b;
+  const double length = offset.norm();
+  SignedDistance result;
+  result.distance = length - (radius_a + radius_b);
+  result.normal = length > 0.0 ? Vector3d(offset / length) : Vector3d(Vector3d::UnitZ());
+  result.point_a = centre_a - radius_a * result.normal;
+  result.point_b = centre_b + radius_b * result.normal;
+  return result;
+}
+
+// A is not simpler than B: that is the order in which the algorithms know them.
+SignedDistance OfConvex(const Collider& a, const Isometry3d& X_WA, const Collider& b,
+                        const Isometry3d& X_WB, double max_distance, PairCache* cache) {
+  if (a.core() == Collider::Core::kPoint) {
+    return OfSpheres(a.radius(), X_WA.translation(), b.radius(), X_WB.translation());
+  }
+  CorePair pair{a, b, Isometry3d()};
+  SetRelative(X_WA, X_WB, &pair.X_AB);
+  CoreDistance core;
+  DistanceStatus status = DistanceStatus::kExact;
+  if (!internal::ClosedForm(pair, &core)) {
+    const double max_core_distance = max_distance + (a.radius() + b.radius());
+    if (a.core() == Collider::Core::kHalfSpace) return Invalid();
+    status = SpheresAreBeyond(pair, max_core_distance, &core)
+                 ? DistanceStatus::kBeyond
+                 : Search(pair, max_core_distance, cache, &core);
+    if (!std::isfinite(core.distance)) return Invalid();
+  }
+  SignedDistance result = ToWorld(X_WA, a.radius(), b.radius(), core);
+  result.status = status;
+  return result;
+}
+
+SignedDistance Swapped(SignedDistance found) {
+  std::swap(found.point_a, found.point_b);
+  found.normal = -found.normal;
+  return found;
+}
+
+SignedDistance OfPair(const Collider& a, const Isometry3d& X_WA, const Collider& b,
+                      const Isometry3d& X_WB, double max_distance, PairCache* cache) {
+  SignedDistance found;
+  if (a.core() < b.core()) {
+    found = Swapped(OfConvex(b, X_WB, a, X_WA, max_distance, cache));
+  } else {
+    found = OfConvex(a, X_WA, b, X_WB, max_distance, cache);
+  }
+  if (found.distance > max_distance) found.status = DistanceStatus::kBeyond;
+  return found;
+}
+
+// The nearest pair of parts of two bodies that may be compounds. It starts with the pair that was
+// nearest last time, so that the others can be left early.
+SignedDistance OfParts(const Collider& a, const Isometry3d& X_WA, const Collider& b,
+                       const Isometry3d& X_WB, double max_distance, PairCache* cache) {
+  const int count_a = std::max<int>(1, static_cast<int>(a.parts().size()));
+  const int count_b = std::max<int>(1, static_cast<int>(b.parts().size()));
+  const int count = count_a * count_b;
+  const int first = cache && cache->parts < count ? cache->parts : 0;
+  SignedDistance best;
+  int best_index = -1;
+  for (int i = 0; i < count; ++i) {
+    const int index = i == 0 ? first : i <= first ? i - 1 : i;
+    const bool part_a = !a.parts().empty(), part_b = !b.parts().empty();
+    const Collider& one = part_a ? *a.parts()[index / count_b].collider : a;
+    const Collider& two = part_b ? *b.parts()[index % count_b].collider : b;
+    const Isometry3d X_WO = part_a ? X_WA * a.parts()[index / count_b].X_SP : X_WA;
+    const Isometry3d X_WT = part_b ? X_WB * b.parts()[index % count_b].X_SP : X_WB;
+    const double limit = i == 0 ? max_distance : std::min(max_distance, best.distance);
+    const SignedDistance found = OfPair(one, X_WO, two, X_WT, limit, i == 0 ? cache : nullptr);
+    if (found.status == DistanceStatus::kInvalid) return found;
+    if (best_index >= 0 && (found.distance > best.distance ||
+                            (found.distance == best.distance && index > best_index))) {
+      continue;
+    }
+    best = found;
+    best_index = index;
+  }
+  if (cache && best_index != first) {
+    cache->count = 0;
+    cache->parts = best_index;
+  }
+  return best;
 }
 
 }  // namespace
 
 SignedDistance Distance(const Collider& a, const Isometry3d& X_WA, const Collider& b,
                         const Isometry3d& X_WB, double max_distance, PairCache* cache) {
-  if (!X_WA.matrix().allFinite() || !X_WB.matrix().allFinite()) return Invalid();
-  SignedDistance result = SphereBound(a, X_WA, b, X_WB, max_distance);
-  if (result.status == DistanceStatus::kBeyond) return result;
-
-  // The simpler core goes second: closed forms are written for that order only.
-  const bool swapped = a.core() < b.core();
-  const Collider& first = swapped ? b : a;
-  const Collider& second = swapped ? a : b;
-  const Isometry3d& X_WF = swapped ? X_WB : X_WA;
-  const Isometry3d& X_WS = swapped ? X_WA : X_WB;
-  const CorePair pair{first, second, X_WF.inverse() * X_WS};
-  CoreDistance core;
-  const double radii = first.radius() + second.radius();
-  result.status = Solve(pair, max_distance + radii, cache, &core);
-  if (!std::isfinite(core.distance)) return Invalid();
-
-  result.distance = core.distance - radii;
-  result.normal = X_WF.linear() * core.normal;
-  result.point_a = X_WF * (core.point_a - first.radius() * core.normal);
-  result.point_b = X_WF * (core.point_b + second.radius() * core.normal);
-  if (swapped) {
-    std::swap(result.point_a, result.point_b);
-    result.normal = -result.normal;
+  if (!Finite(X_WA) || !Finite(X_WB)) return Invalid();
+  if (a.core() != Collider::Core::kCompound && b.core() != Collider::Core::kCompound) {
+    return OfPair(a, X_WA, b, X_WB, max_distance, cache);
   }
-  return result;
+  return OfParts(a, X_WA, b, X_WB, max_distance, cache);
 }
 
 }  // namespace oca::models

@@ -14,7 +14,7 @@ enum class DistanceStatus {
   kExact,        ///< closed form, or proved from both sides to 1e-9 of the size of the pair
   kApproximate,  ///< best answer found; the two-sided proof stayed open
   kBeyond,       ///< farther than max_distance: `distance` is a lower bound, the rest a hint
-  kInvalid       ///< a pose is not finite; all numbers are NaN
+  kInvalid       ///< a pose is not finite, or both are half-spaces; all numbers are NaN
 };
 
 /// Distance of two bodies A and B, nearest points and direction; world axes, m.
@@ -35,18 +35,21 @@ struct SignedDistance {
 /// on it. Keep one a pair of colliders; a fresh one is empty.
 struct PairCache {
   int count{0};
+  int parts{0};  ///< of two compounds: which pair of parts was the nearest
   std::array<Eigen::Vector3d, 4> points_a;
   std::array<Eigen::Vector3d, 4> points_b;
 };
 
 /// Signed distance of A at pose `X_WA` and B at pose `X_WB`.
 ///
-/// Closed forms for sphere and capsule pairs and for a sphere with a box or a cylinder. Else GJK on
-/// the cores, with a lower and an upper bound on the distance, and for overlapping cores the face
-/// of the Minkowski difference that is nearest to the origin. The distance is continuous in the
-/// poses. A pair farther apart than `max_distance` (m) may be left early with kBeyond. No heap, no
-/// exception; `cache` may be null. source Gilbert, Johnson, Keerthi 1988 (GJK); van den Bergen 2001
-/// (expanding polytope)
+/// Closed forms for a half-space with anything, a sphere with anything but a mesh, capsules with
+/// capsules and boxes. Else GJK on the cores, with a lower and an upper bound on the distance; for
+/// overlapping cores the separating axes of boxes, the planes of a mesh around a sphere's centre,
+/// or the face of the Minkowski difference that is nearest to the origin. The distance is
+/// continuous in the poses. Of compounds the least distance of their parts counts: exact apart, in
+/// overlap the depth of the deepest part. A pair farther apart than `max_distance` (m) may be left
+/// early with kBeyond. No heap, no exception; `cache` may be null.
+/// source Gilbert, Johnson, Keerthi 1988 (GJK); van den Bergen 2001 (expanding polytope)
 SignedDistance Distance(const Collider& a, const Eigen::Isometry3d& X_WA, const Collider& b,
                         const Eigen::Isometry3d& X_WB,
                         double max_distance = std::numeric_limits<double>::infinity(),

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 list(APPEND headers geometry/convex_hull.h geometry/mesh.h geometry/collider.h
   geometry/distance.h)
-list(APPEND sources geometry/bullet_penetration.cc geometry/closed_forms.cc geometry/collider.cc
-  geometry/convex_hull.cc geometry/distance.cc geometry/gjk.cc geometry/hull_support.cc
-  geometry/lattice_hull.cc geometry/mesh.cc geometry/polytope_depth.cc geometry/simplex.cc)
+list(APPEND sources geometry/box_overlap.cc geometry/bullet_penetration.cc
+  geometry/closed_forms.cc geometry/collider.cc geometry/convex_hull.cc geometry/distance.cc
+  geometry/gjk.cc geometry/hull_support.cc geometry/lattice_hull.cc geometry/mesh.cc
+  geometry/point_forms.cc geometry/polytope_depth.cc geometry/segment_forms.cc
+  geometry/simplex.cc)
 
 # Many bodies at once.
 list(APPEND headers geometry/ball_tree.h)

@@ -15,12 +15,19 @@ constexpr int kMaxSteps = 128;
 constexpr int kMaxIdleSteps = 4;
 constexpr double kRounding = 1e-15;  // of a difference of support points, of the size of the pair
 
-// False if there is nothing to start from, or if the bodies moved such that it encloses the origin.
-bool Recall(const CorePair& pair, const PairCache& cache, Simplex* simplex) {
-  for (int i = 0; i < cache.count; ++i) {
-    simplex->Add(pair.At(cache.points_a[i], cache.points_b[i]));
+// The bodies may have moved such that a remembered triangle is worth little; it is a start still.
+void Start(const CorePair& pair, const PairCache* cache, Simplex* simplex) {
+  Simplex::Nearest nearest;
+  if (cache && cache->count > 0) {
+    for (int i = 0; i < std::min(cache->count, 3); ++i) {
+      simplex->Add(pair.At(cache->points_a[i], cache->points_b[i]));
+    }
+  } else {
+    const Vector3d centre = pair.Centre();
+    simplex->Add(pair.Support(centre.isZero(0.0) ? Vector3d(Vector3d::UnitX()) : -centre));
   }
-  return cache.count > 0 && simplex->Reduce(false);
+  simplex->FindNearest(false, &nearest);
+  simplex->Keep(nearest);
 }
 
 void Remember(const Simplex& simplex, PairCache* cache) {
@@ -37,18 +44,23 @@ CoreDistance Result(const CorePair& pair, const Simplex& simplex, double length,
           std::max(length - lower, 0.0)};
 }
 
+// Flat faces end the search exactly; round ones only ever come closer.
+double Proof(const CorePair& pair) {
+  const auto round = [](const Collider& collider) {
+    return collider.core() >= Collider::Core::kCylinder &&
+           collider.core() <= Collider::Core::kEllipsoid;
+  };
+  return round(pair.a) || round(pair.b) ? kRoundProof : kFlatProof;
+}
+
 }  // namespace
 
 GjkStatus Gjk(const CorePair& pair, double max_distance, bool separated, PairCache* cache,
               CoreDistance* result) {
   const double size = pair.Extent();
+  const double proof = Proof(pair) * size;
   Simplex simplex;
-  if (!cache || !Recall(pair, *cache, &simplex)) {
-    simplex.Clear();
-    const Vector3d centre = pair.Centre();
-    simplex.Add(pair.Support(centre.isZero(0.0) ? Vector3d(Vector3d::UnitX()) : -centre));
-    simplex.Reduce(false);
-  }
+  Start(pair, cache, &simplex);
   double length = simplex.v().norm();
   double lower = 0.0;
   bool outside = separated;
@@ -57,28 +69,28 @@ GjkStatus Gjk(const CorePair& pair, double max_distance, bool separated, PairCac
     if (length <= kTouch * size) break;
     const CorePair::Difference support = pair.Support(-simplex.v());
     const double bound = simplex.v().dot(support.w) / length;
-    lower = std::max(lower, bound);
-    outside = outside || bound > 0.0;
+    if (bound > lower) lower = bound, outside = true;
     if (bound > max_distance) {
       Remember(simplex, cache);
       *result = Result(pair, simplex, length, bound);
       result->distance = bound;
       return GjkStatus::kBeyond;
     }
-    if (length - bound <= std::min(kProof * size, 1e-6 * length)) break;
+    if (length - bound <= std::min(proof, 1e-6 * length)) break;
     if (simplex.Contains(support)) break;
-    const Simplex before = simplex;
     simplex.Add(support);
-    if (!simplex.Reduce(outside)) {  // the origin is inside
+    Simplex::Nearest nearest;
+    if (!simplex.FindNearest(outside, &nearest)) {  // the origin is inside
       if (cache) cache->count = 0;
       return GjkStatus::kTouching;
     }
-    const double shorter = simplex.v().norm();
+    const double shorter = std::sqrt(nearest.squared);
     // A step may gain less than rounding shows, yet turn the simplex for the next one.
     if (shorter > length + kRounding * size || (shorter >= length && ++idle > kMaxIdleSteps)) {
-      simplex = before;
+      simplex.Drop();
       break;
     }
+    simplex.Keep(nearest);
     length = shorter;
   }
   if (length <= kTouch * size) {

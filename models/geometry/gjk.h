@@ -15,8 +15,10 @@ enum class GjkStatus {
 /// Below this distance, relative to the size of the pair, a difference vector has no direction
 /// left.
 inline constexpr double kTouch = 1e-10;
-/// Proof that ends the search: upper less lower bound, relative to the size of the pair.
-inline constexpr double kProof = 1e-10;
+/// Proof that ends the search: upper less lower bound, relative to the size of the pair; of
+/// polyhedra, and with a round side.
+inline constexpr double kFlatProof = 1e-14;
+inline constexpr double kRoundProof = 1e-10;
 
 /// Distance of two separated cores. Starts from the simplex in `cache` (may be null) and leaves its
 /// own there.

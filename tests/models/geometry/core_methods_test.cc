@@ -22,13 +22,26 @@ TEST(CoreMethodsTest, ClosedFormsExistForTheSimplePairsOnly) {
   RandomBodies random(51);
   const auto exists = [&](int a, int b) {
     const auto first = random.Body(a), second = random.Body(b);
-    return ClosedForm({*first, *second, random.Pose(0.5)}).has_value();
+    CoreDistance found;
+    return ClosedForm({*first, *second, random.Pose(0.5)}, &found);
   };
-  for (const int solid : {0, 1, 2, 3}) EXPECT_TRUE(exists(solid, 0));
+  for (const int solid : {0, 1, 2, 3, 5, 6}) EXPECT_TRUE(exists(solid, 0));
   EXPECT_TRUE(exists(1, 1));
+  EXPECT_TRUE(exists(2, 1));
   EXPECT_FALSE(exists(4, 0));
-  EXPECT_FALSE(exists(2, 1));
+  EXPECT_FALSE(exists(3, 1));
   EXPECT_FALSE(exists(3, 3));
+}
+
+TEST(CoreMethodsTest, EverythingThatEndsHasAClosedFormWithAHalfSpace) {
+  RandomBodies random(55);
+  const auto floor = MakeCollider(HalfSpace{}, "floor");
+  for (int kind = 0; kind < RandomBodies::kKinds; ++kind) {
+    CoreDistance found;
+    EXPECT_TRUE(ClosedForm({*floor, *random.Body(kind), random.Pose(0.5)}, &found));
+  }
+  CoreDistance found;
+  EXPECT_FALSE(ClosedForm({*floor, *floor, random.Pose(0.5)}, &found));
 }
 
 TEST(CoreMethodsTest, GjkAndPolytopeAgreeWithAlgebra) {
@@ -37,7 +50,8 @@ TEST(CoreMethodsTest, GjkAndPolytopeAgreeWithAlgebra) {
   for (int i = 0; i < 5'000; ++i) {
     const auto a = random.Body(1 + random.Integer(3)), point = random.Body(0);
     const CorePair pair{*a, *point, random.Pose(0.4)};
-    const CoreDistance exact = *ClosedForm(pair);
+    CoreDistance exact;
+    ASSERT_TRUE(ClosedForm(pair, &exact));
     CoreDistance found;
     if (Gjk(pair, kFar, false, nullptr, &found) == GjkStatus::kSeparated) {
       ++apart;

@@ -54,6 +54,7 @@ struct ToBulletVisitor {
     hull->recalcLocalAabb();
     return NoMargin(std::move(hull));
   }
+  Convex operator()(const auto&) const { return nullptr; }  // Bullet has no peer of the others
   static Convex NoMargin(Convex shape) {
     shape->setMargin(0.0);
     return shape;

@@ -33,6 +33,14 @@ struct ToFclVisitor {
     return std::make_shared<fcl::Capsuled>(s.radius, s.length);
   }
   Geometry operator()(const ConvexMesh& s) const { return ToFcl(*s.hull); }
+  Geometry operator()(const Cone& s) const {
+    return std::make_shared<fcl::Coned>(s.radius, s.length);
+  }
+  Geometry operator()(const Ellipsoid& s) const {
+    return std::make_shared<fcl::Ellipsoidd>(s.radii);
+  }
+  Geometry operator()(const HalfSpace&) const { return nullptr; }
+  Geometry operator()(const Compound&) const { return nullptr; }
 };
 
 double FclDistance(const Collider& a, const Isometry3d& X_WA, const Collider& b,

@@ -16,7 +16,7 @@ namespace oca::models {
 /// Random shapes and poses for tests; the same seed gives the same sequence.
 class RandomBodies {
  public:
-  static constexpr int kKinds = 5;
+  static constexpr int kKinds = 7;  // all that end and are convex
 
   explicit RandomBodies(unsigned seed, double scale = 1.0) : generator_(seed), scale_(scale) {}
 
@@ -62,6 +62,11 @@ class RandomBodies {
         return Box{s * Eigen::Vector3d(Uniform(0.05, 0.4), Uniform(0.05, 0.4), Uniform(0.05, 0.4))};
       case 3:
         return Cylinder{s * Uniform(0.03, 0.2), s * Uniform(0.05, 0.5)};
+      case 5:
+        return Cone{s * Uniform(0.03, 0.2), s * Uniform(0.05, 0.5)};
+      case 6:
+        return Ellipsoid{
+            s * Eigen::Vector3d(Uniform(0.03, 0.2), Uniform(0.03, 0.2), Uniform(0.03, 0.2))};
       default:
         return RandomMesh();
     }
@@ -86,7 +91,8 @@ class RandomBodies {
 };
 
 inline std::string KindName(const Collider& collider) {
-  static const char* const kNames[] = {"sphere", "box", "cylinder", "capsule", "mesh"};
+  static const char* const kNames[] = {"sphere", "box",       "cylinder",   "capsule", "mesh",
+                                       "cone",   "ellipsoid", "half-space", "compound"};
   return kNames[collider.shape().index()];
 }
 
