@@ -52,8 +52,12 @@ class UrdfReader {
       for (const Link& link : links_) names.push_back(link.name.text());
       disabled = LoadDisabledPairs(options_.srdf, names);
     }
-    return {Name(outline_.robot_name), std::move(links_), std::move(joints_), options_.X_WB,
-            std::move(disabled)};
+    try {
+      return {Name(outline_.robot_name), std::move(links_), std::move(joints_), options_.X_WB,
+              std::move(disabled)};
+    } catch (const ModelError& error) {
+      throw ModelError(fmt::format("{}: {}", where_, error.what()));
+    }
   }
 
  private:

@@ -7,6 +7,7 @@
 #include <kdl/treefksolverpos_recursive.hpp>
 #include <kdl/treejnttojacsolver.hpp>
 
+#include "models/error.h"
 #include "models/robot/kinematics.h"
 #include "models/robot/urdf.h"
 #include "random_robot.h"
@@ -147,6 +148,27 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) {
       return std::string(test.param).substr(0, std::string(test.param).find('/'));
     });
+
+TEST(PublicRobotsTest, EveryPublicDescriptionLoadsAsItIs) {
+  const std::filesystem::path folder = SharedRobot("");
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "shared test data absent: " << folder;
+  int files = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    // One of them names coarse meshes that are not there.
+    if (entry.path().extension() != ".urdf") continue;
+    if (entry.path().filename() == "model_for_sdf.urdf") {
+      EXPECT_THROW(LoadUrdf(entry.path()), ModelError);
+      continue;
+    }
+    ++files;
+    const RobotModel model = LoadUrdf(entry.path());
+    EXPECT_EQ(model.num_positions(), 7) << entry.path();
+    int solids = 0;
+    for (const Link& link : model.links()) solids += static_cast<int>(link.collisions.size());
+    EXPECT_GE(solids, 8) << entry.path();
+  }
+  EXPECT_EQ(files, 4);
+}
 
 }  // namespace
 }  // namespace oca::models::test

@@ -186,5 +186,73 @@ TEST(KinematicsTest, RefusesPositionsThatAreNotFiniteNamingTheJoint) {
   }
 }
 
+TEST(KinematicsTest, LinkVelocitiesAreTheSlopesOfThePoses) {
+  Random random(61);
+  constexpr double kStep = 1e-6;
+  for (int i = 0; i < 100; ++i) {
+    const RobotModel model = RandomRobot(random, 8, i % 2 == 0);
+    const Eigen::VectorXd q = RandomPositions(model, random);
+    const Eigen::VectorXd qdot = RandomPositions(model, random);
+    const auto X_WL = LinkPoses(model, q);
+    const auto later = LinkPoses(model, q + kStep * qdot);
+    const auto earlier = LinkPoses(model, q - kStep * qdot);
+    std::vector<LinkVelocity> velocities(model.num_links());
+    LinkVelocities(model, X_WL, qdot, velocities);
+    for (int link = 0; link < model.num_links(); ++link) {
+      const Eigen::Vector3d linear =
+          (later[link].translation() - earlier[link].translation()) / (2.0 * kStep);
+      // R(t) = exp(w t) R: the skew part of dR/dt R^T is w.
+      const Eigen::Matrix3d W = (later[link].linear() - earlier[link].linear()) / (2.0 * kStep) *
+                                X_WL[link].linear().transpose();
+      const Eigen::Vector3d angular(W(2, 1), W(0, 2), W(1, 0));
+      EXPECT_LT((velocities[link].linear - linear).norm(), 1e-6 * (1.0 + linear.norm()));
+      EXPECT_LT((velocities[link].angular - angular).norm(), 1e-6 * (1.0 + angular.norm()));
+    }
+  }
+}
+
+TEST(KinematicsTest, DistanceRowIsTheLeverOfTheJointsBetweenTwoLinks) {
+  const RobotModel model = Planar3();
+  // Folded into a U: link 3 comes back at y = 0.4, above link 1. Joint 2 at (0.5, 0), joint 3 at
+  // (0.5, 0.4); the points are 0.2 m left of both.
+  const Eigen::Vector3d q(0.0, std::numbers::pi / 2, std::numbers::pi / 2);
+  const auto X_WL = LinkPoses(model, q);
+  const Eigen::Vector3d p_A(0.3, 0.4, 0.0), p_B(0.3, 0.0, 0.0), n(0.0, 1.0, 0.0);
+  Eigen::VectorXd row(3);
+  DistanceRow(model, X_WL, 3, p_A, 1, p_B, n, row);
+  EXPECT_LT((row - Eigen::Vector3d(0.0, -0.2, -0.2)).norm(), 1e-15);
+  DistanceRow(model, X_WL, 1, p_B, 3, p_A, -n, row);
+  EXPECT_LT((row - Eigen::Vector3d(0.0, -0.2, -0.2)).norm(), 1e-15);
+  // The ground does not turn with joint 1.
+  DistanceRow(model, X_WL, 3, p_A, -1, p_B, n, row);
+  EXPECT_LT((row - Eigen::Vector3d(0.3, -0.2, -0.2)).norm(), 1e-15);
+}
+
+// Two points of two links, the line between them as the normal: the slope of their distance.
+TEST(KinematicsTest, DistanceRowIsTheSlopeOfTheDistanceOfTwoPoints) {
+  Random random(62);
+  constexpr double kStep = 1e-6;
+  for (int i = 0; i < 300; ++i) {
+    const RobotModel model = RandomRobot(random, 8, i % 2 == 0);
+    const Eigen::VectorXd q = RandomPositions(model, random);
+    const int a = std::uniform_int_distribution<int>(0, 8)(random);
+    const int b = std::uniform_int_distribution<int>(0, 8)(random);
+    const Eigen::Vector3d p_a = RandomUnitVector(random), p_b = 2.0 * RandomUnitVector(random);
+    const auto distance = [&](const Eigen::VectorXd& at) {
+      const auto X_WL = LinkPoses(model, at);
+      return (X_WL[a] * p_a - X_WL[b] * p_b).norm();
+    };
+    const auto X_WL = LinkPoses(model, q);
+    const Eigen::Vector3d p_A = X_WL[a] * p_a, p_B = X_WL[b] * p_b;
+    Eigen::VectorXd row(model.num_positions());
+    DistanceRow(model, X_WL, a, p_A, b, p_B, (p_A - p_B).normalized(), row);
+    for (int j = 0; j < model.num_positions(); ++j) {
+      const Eigen::VectorXd step = kStep * Eigen::VectorXd::Unit(q.size(), j);
+      const double slope = (distance(q + step) - distance(q - step)) / (2.0 * kStep);
+      EXPECT_NEAR(row[j], slope, 1e-6 * (1.0 + std::abs(slope))) << a << " " << b << " " << j;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace oca::models::test

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "models/geometry/convex_hull.h"
 #include "models/robot/kinematics.h"
 #include "models/robot/urdf.h"
 #include "random_robot.h"
@@ -252,6 +253,101 @@ TEST(DualArmTest, TwoArmsStandSideBySide) {
             1e-15);
   EXPECT_FALSE(model.collision_disabled(model.FindLink("left_lwr4_link_6"),
                                         model.FindLink("right_lwr4_link_6")));
+}
+
+TEST(Lwr4Test, MeshesAreTheSameArmInItsHousings) {
+  const RobotModel plain = Lwr4();
+  LoadOptions options;
+  options.srdf = ProductFile("robots/lwr4/lwr4.srdf");
+  const RobotModel meshes = LoadUrdf(ProductFile("robots/lwr4/lwr4_meshes.urdf"), options);
+  ASSERT_EQ(meshes.num_links(), plain.num_links());
+  Random random(71);
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::VectorXd q = RandomPositions(plain, random);
+    const auto one = LinkPoses(plain, q), two = LinkPoses(meshes, q);
+    for (int link = 0; link < plain.num_links(); ++link) {
+      EXPECT_EQ(one[link].matrix(), two[link].matrix());
+      EXPECT_EQ(meshes.links()[link].name, plain.links()[link].name);
+    }
+  }
+  for (int link = 0; link < 8; ++link) {
+    ASSERT_EQ(meshes.links()[link].collisions.size(), 1u);
+    const auto& mesh = std::get<ConvexMesh>(meshes.links()[link].collisions[0].shape);
+    EXPECT_GT(mesh.hull->vertices.size(), 50u) << link;
+    EXPECT_FALSE(meshes.links()[link].visuals.at(0).mesh_file.empty());
+  }
+}
+
+// Bounds of the housing of each link in its own frame, m: 0.124 m wide, elbows to 0.116 m sideways,
+// each elbow two halves that meet in the plane of the arm.
+TEST(Lwr4Test, ElbowsBulgeSidewaysByHalves) {
+  const RobotModel model = LoadUrdf(ProductFile("robots/lwr4/lwr4_meshes.urdf"));
+  const auto reach = [&](int link, const Eigen::Vector3d& direction) {
+    const CollisionElement& element = model.links()[link].collisions[0];
+    double farthest = -kUnlimited;
+    for (const Eigen::Vector3d& p : std::get<ConvexMesh>(element.shape).hull->vertices) {
+      farthest = std::max(farthest, direction.dot(element.X_LC * p));
+    }
+    return farthest;
+  };
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(),
+                        z = Eigen::Vector3d::UnitZ();
+  const double side[] = {1.0, -1.0, -1.0, 1.0};
+  for (int link = 1; link <= 4; ++link) {
+    EXPECT_NEAR(reach(link, x), 0.062, 1e-6) << link;
+    EXPECT_NEAR(reach(link, -x), 0.062, 1e-6) << link;
+    EXPECT_NEAR(reach(link, side[link - 1] * y), 0.116, 1e-6) << link;
+    EXPECT_NEAR(reach(link, -side[link - 1] * y), 0.061, 1e-6) << link;
+    const bool upright = link % 2 == 1;
+    EXPECT_NEAR(reach(link, z), upright ? 0.261 : 0.191, 1e-6) << link;
+    EXPECT_NEAR(reach(link, -z), upright ? -0.009 : 0.061, 1e-6) << link;
+  }
+}
+
+TEST(Iiwa14Test, LengthsAxesAndLimitsAreThePublishedOnes) {
+  const RobotModel model = Load("robots/iiwa14/iiwa14");
+  ASSERT_EQ(model.num_positions(), 7);
+  const auto X_WL = LinkPoses(model, Eigen::VectorXd::Zero(7));
+  std::vector<JointScrew> screws(model.num_joints());
+  JointScrews(model, X_WL, screws);
+  const Eigen::Vector3d y = Eigen::Vector3d::UnitY(), z = Eigen::Vector3d::UnitZ();
+  const std::vector<Eigen::Vector3d> axes{z, y, z, -y, z, y, z};
+  const double position[] = {170, 120, 170, 120, 170, 120, 175};
+  const double velocity[] = {85, 85, 100, 75, 130, 135, 135};
+  for (int j = 0; j < 7; ++j) {
+    EXPECT_EQ(screws[j].axis_W, axes[j]) << j;
+    EXPECT_NEAR(model.upper_limits()[j], position[j] * kDegree, 1e-15);
+    EXPECT_NEAR(model.velocity_limits()[j], velocity[j] * kDegree, 1e-15);
+  }
+  // Shoulder, elbow, wrist, flange.
+  EXPECT_NEAR(screws[1].origin_W.z(), 0.360, 1e-15);
+  EXPECT_NEAR(screws[3].origin_W.z() - screws[1].origin_W.z(), 0.420, 1e-15);
+  EXPECT_NEAR(screws[5].origin_W.z() - screws[3].origin_W.z(), 0.400, 1e-15);
+  EXPECT_NEAR(X_WL[model.FindLink("iiwa14_flange")].translation().z(), 1.306, 1e-15);
+}
+
+// The frames of Denavit and Hartenberg, multiplied out: Rz(q) Tz(d) Tx(a) Rx(alpha) a joint.
+TEST(Ur5eTest, FlangeIsWhereThePublishedParametersPutIt) {
+  const RobotModel model = Load("robots/ur5e/ur5e");
+  ASSERT_EQ(model.num_positions(), 6);
+  const double right = std::numbers::pi / 2;
+  const double a[] = {0, -0.425, -0.3922, 0, 0, 0};
+  const double d[] = {0.1625, 0, 0, 0.1333, 0.0997, 0.0996};
+  const double alpha[] = {right, 0, 0, right, -right, 0};
+  Random random(72);
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::VectorXd q = RandomPositions(model, random);
+    Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+    for (int j = 0; j < 6; ++j) {
+      X.rotate(Eigen::AngleAxisd(q[j], Eigen::Vector3d::UnitZ()));
+      X.translate(Eigen::Vector3d(a[j], 0.0, d[j]));
+      X.rotate(Eigen::AngleAxisd(alpha[j], Eigen::Vector3d::UnitX()));
+    }
+    const auto X_WL = LinkPoses(model, q);
+    EXPECT_TRUE(X_WL[model.FindLink("ur5e_flange")].isApprox(X, 1e-13));
+  }
+  EXPECT_NEAR(model.upper_limits()[5], 2.0 * std::numbers::pi, 1e-15);
+  EXPECT_NEAR(model.velocity_limits()[0], std::numbers::pi, 1e-15);
 }
 
 }  // namespace

@@ -133,6 +133,10 @@ TEST(UrdfRefusalTest, InertiaThatIsIncompleteOrNegative) {
   EXPECT_NO_THROW(
       ParseUrdf(Link("<inertial><mass value='0'/>" + inertia + "</inertial>"), "good.urdf"));
   ExpectRefused(Link("<inertial><mass value='1'/></inertial>"), "no <inertia>");
+  // No body has one moment above the sum of the other two.
+  const std::string spindle = "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='2.1'/>";
+  ExpectRefused(Link("<inertial><mass value='1'/>" + spindle + "</inertial>"),
+                "above the sum of the other two", "link 'arm'");
   ExpectRefused(Link("<inertial><mass value='1'/><inertia ixx='1'/></inertial>"), "ixy");
 }
 

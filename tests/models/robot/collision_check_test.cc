@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "models/robot/collision_check.h"
+
+#include <gmock/gmock.h>
+
+#include "models/error.h"
+#include "models/robot/srdf.h"
+#include "models/robot/urdf.h"
+#include "random_robot.h"
+
+namespace oca::models::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+// A mast at the origin with a ball at (0, 0, 1); a slide along x that carries a ball at (1, 0, 1)
+// and, beyond a second slide along y, a ball on the x axis at (x1 + 2, y, 1).
+RobotModel Slides(double x_low, double x_high) {
+  std::vector<Link> links(4);
+  const char* names[] = {"mast", "near", "far", "plate"};
+  const double at[] = {0.0, 1.0, 2.0, 1.05};
+  for (int i = 0; i < 4; ++i) {
+    links[i].name = Name(names[i]);
+    CollisionElement ball;
+    ball.X_LC.translation() = Eigen::Vector3d(at[i], 0.0, 1.0);
+    ball.shape = Sphere{0.1};
+    ball.source = names[i];
+    links[i].collisions.push_back(ball);
+  }
+  std::vector<Joint> joints(3);
+  const char* joint_names[] = {"x", "y", "bolt"};
+  const int parents[] = {0, 1, 1};
+  for (int j = 0; j < 3; ++j) {
+    joints[j].name = Name(joint_names[j]);
+    joints[j].type = j < 2 ? JointType::kPrismatic : JointType::kFixed;
+    joints[j].axis = Eigen::Vector3d::Unit(j % 2);
+    joints[j].parent_link = parents[j];
+    joints[j].child_link = j + 1;
+    joints[j].lower_limit = j == 0 ? x_low : -0.5;
+    joints[j].upper_limit = j == 0 ? x_high : 0.5;
+  }
+  return {Name("slides"), std::move(links), std::move(joints)};
+}
+
+TEST(CollisionCheckTest, TellsAdjacentNeverAndSometimesByHand) {
+  const auto pairs = CheckCollisions(Slides(-2.0, 1.0), {.samples = 1000});
+  ASSERT_EQ(pairs.size(), 6u);
+  const auto kind = [&](int a, int b) {
+    for (const auto& pair : pairs) {
+      if (pair.link_a == a && pair.link_b == b) return pair.kind;
+    }
+    return PairKind::kAlways;
+  };
+  EXPECT_EQ(kind(0, 1), PairKind::kAdjacent);
+  EXPECT_EQ(kind(1, 2), PairKind::kAdjacent);
+  EXPECT_EQ(kind(1, 3), PairKind::kAdjacent) << "bolted together";
+  EXPECT_EQ(kind(0, 3), PairKind::kAdjacent) << "one joint between";
+  EXPECT_EQ(kind(0, 2), PairKind::kSometimes);
+  EXPECT_EQ(kind(2, 3), PairKind::kAdjacent);
+}
+
+TEST(CollisionCheckTest, FindsTheLeastDistanceAtTheLimits) {
+  // At x = -1.5 the far ball stands at (0.5, y, 1): 0.5 m from the mast's, less two radii.
+  const auto pairs = CheckCollisions(Slides(-1.5, 1.0), {.samples = 2000});
+  EXPECT_EQ(pairs[1].kind, PairKind::kNever);
+  EXPECT_NEAR(pairs[1].least_distance, 0.3, 1e-3);
+  EXPECT_EQ(pairs[1].collisions, 0);
+}
+
+TEST(CollisionCheckTest, AMarginAboveTheLeastDistanceKeepsAPairChecked) {
+  const double least = CheckCollisions(Slides(-1.5, 1.0), {.samples = 500})[1].least_distance;
+  const auto kind = [&](double margin) {
+    return CheckCollisions(Slides(-1.5, 1.0), {.samples = 500, .margin = margin})[1].kind;
+  };
+  EXPECT_EQ(kind(least - 1e-9), PairKind::kNever);
+  EXPECT_EQ(kind(least), PairKind::kSometimes);
+}
+
+TEST(CollisionCheckTest, SolidsThatNeverPartAreAlwaysInCollision) {
+  auto model = Slides(-2.001, -1.999);
+  std::vector<Joint> joints = model.joints();
+  joints[1].lower_limit = -0.01;
+  joints[1].upper_limit = 0.01;
+  model = RobotModel(Name("stuck"), model.links(), joints);
+  const auto pairs = CheckCollisions(model, {.samples = 100});
+  EXPECT_EQ(pairs[1].kind, PairKind::kAlways);
+  EXPECT_EQ(pairs[1].collisions, 100);
+}
+
+TEST(CollisionCheckTest, ASeedGivesTheSameAnswerTwiceAndAnotherSeedAnotherOne) {
+  const RobotModel model = LoadUrdf(ProductFile("robots/lwr4/lwr4.urdf"));
+  const auto least = [&](std::uint64_t seed) {
+    std::vector<double> distances;
+    for (const auto& pair : CheckCollisions(model, {.samples = 50, .seed = seed})) {
+      distances.push_back(pair.least_distance);
+    }
+    return distances;
+  };
+  EXPECT_EQ(least(7), least(7));
+  EXPECT_NE(least(7), least(8));
+}
+
+// What stands in the product's files is what the sampling finds.
+class ProductSrdfTest : public testing::TestWithParam<const char*> {};
+
+TEST_P(ProductSrdfTest, IsWhatSamplingFinds) {
+  LoadOptions options;
+  const std::string path = std::string("robots/") + GetParam();
+  options.srdf = ProductFile(path + ".srdf");
+  const RobotModel model = LoadUrdf(ProductFile(path + ".urdf"), options);
+  for (const auto& pair : CheckCollisions(model, {.samples = 3000, .seed = 99})) {
+    // The one pair that a person disabled: see the file.
+    if (model.links()[pair.link_b].name == Name("iiwa14_link_7") && pair.link_a == 5) continue;
+    const bool disabled = model.collision_disabled(pair.link_a, pair.link_b);
+    const std::string names =
+        model.links()[pair.link_a].name.text() + " " + model.links()[pair.link_b].name.text();
+    // A pair that never met here may have met in the many samples that the file was made from.
+    const bool may_skip = pair.kind != PairKind::kSometimes;
+    EXPECT_TRUE(!disabled || may_skip) << names;
+    EXPECT_TRUE(disabled || pair.kind == PairKind::kSometimes || pair.kind == PairKind::kNever)
+        << names;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Robots, ProductSrdfTest,
+                         testing::Values("iiwa14/iiwa14", "lwr4/lwr4", "lwr4_dual/lwr4_dual",
+                                         "planar2/planar2", "planar3/planar3", "ur5e/ur5e"),
+                         [](const auto& test) {
+                           const std::string name = test.param;
+                           return name.substr(name.find('/') + 1);
+                         });
+
+TEST(CollisionCheckTest, RefusesWhatCannotBeSampled) {
+  EXPECT_THAT([] { CheckCollisions(Slides(-1, 1), {.samples = 0}); },
+              ThrowsMessage<ModelError>(HasSubstr("samples")));
+  EXPECT_THAT([] { CheckCollisions(Slides(-1, 1), {.margin = -0.01}); },
+              ThrowsMessage<ModelError>(HasSubstr("margin")));
+  EXPECT_THAT([] { CheckCollisions(Slides(-1, kUnlimited), {}); },
+              ThrowsMessage<ModelError>(HasSubstr("joint 'x': limits")));
+}
+
+}  // namespace
+}  // namespace oca::models::test
