@@ -26,3 +26,5 @@ list(APPEND sources
   robot/xml_file.cc
   robot/xml_numbers.cc
   robot/xml_reader.cc)
+list(APPEND headers robot/travel_bound.h)
+list(APPEND sources robot/travel_bound.cc)

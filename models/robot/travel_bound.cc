@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "models/robot/travel_bound.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "models/geometry/collider.h"
+
+namespace oca::models {
+
+TravelBound::TravelBound(const RobotModel& model) : model_(&model) {
+  for (int link = 0; link < model.num_links(); ++link) {
+    for (const CollisionElement& element : model.links()[link].collisions) {
+      const Collider collider(element.shape, element.source);
+      balls_.push_back({link, element.X_LC * collider.centre(), collider.bounding_radius()});
+    }
+  }
+}
+
+void TravelBound::Calc(std::span<const Eigen::Isometry3d> X_WL,
+                       const Eigen::Ref<const Eigen::VectorXd>& path,
+                       std::span<double> travel) const {
+  assert(std::ssize(X_WL) == model_->num_links());
+  assert(std::ssize(travel) == model_->num_links());
+  assert(path.size() == model_->num_positions());
+  std::fill(travel.begin(), travel.end(), 0.0);
+  for (const LinkBall& ball : balls_) {
+    const Eigen::Vector3d centre = X_WL[static_cast<std::size_t>(ball.link)] * ball.centre;
+    double sum = 0.0;
+    for (int link = ball.link; link > 0;) {
+      const KinematicStep& step = model_->steps()[static_cast<std::size_t>(link - 1)];
+      if (step.column >= 0) {
+        const double moved = std::abs(step.multiplier) * path[step.column];
+        if (step.type == JointType::kPrismatic) {
+          sum += moved;
+        } else {
+          const Eigen::Isometry3d& X = X_WL[static_cast<std::size_t>(link)];
+          const Eigen::Vector3d axis = X.linear() * step.axis;
+          const double arm = axis.cross(centre - X.translation()).norm() + ball.radius;
+          sum += moved * (arm + sum);
+        }
+      }
+      link = step.parent_link;
+    }
+    double& most = travel[static_cast<std::size_t>(ball.link)];
+    most = std::max(most, sum);
+  }
+}
+
+double LeastDistanceBetween(double before, double after, double travel) {
+  return std::min({before, after, 0.5 * (before + after - travel)});
+}
+
+}  // namespace oca::models

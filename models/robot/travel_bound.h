@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <span>
+#include <vector>
+
+#include "models/robot/robot_model.h"
+
+namespace oca::models {
+
+/// Bounds how far the solids of a robot's links travel while its joints move.
+///
+/// No point of a solid travels farther than
+///
+///     E(L) = E_0,   E_{k-1} = E_k + |path_k| (a_k + E_k)   for a revolute joint k,
+///                   E_{k-1} = E_k + |path_k|               for a prismatic one,
+///
+/// from the joint that carries link L, where E = 0, to the root. path_k is the path that joint k
+/// goes (rad, m; |q1 - q0| if it does not turn round), and a_k the largest distance of the link's
+/// solids from the joint's axis at the start. For the distance of a point to axis k changes only by
+/// what the joints beyond k do, which is at most E_k; what the joint itself turns is added to it.
+/// The bound holds for any order and any timing of the joints' motions.
+class TravelBound {
+ public:
+  explicit TravelBound(const RobotModel& model);
+
+  /// `X_WL` poses at the start, `path` one entry a position (>= 0), `travel` one a link, m; 0 for a
+  /// link without solids. No heap.
+  void Calc(std::span<const Eigen::Isometry3d> X_WL, const Eigen::Ref<const Eigen::VectorXd>& path,
+            std::span<double> travel) const;
+
+ private:
+  struct LinkBall {
+    int link;
+    Eigen::Vector3d centre;  // in the link's frame
+    double radius;
+  };
+  const RobotModel* model_;
+  std::vector<LinkBall> balls_;
+};
+
+/// Least distance that two bodies can have had between two instants at which it was `before` and
+/// `after`, if their points moved by no more than `travel` relative to each other (all m):
+///
+///     min over s of max(before - s, after - (travel - s)) = (before + after - travel) / 2
+///
+/// and not above either of the two. It is exact for bodies that approach head-on.
+double LeastDistanceBetween(double before, double after, double travel);
+
+}  // namespace oca::models
