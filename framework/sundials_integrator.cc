@@ -202,8 +202,6 @@ class ErkIntegrator final : public SundialsIntegrator {
     if (std::isfinite(options.max_step)) {
       CheckFlag(ERKStepSetMaxStep(memory_, options.max_step), "ERKStepSetMaxStep");
     }
-    CheckFlag(ERKStepSetAdaptivityMethod(memory_, ARK_ADAPT_I, 1, 0, nullptr),
-              "ERKStepSetAdaptivityMethod");
     // Every step ends with an interpolation at its end, which a straight line gives as exactly.
     if (plan.witnesses.empty()) {
       CheckFlag(ERKStepSetInterpolantDegree(memory_, 1), "ERKStepSetInterpolantDegree");
@@ -218,6 +216,10 @@ class ErkIntegrator final : public SundialsIntegrator {
     // step is the one that the Context keeps, and the controller looks at no earlier errors.
     const double step = jumped ? 0.0 : plan_.integrator_step(context);
     plan_.integrator_step(context) = step;
+    // A long integration has the controller that SUNDIALS prefers, which looks at two errors.
+    const int controller = step == 0.0 ? ARK_ADAPT_PI : ARK_ADAPT_I;
+    CheckFlag(ERKStepSetAdaptivityMethod(memory_, controller, 1, 0, nullptr),
+              "ERKStepSetAdaptivityMethod");
     if (step == 0.0) {
       CheckFlag(ERKStepReInit(memory_, RightHandSide, context.time(), y_), "ERKStepReInit");
       counted_ = {};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The product's own blocks, wired to plants whose answer is known to 15 digits.
+// The product's own blocks, wired to plants whose answer is known to 15 digits. problems_test.cc
+// holds their errors against those of SUNDIALS itself.
 #include "tests/verification/plants.h"
 
 #include <gtest/gtest.h>
@@ -55,17 +56,6 @@ INSTANTIATE_TEST_SUITE_P(
                      testing::Values(IntegratorKind::kErkDp5, IntegratorKind::kErkBs3,
                                      IntegratorKind::kCvodeAdams, IntegratorKind::kCvodeBdf)),
     NameOf);
-
-// Bounds: ERKStep with Dormand-Prince reaches 1e-7 at 1e-6 and 1e-10 at 1e-9, and may err five
-// times as much. The others control the error of a step, which adds up over many steps.
-TEST_P(AdaptivePlantTest, ErrsNoMoreThanItsToleranceAllows) {
-  const double factor = kind() == IntegratorKind::kErkDp5 ? 0.5 : 50.0;
-  for (const double tolerance : {1e-6, 1e-9}) {
-    EXPECT_LT(ErrorOf(plant(), WithTolerance(kind(), tolerance)),
-              std::max(factor * tolerance, kRounding))
-        << tolerance;
-  }
-}
 
 TEST_P(AdaptivePlantTest, ErrorFollowsTheTolerance) {
   const double loose = ErrorOf(plant(), WithTolerance(kind(), 1e-4));
