@@ -123,8 +123,9 @@ inline bool AllFinite(const double* values, std::size_t n) {
     std::memcpy(&bits, values + i, sizeof bits);
     carry |= (bits & kExponent) + kOne;
   }
-  if (i < n) carry[0] |= (std::bit_cast<std::uint64_t>(values[i]) & kExponent) + kOne;
-  return ((carry[0] | carry[1]) >> 63) == 0;
+  std::uint64_t last = 0;
+  if (i < n) last = (std::bit_cast<std::uint64_t>(values[i]) & kExponent) + kOne;
+  return ((carry[0] | carry[1] | last) >> 63) == 0;
 }
 
 /// A vector as a JSON array of shortest round-trip numbers; null stands for NaN and infinity.

@@ -22,6 +22,7 @@
 
 #include "framework/error.h"
 #include "framework/plan.h"
+#include "framework/stiffness.h"
 #include "framework/sundials_vector.h"
 
 namespace oca {
@@ -34,7 +35,8 @@ class SundialsIntegrator : public Integrator {
       : plan_(plan),
         relative_(plan.continuous_size, options.relative_tolerance),
         absolute_(plan.continuous_size, options.absolute_tolerance),
-        state_(plan.continuous_size) {
+        state_(plan.continuous_size),
+        max_steps_(options.max_steps) {
     SetTolerances(options);
 #if SUNDIALS_VERSION_MAJOR >= 7
     SUNContext_Create(SUN_COMM_NULL, &sundials_);
@@ -139,17 +141,47 @@ class SundialsIntegrator : public Integrator {
   void Check(int flag, const char* call, const char* name) {
     if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
     if (flag >= 0) return;
-    throw SimulationError("simulator", "", context_ == nullptr ? 0.0 : context_->time(),
-                          fmt::format("{} failed with {}{}", call, name,
-                                      std::string_view(name).ends_with("TOO_MUCH_WORK")
-                                          ? "; it took more than max_steps to the next event (a "
-                                            "stiff system wants cvode_bdf)"
-                                          : ""));
+    const double time = context_ == nullptr ? 0.0 : context_->time();
+    throw SimulationError("simulator", "", time,
+                          std::string_view(name).ends_with("TOO_MUCH_WORK")
+                              ? TooManySteps(time)
+                              : fmt::format("{} failed with {}", call, name));
+  }
+
+  /// Of the last step, s.
+  virtual double LastStep() const = 0;
+  /// Largest step times fastest rate that accuracy alone asks for; above it the step is held by
+  /// stability.
+  virtual double LargestReach() const = 0;
+
+  /// Says whether it is the system that is stiff or the limit that is low.
+  std::string TooManySteps(double time) {
+    const double step = LastStep();
+    const double rate = internal::FastestRate(state_, [&](const double* x, double* derivative) {
+      try {
+        plan_.SetTimeAndState(*context_, time, x);
+        plan_.EvaluateDerivatives(*context_, derivative);
+        return true;
+      } catch (const std::exception&) {
+        return false;
+      }
+    });
+    if (step * rate > LargestReach()) {
+      return fmt::format(
+          "stiff system; got a fastest rate of {:.3g} 1/s, which holds the steps to {:.3g} s, and "
+          "no event within max_steps = {}; expected the integrator cvode_bdf",
+          rate, step, max_steps_);
+    }
+    return fmt::format(
+        "steps to the next event; got more than max_steps = {}, of late {:.3g} s long; expected a "
+        "larger max_steps or looser tolerances",
+        max_steps_, step);
   }
 
   const Plan& plan_;
   std::vector<double> relative_, absolute_;
   std::vector<double> state_;  // y_ lies over it
+  const int max_steps_;        // between two events
   SUNContext sundials_{nullptr};
   N_Vector y_{nullptr};
   N_Vector between_{nullptr};  // for interpolation; lies over what the caller gives
@@ -218,8 +250,11 @@ class ErkIntegrator final : public SundialsIntegrator {
     plan_.integrator_step(context) = step;
     // A long integration has the controller that SUNDIALS prefers, which looks at two errors.
     const int controller = step == 0.0 ? ARK_ADAPT_PI : ARK_ADAPT_I;
-    CheckFlag(ERKStepSetAdaptivityMethod(memory_, controller, 1, 0, nullptr),
-              "ERKStepSetAdaptivityMethod");
+    if (controller != controller_) {
+      CheckFlag(ERKStepSetAdaptivityMethod(memory_, controller, 1, 0, nullptr),
+                "ERKStepSetAdaptivityMethod");
+      controller_ = controller;
+    }
     if (step == 0.0) {
       CheckFlag(ERKStepReInit(memory_, RightHandSide, context.time(), y_), "ERKStepReInit");
       counted_ = {};
@@ -248,6 +283,13 @@ class ErkIntegrator final : public SundialsIntegrator {
     ERKStepGetNumRhsEvals(memory_, &counters.derivative_calls);
     return counters;
   }
+  double LastStep() const override {
+    double step = 0.0;
+    ERKStepGetLastStep(memory_, &step);
+    return step;
+  }
+  // The methods are stable on the negative axis to 3.3 (Dormand-Prince) and 2.5 (Bogacki-Shampine).
+  double LargestReach() const override { return 2.0; }
 
  private:
   void Evolve(Context& context, double to, int mode) {
@@ -281,6 +323,7 @@ class ErkIntegrator final : public SundialsIntegrator {
   }
 
   void* memory_{nullptr};
+  int controller_{-1};
 };
 
 /// CVODE: Adams with fixed-point iteration, or BDF with Newton and a dense Jacobian.
@@ -342,6 +385,15 @@ class CvodeIntegrator final : public SundialsIntegrator {
     CVodeGetNumErrTestFails(memory_, &counters.rejected);
     CVodeGetNumRhsEvals(memory_, &counters.derivative_calls);
     return counters;
+  }
+  double LastStep() const override {
+    double step = 0.0;
+    CVodeGetLastStep(memory_, &step);
+    return step;
+  }
+  // Fixed-point iteration of Adams' formulas converges up to about one.
+  double LargestReach() const override {
+    return iteration_ != nullptr ? 0.5 : std::numeric_limits<double>::infinity();
   }
 
  private:
