@@ -1,0 +1,138 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Builds oca_bench as users do (release, -O2) and for this very processor (bench, -O3), runs both
+# and prints one table. Usage: tools/bench.sh [--quick] [REGEX]
+#   --quick  one short repetition of each row, no instruction counts
+#   REGEX    of rows, such as ^engine/d14; all without it
+# A time is the least of five repetitions, in ns of CPU an iteration (a block where the goal says
+# so; of the clock in rows with threads). A floor is the row's bare arithmetic, measured in the same
+# process as the release column; the ratio is release to floor.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+quick=false
+[ "${1:-}" = --quick ] && quick=true && shift
+filter=${1:-.}
+
+tools/setup.sh bench oca_bench
+cmake --preset release -DOCA_BENCHMARKS=ON >/dev/null
+tools/setup.sh release oca_bench
+
+work=$(mktemp -d)
+trap 'rm -r "$work"' EXIT
+goals=tools/bench/goals.csv
+
+run() { # BUILD -> $work/BUILD: name, ns, allocations, failed
+  local effort=(--benchmark_repetitions=5 --benchmark_min_time=0.1)
+  $quick && effort=(--benchmark_repetitions=1 --benchmark_min_time=0.02)
+  "build/$1/tools/bench/oca_bench" --benchmark_filter="$filter" "${effort[@]}" \
+    --benchmark_format=json 2>/dev/null >"$work/$1.json" || true
+  awk -F'": ' -v OFS=';' '
+    function number(text) { sub(/,$/, "", text); return text + 0 }
+    function finish(  time) {
+      if (name != "" && kind == "iteration") {
+        if (!(name in best)) order[++count] = name
+        time = name ~ /real_time/ ? real : cpu
+        if (unit == "us") time *= 1e3
+        if (unit == "ms") time *= 1e6
+        if (unit == "s") time *= 1e9
+        if (blocks != "") time = blocks
+        if (!(name in best) || time < best[name]) best[name] = time
+        heap[name] = allocations; bad[name] += failed
+      }
+      name = allocations = blocks = ""; failed = 0
+    }
+    /^    \{/ { finish() }
+    /^      "name"/ { name = $2; gsub(/[",]/, "", name) }
+    /^      "run_type"/ { kind = $2; gsub(/[",]/, "", kind) }
+    /^      "cpu_time"/ { cpu = number($2) }
+    /^      "real_time"/ { real = number($2) }
+    /^      "time_unit"/ { unit = $2; gsub(/[",]/, "", unit) }
+    /^      "allocations"/ { allocations = number($2) }
+    /^      "ns_per_block"/ { blocks = number($2) }
+    /^      "error_occurred": true/ { failed = 1 }
+    END { finish(); for (i = 1; i <= count; ++i) { n = order[i]; print n, best[n], heap[n], bad[n] } }
+  ' "$work/$1.json" >"$work/$1"
+}
+
+instructions() { # ROW -> instructions an iteration, in the release build
+  valgrind --tool=callgrind --callgrind-out-file="$work/callgrind" \
+    build/release/tools/bench/oca_bench --benchmark_filter="^$1\$" --benchmark_min_time=0.05 \
+    >/dev/null 2>&1 || return 0
+  local last
+  last=$(find "$work" -name 'callgrind.*' | sort -t. -k2n | tail -1)
+  [ -n "$last" ] || return 0
+  awk '/^desc: Trigger: Client Request:/ { iterations = $NF } /^(totals|summary):/ { total = $2 }
+       END { if (iterations > 0) printf "%.0f", total / iterations }' "$last"
+  rm -f "$work"/callgrind*
+}
+
+compile() { # FLAGS... HEADERS -> the CPU time of compiling only these headers, ns
+  local source=$work/only.cc best='' time header
+  : >"$source"
+  for header in ${*: -1}; do echo "#include $header" >>"$source"; done
+  for _ in 1 2 3; do
+    time=$( { TIMEFORMAT='%U %S'; time c++ -std=c++20 "${@:1:$#-1}" -I. -isystem "$eigen" \
+      -c "$source" -o "$work/only.o"; } 2>&1 | awk '{ printf "%.0f", ($1 + $2) * 1e9 }')
+    if [ -z "$best" ] || [ "$time" -lt "$best" ]; then best=$time; fi
+  done
+  echo "$best"
+}
+
+run release
+run bench
+: >"$work/counts"
+missing=
+if ! $quick; then
+  if command -v valgrind >/dev/null; then
+    while IFS=';' read -r row _ _ counted; do
+      [ "$counted" = i ] && grep -q "^$row;" "$work/release" || continue
+      echo "$row;$(instructions "$row")" >>"$work/counts"
+    done <"$goals"
+  else
+    missing="Instructions were not counted: valgrind is not installed."
+  fi
+fi
+if [[ engine/compile =~ $filter ]]; then
+  eigen=$(pkg-config --variable=prefix eigen3)/include/eigen3
+  product='"framework/diagram.h" "framework/simulator.h"'
+  echo "engine/compile;$(compile -O2 "$product");;0" >>"$work/release"
+  echo "engine/compile/floor;$(compile -O2 '<Eigen/Core> <memory> <string> <vector>');;0" \
+    >>"$work/release"
+  echo "engine/compile;$(compile -O3 -march=native "$product");;0" >>"$work/bench"
+fi
+
+echo "$(date +%F), $(awk -F': ' '/^model name/ { print $2; exit }' /proc/cpuinfo), $(nproc) cores, \
+load $(cut -d' ' -f1 /proc/loadavg), $(c++ --version | head -1)"
+echo
+awk -F';' '
+  function show(ns) {
+    if (ns == "") return "-"
+    if (ns >= 1e8) return sprintf("%.2f s", ns / 1e9)
+    if (ns >= 1e6) return sprintf("%.2f ms", ns / 1e6)
+    if (ns >= 1e5) return sprintf("%.0f us", ns / 1e3)
+    return sprintf(ns < 100 ? "%.1f" : "%.0f", ns)
+  }
+  function or_dash(text) { return text == "" ? "-" : text }
+  FILENAME ~ /goals.csv$/ { goal[$1] = $2; drake[$1] = $3; next }
+  FILENAME ~ /bench$/ { bench[$1] = $2; next }
+  FILENAME ~ /counts$/ { count[$1] = $2; next }
+  { if (!($1 in release)) order[++rows] = $1; release[$1] = $2; heap[$1] = $3; bad[$1] = $4 }
+  END {
+    line = "| %-44s | %-18s | %-20s | %8s | %8s | %8s | %5s | %11s | %12s |\n"
+    printf line, "row", "goal", "Drake v1.40", "release", "bench", "floor", "ratio", "allocations",
+           "instructions"
+    printf line, "---", "---", "---", "--:", "--:", "--:", "--:", "--:", "--:"
+    for (i = 1; i <= rows; ++i) {
+      row = order[i]
+      if (row ~ /\/floor$/) continue
+      floor = release[row "/floor"]
+      if (floor == "") { parent = row; sub(/\/[^\/]*$/, "", parent); floor = release[parent "/floor"] }
+      printf line, row, or_dash(goal[row]), or_dash(drake[row]),
+             (bad[row] ? "failed" : show(release[row])), show(bench[row]), show(floor),
+             ((floor > 0) ? sprintf("%.1f", release[row] / floor) : "-"),
+             (heap[row] == "" ? "-" : sprintf("%.3g", (heap[row] < 1e-3) ? 0 : heap[row])),
+             or_dash(count[row])
+    }
+  }
+' "$goals" "$work/bench" "$work/counts" "$work/release"
+[ -z "$missing" ] || { echo; echo "$missing"; }
