@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <iosfwd>
 #include <optional>
 #include <string>
@@ -40,6 +41,17 @@ struct GraphArguments {
   std::vector<std::string> overrides;
 };
 int GraphCommand(const GraphArguments& arguments);
+
+struct CheckCollisionsArguments {
+  std::string urdf;
+  std::string write_srdf;  ///< empty: print only
+  int samples{10000};
+  std::uint64_t seed{0};
+  double margin{0.02};  ///< m
+  bool json{false};
+};
+/// Which pairs of links of a robot need no check for collision, for its SRDF.
+int CheckCollisionsCommand(const CheckCollisionsArguments& arguments);
 
 int ListCommand();
 int DescribeCommand(const std::string& type);

@@ -24,6 +24,7 @@ class CommandLine {
     app_.set_version_flag("--version", "simulator (OCA) " OCA_VERSION);
     AddRun();
     AddOthers();
+    AddRobot();
   }
 
   int Main(int argc, char** argv) {
@@ -114,6 +115,25 @@ class CommandLine {
         [this] { command_ = [this] { return EvalCommand(eval_, std::cin, std::cout); }; });
   }
 
+  void AddRobot() {
+    CLI::App* const robot = app_.add_subcommand("robot", "look at a robot's description");
+    robot->require_subcommand(1);
+    CLI::App* const check = robot->add_subcommand(
+        "check-collisions", "find the pairs of links that need no check for collision");
+    check->add_option("URDF", collisions_.urdf, "path or package://NAME/PATH")->required();
+    check->add_option("--write-srdf", collisions_.write_srdf,
+                      "file to write the pairs to; what else it holds is kept");
+    check->add_option("--samples", collisions_.samples, "random positions to look at")
+        ->capture_default_str();
+    check->add_option("--seed", collisions_.seed, "of the random positions")->capture_default_str();
+    check
+        ->add_option("--margin", collisions_.margin,
+                     "m; a pair that comes nearer counts as one that may collide")
+        ->capture_default_str();
+    check->add_flag("--json", collisions_.json, "print one JSON object instead of the table");
+    check->callback([this] { command_ = [this] { return CheckCollisionsCommand(collisions_); }; });
+  }
+
   /// CLI11 says little of misspelt words; name the nearest ones.
   int Usage(const CLI::ParseError& error, int argc, char** argv) {
     std::vector<std::string> commands;
@@ -122,7 +142,10 @@ class CommandLine {
     }
     const std::string first = argc > 1 ? argv[1] : "";
     std::string what = error.what();
-    if (std::find(commands.begin(), commands.end(), first) != commands.end()) {
+    if (first == "robot") {
+      what = ExplainOption(*app_.get_subcommand(first)->get_subcommand("check-collisions"), what,
+                           argc, argv);
+    } else if (std::find(commands.begin(), commands.end(), first) != commands.end()) {
       what = ExplainOption(*app_.get_subcommand(first), what, argc, argv);
     } else if (argc > 1 && !first.starts_with("-")) {
       what = fmt::format("unknown command '{}'{}", first, DidYouMean(first, commands));
@@ -156,6 +179,7 @@ class CommandLine {
   std::vector<std::string> check_files_;
   GraphArguments graph_;
   std::string described_;
+  CheckCollisionsArguments collisions_;
   EvalArguments eval_;
 };
 

@@ -444,5 +444,42 @@ TEST_F(LoaderTest, AListWithAnItemThatDoesNotExistIsNotMistakenForZero) {
   EXPECT_THAT(Refusal(Chain("value: [1, 2]", "value: [.nan, 2]")), HasSubstr("got '.nan'"));
 }
 
+TEST_F(LoaderTest, AnAttachedObjectBecomesALinkThatMovesWithItsCarrier) {
+  const LoadedDiagram loaded = Load(
+      "models:\n"
+      "  arm:\n"
+      "    urdf: package://planar2/planar2.urdf\n"
+      "    attached:\n"
+      "      - {id: cup, link: planar2_tip, shape: {type: sphere, radius: 0.05},\n"
+      "         pose: {xyz: [0.1, 0, 0]}}\n" +
+      Chain());
+  const auto arm = loaded.models.Get("arm");
+  EXPECT_EQ(arm->num_positions(), 2);
+  const models::Link& cup = arm->links()[arm->FindLink("cup")];
+  EXPECT_EQ(cup.collisions.size(), 1u);
+  const models::Joint& joint = arm->joints()[cup.parent_joint];
+  EXPECT_EQ(joint.parent_link, arm->FindLink("planar2_tip"));
+  EXPECT_EQ(joint.X_PJ.translation(), Eigen::Vector3d(0.1, 0.0, 0.0));
+}
+
+TEST_F(LoaderTest, AttachedObjectsThatCannotBeAreRefused) {
+  const auto with = [&](const std::string& object) {
+    return Refusal("models: {arm: {urdf: package://planar2/planar2.urdf, attached: [" + object +
+                   "]}}\n" + Chain());
+  };
+  const std::string ball = "shape: {type: sphere, radius: 0.05}";
+  EXPECT_EQ(with("{id: cup, link: planar2_tip, " + ball + "}"), "");
+  EXPECT_THAT(with("{id: cup, link: planar2_tpi, " + ball + "}"),
+              AllOf(HasSubstr("models.arm"), HasSubstr("nearest is 'planar2_tip'")));
+  EXPECT_THAT(with("{id: planar2_tip, link: planar2_tip, " + ball + "}"), HasSubstr("taken"));
+  EXPECT_THAT(with("{id: cup, " + ball + "}"), HasSubstr("models.arm.attached[0].link"));
+  EXPECT_THAT(with("{id: cup, link: planar2_tip, shape: {type: sphere, radius: 0}}"),
+              HasSubstr("models.arm.attached[0].shape.radius"));
+  EXPECT_THAT(with("{id: cup, link: planar2_tip, shape: {type: box}}"),
+              HasSubstr("models.arm.attached[0].shape.size"));
+  EXPECT_THAT(with("{id: cup, link: planar2_tip, touchs: [], " + ball + "}"),
+              HasSubstr("did you mean 'touches'?"));
+}
+
 }  // namespace
 }  // namespace oca::diagrams

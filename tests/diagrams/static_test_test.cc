@@ -116,12 +116,41 @@ TEST(StaticTest, TwoRunsGiveTheSameBits) {
   EXPECT_NE(Outcome(kAsItIs).text, Outcome({kTranspose}).text);
 }
 
+// The housings fill about what the capsules fill.
+TEST(StaticTest, TheArmOfMeshesGoesThroughTheBoxAndEvadesItAlike) {
+  const Override meshes{"parameters.arm_meshes", "true"};
+  const Outcome through({meshes, kNoAvoidance});
+  EXPECT_NEAR(through["min_distance"], -0.130, 0.005);
+  const Outcome clear({meshes});
+  EXPECT_NEAR(clear["min_distance"], 0.268, 0.01);
+  EXPECT_LT(clear["final_error"], 1e-3);
+}
+
+// Listing A.1's switch: the frame of the static test pushes, and within its reach of 0.3 m for
+// ever.
+TEST(StaticTest, LinkForcesOfTheFrameAreFeltWhereTheyAreSwitchedOn) {
+  const Outcome outcome({{"parameters.calculate_link_forces", "true"}});
+  EXPECT_EQ(outcome.metrics.at("min_distance_pair").at(1), "frame/table");
+  EXPECT_IN(outcome["final_error"], 0.1, 0.25);
+}
+
+// Without the box in its gripper the requested motion is clear; with it, only if the arm evades.
+TEST(GraspedBoxTest, TheBoxCollidesWhereTheArmAloneWouldNotAndEvadesWithIt) {
+  const Override empty_hand{"models.arm.attached", "[]"};
+  EXPECT_IN(Outcome({kNoAvoidance, empty_hand}, "grasped_box")["min_distance"], 0.005, 0.03);
+  const Outcome carried({kNoAvoidance}, "grasped_box");
+  EXPECT_NEAR(carried["min_distance"], -0.048, 0.005);
+  EXPECT_EQ(carried.metrics.at("min_distance_pair").at(0), "grasped_box");
+  EXPECT_EQ(Outcome(kAsItIs, "grasped_box")["contact_time"], 0.0);
+}
+
 TEST(StaticTest, RunsWithoutTheHeapFromInitializeToTheGoal) {
   if (!kCountsAllocations) GTEST_SKIP() << "malloc is not ours to count here";
   const std::int64_t made = AllocationCount();
   ::operator delete(::operator new(64));
   ASSERT_EQ(AllocationCount(), made + 1);
-  for (const char* file : {"static_test", "dynamic_test", "link_forces_test"}) {
+  for (const char* file :
+       {"static_test", "dynamic_test", "link_forces_test", "dual_arm", "grasped_box"}) {
     const LoadedDiagram loaded =
         LoadDiagram(OCA_SOURCE_DIR "/diagrams/" + std::string(file) + ".yaml");
     Simulator simulator(*loaded.diagram, loaded.integrator);

@@ -295,7 +295,7 @@ TEST(BulletDistanceTest, SeesTheArmItselfIfAskedTo) {
 TEST(BulletDistanceTest, AForceBetweenTwoLinksOfTheArmPushesBoth) {
   const ModelSet models = TestModels("planar3");
   const auto model = models.Get("planar3");
-  const LinkPoses links = LinksAt(*model, Vector3d(0.7, 1.5, 1.5));
+  const LinkPoses links = LinksAt(*model, Vector3d(0.7, 1.5, 1.9));
   SystemBench<BulletDistance> bench(
       Params{.model = "planar3", .max_distance = 1.0, .self_collision = true}, models);
   bench->links.Fix(bench.context(), links);

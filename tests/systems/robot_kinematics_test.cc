@@ -60,12 +60,20 @@ TEST(RobotKinematicsTest, RefusesAPositionOfAnotherLength) {
 }
 
 TEST(RobotKinematicsTest, KnowsTheVelocitiesOfItsLinksIfThoseOfTheJointsComeIn) {
-  SystemBench<RobotKinematics> bench(RobotKinematics::Params{}, TestModels("planar2"));
-  bench->position.Fix(bench.context(), Eigen::Vector2d::Zero());
-  EXPECT_TRUE(bench->links.Eval(bench.context()).velocities.empty());
-  Context moving = bench.context();
-  bench.diagram().GetInput<Vector>("velocity").Fix(moving, Eigen::Vector2d(2.0, -1.0));
-  const LinkPoses& links = bench->links.Eval(moving);
+  SystemBench<RobotKinematics> still(RobotKinematics::Params{}, TestModels("planar2"));
+  still->position.Fix(still.context(), Eigen::Vector2d::Zero());
+  EXPECT_TRUE(still->links.Eval(still.context()).velocities.empty());
+
+  DiagramBuilder builder;
+  const auto& kinematics =
+      builder.Add<RobotKinematics>("kinematics", RobotKinematics::Params{}, TestModels("planar2"));
+  builder.ExportInput("position", kinematics.position);
+  builder.ExportInput("velocity", kinematics.velocity);
+  const auto diagram = builder.Build();
+  Context context = diagram->MakeContext();
+  diagram->GetInput<Vector>("position").Fix(context, Eigen::Vector2d::Zero());
+  diagram->GetInput<Vector>("velocity").Fix(context, Eigen::Vector2d(2.0, -1.0));
+  const LinkPoses& links = kinematics.links.Eval(context);
   ASSERT_EQ(links.velocities.size(), links.size());
   const int tip = links.Find(models::Name("planar2_tip"));
   // Joint 1 moves the elbow at 2 rad/s * 0.5 m; from there on 1 rad/s is left.

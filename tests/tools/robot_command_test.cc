@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `simulator robot check-collisions`, as a user meets it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/program.h"
+
+namespace oca::tools {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+class RobotCommandTest : public testing::Test {
+ protected:
+  std::string Out() const { return (run.folder().path() / "new.srdf").string(); }
+  const std::string check_{"$S robot check-collisions package://lwr4/lwr4.urdf --samples 2000 "};
+  Program run;
+};
+
+TEST_F(RobotCommandTest, PrintsEveryPairOfLinksWithItsKind) {
+  const Ran ran = run(check_);
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("lwr4: 28 pairs of links with solids, 2000 samples, seed 0"));
+  EXPECT_THAT(ran.out, HasSubstr("to check: 5; not: 7 adjacent, 1 always, 15 never in collision"));
+}
+
+TEST_F(RobotCommandTest, WritesAnSrdfThatADiagramMayUseAndNothingUnasked) {
+  EXPECT_EQ(run(check_).status, 0);
+  EXPECT_FALSE(std::filesystem::exists(Out()));
+  const Ran ran = run(check_ + "--write-srdf " + Out());
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("wrote " + Out()));
+  EXPECT_EQ(run("$S run diagrams/static_test.yaml -t 0.1 -s models.arm.srdf=" + Out() +
+                " -s expect.final_error.at_most=9")
+                .status,
+            0);
+  // The same again: what is written depends on the model, the seed and the samples alone.
+  const std::string text = run.Read("new.srdf");
+  EXPECT_EQ(run(check_ + "--write-srdf " + Out()).status, 0);
+  EXPECT_EQ(run.Read("new.srdf"), text);
+  EXPECT_THAT(text, HasSubstr("reason=\"Always\""));
+}
+
+TEST_F(RobotCommandTest, JsonHoldsAllPairs) {
+  const Ran ran = run(check_ + "--json --seed 5 --margin 0.5");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const json result = json::parse(ran.out);
+  EXPECT_EQ(result["robot"], "lwr4");
+  EXPECT_EQ(result["seed"], 5);
+  ASSERT_EQ(result["pairs"].size(), 28u);
+  const json& pair = result["pairs"][1];
+  EXPECT_EQ(pair["link1"], "lwr4_base_link");
+  EXPECT_EQ(pair["link2"], "lwr4_link_2");
+  EXPECT_EQ(pair["kind"], "Sometimes") << "with a margin that nothing keeps";
+  EXPECT_GT(pair["least_distance"].get<double>(), 0.05);
+}
+
+TEST_F(RobotCommandTest, RefusesWhatItCannotDo) {
+  EXPECT_EQ(run("$S robot check-collisions package://lwr4/lwr4.urdf --samples 0").status, 2);
+  EXPECT_EQ(run(check_ + "--margin -1").status, 2);
+  EXPECT_EQ(run("$S robot check-collisions missing.urdf").status, 2);
+  EXPECT_EQ(run(check_ + "--write-srdf /nowhere/at/all.srdf").status, 2);
+  const Ran over = run("cp models/robots/planar2/planar2.urdf " + Out() +
+                       " && $S robot check-collisions " + Out() + " --write-srdf " + Out());
+  EXPECT_EQ(over.status, 2);
+  EXPECT_THAT(over.err, HasSubstr("got a URDF"));
+  EXPECT_EQ(run("$S robot").status, 64);
+  EXPECT_EQ(run("$S robot check-colisions x").status, 64);
+  const Ran misspelt = run(check_ + "--sampels 5");
+  EXPECT_EQ(misspelt.status, 64);
+  EXPECT_THAT(misspelt.err, HasSubstr("did you mean '--samples'?"));
+}
+
+}  // namespace
+}  // namespace oca::tools
