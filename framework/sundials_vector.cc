@@ -14,10 +14,24 @@ namespace {
 double* Data(N_Vector v) { return NV_DATA_S(v); }
 std::size_t Length(N_Vector v) { return static_cast<std::size_t>(NV_LENGTH_S(v)); }
 
+/// Two doubles in one register of every x86-64 and ARM64 processor.
+using Pair = double __attribute__((vector_size(16)));
+
+Pair LoadPair(const double* from) {
+  Pair pair;
+  std::memcpy(&pair, from, sizeof pair);
+  return pair;
+}
+
+void StorePair(Pair pair, double* to) { std::memcpy(to, &pair, sizeof pair); }
+
 void LinearSum(double a, N_Vector x, double b, N_Vector y, N_Vector z) {
   const double *u = Data(x), *v = Data(y);
   double* out = Data(z);
-  for (std::size_t i = 0, n = Length(z); i < n; ++i) out[i] = a * u[i] + b * v[i];
+  const std::size_t n = Length(z);
+  std::size_t i = 0;
+  for (; i + 2 <= n; i += 2) StorePair(a * LoadPair(u + i) + b * LoadPair(v + i), out + i);
+  if (i < n) out[i] = a * u[i] + b * v[i];
 }
 
 void Const(double c, N_Vector z) { std::fill_n(Data(z), Length(z), c); }
@@ -47,7 +61,12 @@ void Scale(double c, N_Vector x, N_Vector z) {
     if (x != z) std::memcpy(Data(z), Data(x), sizeof(double) * Length(z));
     return;
   }
-  Transform(x, z, [c](double u) { return c * u; });
+  const double* u = Data(x);
+  double* out = Data(z);
+  const std::size_t n = Length(z);
+  std::size_t i = 0;
+  for (; i + 2 <= n; i += 2) StorePair(c * LoadPair(u + i), out + i);
+  if (i < n) out[i] = c * u[i];
 }
 
 void Absolute(N_Vector x, N_Vector z) {
@@ -79,24 +98,21 @@ double MaxNorm(N_Vector x) {
 double WeightedRms(N_Vector x, N_Vector w) {
   const double *u = Data(x), *v = Data(w);
   const std::size_t n = Length(x);
-  double sum = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double term = u[i] * v[i];
-    sum += term * term;
+  Pair even{}, odd{};  // two sums, so that one addition need not wait for the other
+  std::size_t i = 0;
+  for (; i + 4 <= n; i += 4) {
+    const Pair first = LoadPair(u + i) * LoadPair(v + i);
+    const Pair second = LoadPair(u + i + 2) * LoadPair(v + i + 2);
+    even += first * first;
+    odd += second * second;
   }
+  even += odd;
+  double sum = even[0] + even[1];
+  for (; i < n; ++i) sum += (u[i] * v[i]) * (u[i] * v[i]);
   return std::sqrt(sum / static_cast<double>(n));
 }
 
 double Minimum(N_Vector x) { return *std::min_element(Data(x), Data(x) + Length(x)); }
-
-/// Two doubles in one register of every x86-64 and ARM64 processor.
-using Pair = double __attribute__((vector_size(16)));
-
-Pair LoadPair(const double* from) {
-  Pair pair;
-  std::memcpy(&pair, from, sizeof pair);
-  return pair;
-}
 
 /// z = sum_k c_k x_k in one pass, with c in registers. z may be x[0].
 template <std::size_t... K>
@@ -107,8 +123,7 @@ void Combine(const double* c, N_Vector* x, N_Vector z, std::index_sequence<K...>
   const std::size_t n = Length(z);
   std::size_t i = 0;
   for (; i + 2 <= n; i += 2) {
-    const Pair sum = (... + (weight[K] * LoadPair(in[K] + i)));
-    std::memcpy(out + i, &sum, sizeof sum);
+    StorePair((... + (weight[K] * LoadPair(in[K] + i))), out + i);
   }
   if (i < n) out[i] = (... + (weight[K] * in[K][i]));
 }
