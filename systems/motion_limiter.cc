@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "systems/motion_limiter.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "framework/error.h"
+#include "models/robot/robot_model.h"
+#include "systems/json_fields.h"
+#include "systems/model_links.h"
+#include "systems/require.h"
+
+namespace oca::systems {
+namespace {
+
+constexpr std::array kLimitNames{"none", "position", "velocity", "acceleration", "jerk"};
+// Less than this is rounding, and no news (rad, m).
+constexpr double kUnchanged = 1e-12;
+
+MotionLimiter::Params Checked(const MotionLimiter::Params& params) {
+  RequirePositive("period", params.period);
+  return params;
+}
+
+}  // namespace
+
+models::JointLimits LimitsOf(const models::RobotModel& model, Eigen::Index index) {
+  return {model.lower_limits()[index], model.upper_limits()[index], model.velocity_limits()[index],
+          model.acceleration_limits()[index], model.jerk_limits()[index]};
+}
+
+const char* NameOf(models::MotionLimit limit) { return kLimitNames[static_cast<int>(limit)]; }
+
+models::MotionLimit MotionLimitNamed(const std::string& name) {
+  const auto found = std::find(kLimitNames.begin(), kLimitNames.end(), name);
+  if (found != kLimitNames.end()) {
+    return static_cast<models::MotionLimit>(found - kLimitNames.begin());
+  }
+  throw ConfigError(fmt::format(
+      "limit: got '{}'; expected none, position, velocity, acceleration or jerk", name));
+}
+
+/// What becomes of the request of one joint.
+struct MotionLimiter::Answer {
+  double position;
+  double velocity;
+  MotionClip clip;
+};
+
+void MotionLimiter::Params::Describe(Fields<Params>& fields) {
+  fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
+  fields.Add("period", &Params::period, "s", "control period").Above(0.0).Required();
+  fields.Add("enabled", &Params::enabled, "", "false: the request passes unchanged");
+}
+
+MotionLimiter::MotionLimiter(const Params& params, const ModelSet& models)
+    : params_(Checked(params)),
+      model_(MovableModel(models, params.model)),
+      c_(DeclareDiscreteState("c", PositionSpec(*model_), 0.0)),
+      v_(DeclareDiscreteState("v", RateSpec(*model_), 0.0)),
+      a_(DeclareDiscreteState("a", {model_->num_positions(), RateSpec(*model_).unit.Rate()}, 0.0)),
+      started_(DeclareDiscreteState("started", {1, Unit::Any()}, 0.0)),
+      position_in(DeclareInput<Vector>("position", PositionSpec(*model_))),
+      measured_position(DeclareOptionalInput<Vector>("measured_position", PositionSpec(*model_))),
+      position(DeclareOutput<Vector, &MotionLimiter::CalcPosition>(
+          "position", PositionSpec(*model_), position_in, c_, v_, a_, started_)),
+      velocity(DeclareOutput<Vector, &MotionLimiter::CalcVelocity>(
+          "velocity", RateSpec(*model_), position_in, c_, v_, a_, started_)),
+      clips(DeclareOutput<MotionClips, &MotionLimiter::CalcClips>("clips", {}, position_in, c_, v_,
+                                                                  a_, started_)) {
+  DeclareInitialization<&MotionLimiter::Start>(Writes(c_), position_in, measured_position);
+  DeclareUpdate<&MotionLimiter::Update>(Every{params_.period}, Writes(c_, v_, a_, started_),
+                                        position, velocity);
+}
+
+void MotionLimiter::Start(VectorView request, std::optional<VectorView> measured,
+                          MutableVectorView c) const {
+  c = measured ? *measured : request;
+}
+
+void MotionLimiter::Update(VectorView command, VectorView rate, MutableVectorView c,
+                           MutableVectorView v, MutableVectorView a,
+                           MutableVectorView started) const {
+  started[0] = 1.0;
+  a = (rate - v) / params_.period.seconds();
+  v = rate;
+  c = command;
+}
+
+MotionLimiter::Answer MotionLimiter::Answers(VectorView request, VectorView c, VectorView v,
+                                             VectorView a, VectorView started,
+                                             Eigen::Index joint) const {
+  const double dt = params_.period.seconds();
+  const double wish = (request[joint] - c[joint]) / dt;
+  Answer answer{request[joint], wish, {}};
+  if (!params_.enabled) return answer;
+  if (started[0] == 0.0) return {c[joint], 0.0, {}};
+  const models::VelocityRange range =
+      models::StoppableVelocities(LimitsOf(*model_, joint), {c[joint], v[joint], a[joint]}, dt);
+  answer.velocity = std::min(std::max(wish, range.lower), range.upper);
+  if (answer.velocity == wish) return answer;
+  answer.position = c[joint] + answer.velocity * dt;
+  answer.clip = {static_cast<int>(joint),
+                 wish > range.upper ? range.upper_limit : range.lower_limit, range.yields,
+                 answer.position - request[joint]};
+  return answer;
+}
+
+void MotionLimiter::CalcPosition(VectorView request, VectorView c, VectorView v, VectorView a,
+                                 VectorView started, MutableVectorView out) const {
+  for (Eigen::Index i = 0; i < out.size(); ++i)
+    out[i] = Answers(request, c, v, a, started, i).position;
+}
+
+void MotionLimiter::CalcVelocity(VectorView request, VectorView c, VectorView v, VectorView a,
+                                 VectorView started, MutableVectorView out) const {
+  for (Eigen::Index i = 0; i < out.size(); ++i)
+    out[i] = Answers(request, c, v, a, started, i).velocity;
+}
+
+void MotionLimiter::CalcClips(VectorView request, VectorView c, VectorView v, VectorView a,
+                              VectorView started, MotionClips& out) const {
+  out.clips.clear();
+  out.clips.reserve(static_cast<std::size_t>(request.size()));
+  for (Eigen::Index i = 0; i < request.size(); ++i) {
+    const MotionClip clip = Answers(request, c, v, a, started, i).clip;
+    if (std::fabs(clip.amount) > kUnchanged) out.clips.push_back(clip);
+  }
+}
+
+}  // namespace oca::systems
+
+namespace oca {
+
+using systems::MotionClips;
+
+bool Signal<MotionClips>::Finite(const MotionClips& value) {
+  return std::all_of(value.clips.begin(), value.clips.end(),
+                     [](const auto& clip) { return std::isfinite(clip.amount); });
+}
+
+void Signal<MotionClips>::WriteJson(const MotionClips& value, std::string& out) {
+  systems::Json list = systems::Json::array();
+  for (const systems::MotionClip& clip : value.clips) {
+    list.push_back({{"joint", clip.joint},
+                    {"limit", systems::NameOf(clip.limit)},
+                    {"yields", systems::NameOf(clip.yields)},
+                    {"amount", clip.amount}});
+  }
+  out += list.dump();
+}
+
+MotionClips Signal<MotionClips>::ReadJson(std::string_view text) {
+  const systems::Json json = systems::ParseJson(text);
+  MotionClips value;
+  systems::JsonReader(json, "clips").ForEach([&](const systems::JsonReader& item) {
+    item.CheckKeys({"joint", "limit", "yields", "amount"});
+    value.clips.push_back({static_cast<int>(item.At("joint").Number()),
+                           systems::MotionLimitNamed(item.At("limit").Text()),
+                           systems::MotionLimitNamed(item.At("yields").Text()),
+                           item.At("amount").Number()});
+  });
+  return value;
+}
+
+}  // namespace oca

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "framework/params.h"
+#include "framework/system.h"
+#include "models/motion/stoppable_motion.h"
+#include "systems/model_set.h"
+
+namespace oca::systems {
+
+/// What a MotionLimiter took from the motion of one joint, and which limit made it do so. With
+/// `yields` the joint came in a motion from which that limit cannot be kept any more.
+struct MotionClip {
+  int joint{0};  ///< from 0
+  models::MotionLimit limit{models::MotionLimit::kNone};
+  models::MotionLimit yields{models::MotionLimit::kNone};
+  double amount{0.0};  ///< position out minus position in
+};
+/// JSON: [{"joint", "limit": "position" | "velocity" | "acceleration" | "jerk",
+/// "yields": the same or "none", "amount"}]
+struct MotionClips {
+  std::vector<MotionClip> clips;
+};
+
+/// The last stage before the joints: whatever is requested, the joints are sent within the limits
+/// of the model, at every tick, and so that they can always stop within them.
+///
+///     position_out = c + u period,   u = clamp((position - c) / period, range(c, v, a))
+///
+/// c, v, a are position, velocity and acceleration of the command at the last tick, and the range
+/// is that of models::StoppableVelocities: position, velocity, acceleration and jerk limits of the
+/// model, the last two where it has any. Each joint is treated alone. The output follows from the
+/// input at once: it costs no delay, and a request within the limits passes unchanged. The command
+/// is that of a joint which moves straight from tick to tick, as with a deadbeat JointServo.
+///
+/// in    position           n  u    target for the end of the period, held between ticks
+///       measured_position  n  u    optional; where the command starts, else at `position`
+/// out   position  n  u
+///       velocity  n  u/s           of the period: u
+///       clips     MotionClips      the joints whose request was changed
+/// state c         n  u
+///       v         n  u/s           at the start 0
+///       a         n  u/s^2         at the start 0
+///       started   1                0 before the first tick, when the command rests
+/// throws ConfigError if there is no such model, nothing of it moves or period is not positive
+/// source models/motion/stoppable_motion.h
+class MotionLimiter final : public System {
+ public:
+  static constexpr SystemDoc kDoc{
+      "keeps the limits of the joints, so that they can always stop",
+      "position = c + period clamp((position - c) / period, velocities from which c can stop)", ""};
+  struct Params {
+    std::string model{};
+    Period period{};
+    bool enabled{true};
+    static void Describe(Fields<Params>& fields);
+  };
+  static Params Example() { return {.period = Period(1, 100)}; }
+
+  MotionLimiter(const Params& params, const ModelSet& models);
+
+ private:
+  struct Answer;
+  const Params params_;
+  const std::shared_ptr<const models::RobotModel> model_;
+  const DiscreteState<Vector> c_;
+  const DiscreteState<Vector> v_;
+  const DiscreteState<Vector> a_;
+  const DiscreteState<Vector> started_;
+  Answer Answers(VectorView request, VectorView c, VectorView v, VectorView a, VectorView started,
+                 Eigen::Index joint) const;
+  void Start(VectorView request, std::optional<VectorView> measured, MutableVectorView c) const;
+  void Update(VectorView command, VectorView rate, MutableVectorView c, MutableVectorView v,
+              MutableVectorView a, MutableVectorView started) const;
+  void CalcPosition(VectorView request, VectorView c, VectorView v, VectorView a,
+                    VectorView started, MutableVectorView out) const;
+  void CalcVelocity(VectorView request, VectorView c, VectorView v, VectorView a,
+                    VectorView started, MutableVectorView out) const;
+  void CalcClips(VectorView request, VectorView c, VectorView v, VectorView a, VectorView started,
+                 MotionClips& out) const;
+
+ public:
+  const Input<Vector> position_in;  ///< port `position`
+  const OptionalInput<Vector> measured_position;
+  const Output<Vector> position;
+  const Output<Vector> velocity;
+  const Output<MotionClips> clips;
+};
+
+/// The limits of joint position number `index`, as MotionLimiter and SafetyFilter take them.
+models::JointLimits LimitsOf(const models::RobotModel& model, Eigen::Index index);
+
+/// "none", "position", ...
+const char* NameOf(models::MotionLimit limit);
+/// throws ConfigError naming the limits there are
+models::MotionLimit MotionLimitNamed(const std::string& name);
+
+}  // namespace oca::systems
+
+namespace oca {
+
+template <>
+struct Signal<systems::MotionClips> {
+  static constexpr const char* kName = "MotionClips";
+  static bool Finite(const systems::MotionClips& value);
+  static void WriteJson(const systems::MotionClips& value, std::string& out);
+  static systems::MotionClips ReadJson(std::string_view text);
+};
+
+}  // namespace oca
