@@ -10,6 +10,12 @@ export interface PlotSpec {
   differentiate?: boolean;
 }
 
+/** An item of metadata `oca.plots`, see docs/record_format.md. */
+interface Hint { id?: string; title?: string; unit?: string; topics?: string[]; limit?: number }
+const kRoles: Record<string, Role> = {
+  requested: "request", delta: "delta", final: "joints", distance: "distance", speed: "speed", constraints: "constraints",
+};
+
 const kDistancesShown = 8;
 const kTitles: Record<Role, string> = {
   request: "Requested joints", delta: "Deltas that avoidance adds", joints: "Final joints",
@@ -51,12 +57,11 @@ function asked(recording: Recording): PlotSpec[] {
   try {
     const parsed: unknown = JSON.parse(text);
     const list = Array.isArray(parsed) ? parsed : (parsed as { plots?: unknown[] }).plots ?? [];
-    return (list as Partial<PlotSpec>[]).flatMap((item) => {
-      const signals = (item.signals ?? []).map((name) => (name.startsWith("/") ? name : `/${name.replace(".", "/")}`));
-      const present = signals.filter((name) => (recording.topics.get(name)?.length ?? 0) > 0);
-      if (present.length === 0) return [];
-      const role = item.role && item.role in kTitles ? item.role : roleOf(recording.topics.get(present[0]!)!);
-      return [{ ...item, title: item.title ?? kTitles[role], role, signals: present }];
+    return (list as Hint[]).flatMap(({ id, title, unit, topics, limit }): PlotSpec[] => {
+      const signals = (topics ?? []).filter((name) => (recording.topics.get(name)?.length ?? 0) > 0);
+      if (signals.length === 0) return [];
+      const role = kRoles[id ?? ""] ?? roleOf(recording.topics.get(signals[0]!)!);
+      return [{ title: title ?? kTitles[role], role, signals, ...(unit ? { unit } : {}), ...(limit === undefined ? {} : { limit }) }];
     });
   } catch {
     recording.warnings.push("The record's list of plots is no JSON; plots are by name.");
