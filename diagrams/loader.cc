@@ -45,6 +45,8 @@ class Loader {
     problems_.Throw();
     CheckKeys(document);
     root_ = Resolve(document);
+    loaded_.document = document;
+    loaded_.resolved = root_;
     ReadNames();
     ReadSimulator();
     models_.emplace(root_, problems_);
@@ -61,6 +63,7 @@ class Loader {
     }
     const NamedOutputs outputs = AllOutputs();
     loaded_.record = ReadRecord(root_, outputs, problems_);
+    loaded_.scene_period = ReadSceneRate(root_, loaded_.scene_period, problems_);
     loaded_.expectations = ReadExpectations(root_, outputs, loaded_.metrics, loaded_.diagram.get(),
                                             loaded_.simulator.duration, problems_);
     problems_.Throw();
@@ -185,7 +188,7 @@ class Loader {
         return;
       }
       systems_[entry.key] = &builder_.AddSystem(entry.key, std::move(system));
-      loaded_.systems.push_back({entry.key, row.type});
+      loaded_.systems.push_back({entry.key, row.type, params});
     } catch (const WiringError& error) {
       problems_.Add(entry.location, fmt::format("{}: {}", where, error.what()));
     } catch (const ConfigError& error) {

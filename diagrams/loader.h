@@ -19,9 +19,12 @@ struct LoadedDiagram {
   struct Block {
     std::string name;
     std::string type;
+    Value params;  ///< as given, with ${...} worked out and paths of files resolved
   };
 
   std::string file;
+  Value document;                     ///< includes merged and overrides applied
+  Value resolved;                     ///< the same without parameters, ${...} worked out
   std::vector<std::string> warnings;  ///< a line each, with its place
   std::string name;
   std::string description;
@@ -31,6 +34,7 @@ struct LoadedDiagram {
   std::vector<Block> systems;
   std::unique_ptr<Diagram> diagram;
   std::vector<RecordedSignal> record;
+  Period scene_period{1, 60};  ///< of the scene in a record
   std::vector<Expectation> expectations;
   /// Outputs of type MotionMetrics, with the names of their systems.
   NamedOutputs metrics;

@@ -188,9 +188,8 @@ std::vector<RecordedSignal> ReadRecord(const Value& root, const NamedOutputs& ou
                                        Problems& problems) {
   std::vector<RecordedSignal> record;
   for (const Value::Entry& entry : SectionOf(root, "record", problems)) {
-    if (entry.key == "scene") {
-      ReadRate(entry.value, "record.scene", problems);
-    } else if (entry.key != "signals") {
+    if (entry.key == "scene") continue;  // ReadSceneRate's
+    if (entry.key != "signals") {
       const std::vector<std::string> known{"signals", "scene"};
       problems.Add(entry.location, fmt::format("record.{}: unknown key{}; known: signals, scene",
                                                entry.key, DidYouMean(entry.key, known)));
@@ -205,6 +204,13 @@ std::vector<RecordedSignal> ReadRecord(const Value& root, const NamedOutputs& ou
     }
   }
   return record;
+}
+
+Period ReadSceneRate(const Value& root, const Period& otherwise, Problems& problems) {
+  const Value* const record = root.Find("record");
+  const Value* const scene = record == nullptr ? nullptr : record->Find("scene");
+  if (scene == nullptr) return otherwise;
+  return ReadRate(*scene, "record.scene", problems).value_or(otherwise);
 }
 
 std::vector<Expectation> ReadExpectations(const Value& root, const NamedOutputs& outputs,

@@ -37,6 +37,9 @@ using NamedOutputs = std::vector<std::pair<std::string, OutputHandle>>;
 std::vector<RecordedSignal> ReadRecord(const Value& root, const NamedOutputs& outputs,
                                        Problems& problems);
 
+/// Key `scene` of section `record`: how often the scene is recorded; `otherwise` if it is left out.
+Period ReadSceneRate(const Value& root, const Period& otherwise, Problems& problems);
+
 /// Section `expect`. A lone word is a metric; with several `metrics` the worst of them counts.
 /// `diagram` is nullptr if it could not be built; lengths are then not checked.
 std::vector<Expectation> ReadExpectations(const Value& root, const NamedOutputs& outputs,

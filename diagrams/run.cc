@@ -98,6 +98,11 @@ class Runner {
     if (!options.csv_folder.empty()) {
       recorder_ = std::make_unique<SignalRecorder>(options.csv_folder, loaded.record, simulator_);
     }
+    AddRecordedInstants();
+    for (RunObserver* const observer : options.observers) {
+      observer->Attach(simulator_, result_.paced, duration_);
+      observers_.push_back(observer);
+    }
     if (options.progress) {
       simulator_.AddMonitor([progress = options.progress](const Context& context) {
         return progress(context.time());
@@ -137,10 +142,22 @@ class Runner {
     } catch (const ConfigError& error) {
       if (result_.failure.empty()) result_.failure = error.what();
     }
+    for (RunObserver* const observer : observers_) observer->Finish(result_);
     return std::move(result_);
   }
 
  private:
+  /// A run stops where its signals are recorded also if nobody records them, so that recording does
+  /// not change a bit of it.
+  void AddRecordedInstants() {
+    std::vector<Period> periods;
+    for (const RecordedSignal& signal : loaded_.record) {
+      if (std::find(periods.begin(), periods.end(), signal.period) != periods.end()) continue;
+      periods.push_back(signal.period);
+      simulator_.AddPublish(signal.period, [](const Context&) {});
+    }
+  }
+
   void AdvanceThroughExpectations() {
     std::vector<double> stops{duration_};
     for (const auto& expectation : result_.expectations) {
@@ -181,6 +198,7 @@ class Runner {
   Simulator simulator_;
   double duration_;
   std::unique_ptr<SignalRecorder> recorder_;
+  std::vector<RunObserver*> observers_;
   RunResult result_{};
 };
 

@@ -13,6 +13,19 @@
 
 namespace oca::diagrams {
 
+struct RunResult;
+
+/// Looks on a run from its beginning to its end, as a recorder does.
+class RunObserver {
+ public:
+  virtual ~RunObserver() = default;
+  /// Before the simulator is initialized, so that publishes can be added. `paced`: by the wall
+  /// clock, which nobody may hold up. `duration` s.
+  virtual void Attach(Simulator& simulator, bool paced, double duration) = 0;
+  /// After the last step; a run that failed ends in its last state before that.
+  virtual void Finish(const RunResult& result) = 0;
+};
+
 struct RunOptions {
   std::optional<double> duration;           ///< s; instead of the file's
   std::filesystem::path csv_folder{};       ///< empty: nothing is recorded
@@ -21,6 +34,8 @@ struct RunOptions {
   Log* log{nullptr};                        ///< receives what systems log
   /// Called after each step with the time; returning false interrupts the run.
   std::function<bool(double time)> progress{};
+  /// Must outlive the run.
+  std::vector<RunObserver*> observers{};
 };
 
 /// How an expectation turned out.

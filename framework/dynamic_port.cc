@@ -39,6 +39,15 @@ std::span<const double> EvalVector(const OutputHandle& output, const Context& co
   return {reinterpret_cast<const double*>(at.arena + at.slot.offset), at.slot.size};
 }
 
+const void* EvalObject(const OutputHandle& output, const Context& context) {
+  if (&TypeOfPort(output) == &kVectorType) {
+    throw WiringError({fmt::format("output '{}': type; got Vector; expected another one",
+                                   output.system->outputs()[output.index].name)});
+  }
+  const internal::Location at = internal::Find(output, context);
+  return at.arena + at.slot.offset;
+}
+
 int VectorSize(const OutputHandle& output, const Context& context) {
   return static_cast<int>(Plan::Of(output, context).output(output).slot.size);
 }

@@ -23,6 +23,10 @@ void EvalJson(const OutputHandle& output, const Context& context, std::string& o
 /// throws WiringError if the port is no Vector.
 std::span<const double> EvalVector(const OutputHandle& output, const Context& context);
 
+/// A value that is no Vector, as its TypeOfPort knows it, valid until the context changes.
+/// throws WiringError if the port is a Vector.
+const void* EvalObject(const OutputHandle& output, const Context& context);
+
 /// The length of a Vector output, without evaluating it.
 int VectorSize(const OutputHandle& output, const Context& context);
 

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "diagrams/record/record_files.h"
+
+#include <fmt/format.h>
+#include <stdlib.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <regex>
+
+#include "diagrams/package_paths.h"
+#include "diagrams/record/mcap_bytes.h"
+#include "diagrams/record/yaml_writer.h"
+#include "framework/error.h"
+#include "models/robot/mesh_path.h"
+
+namespace oca::record {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kScheme = "package://";
+
+std::string ReadBytes(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  if (!stream) throw ConfigError(fmt::format("{}: cannot be read", file.string()));
+  return bytes;
+}
+
+fs::path FolderOf(const Location& location) {
+  return location.file && location.line > 0 ? fs::path(*location.file).parent_path() : fs::path();
+}
+
+bool NamesFile(const std::string& key) { return key == "urdf" || key == "srdf" || key == "file"; }
+
+/// Whether a tree has a file's name in it.
+bool HoldsFile(const Value& value) {
+  if (value.list() != nullptr) {
+    return std::any_of(value.list()->begin(), value.list()->end(), HoldsFile);
+  }
+  return value.map() != nullptr &&
+         std::any_of(value.map()->begin(), value.map()->end(), [](const Value::Entry& entry) {
+           return NamesFile(entry.key) || HoldsFile(entry.value);
+         });
+}
+
+bool Inside(const fs::path& name) {
+  return !name.empty() && name.is_relative() && *name.begin() != "..";
+}
+
+class FileCollector {
+ public:
+  explicit FileCollector(const diagrams::LoadedDiagram& loaded)
+      : base_(fs::absolute(loaded.file).parent_path()) {
+    const Value* const packages = loaded.resolved.Find("packages");
+    if (packages == nullptr || packages->map() == nullptr) return;
+    for (const Value::Entry& entry : *packages->map()) {
+      const fs::path folder = *entry.value.string();
+      packages_[entry.key] =
+          folder.is_absolute() ? folder : FolderOf(entry.value.location()) / folder;
+    }
+  }
+
+  /// The document with files named as they are attached; `resolved` is the same tree, `${...}`
+  /// worked out, of which parameters are left out.
+  Value Rewrite(const Value& document, const Value* resolved) {
+    if (resolved == nullptr) return document;
+    if (document.string() != nullptr && HoldsFile(*resolved)) return Rewrite(*resolved, resolved);
+    if (document.list() != nullptr && resolved->list() != nullptr) {
+      Value::List list;
+      for (std::size_t i = 0; i < document.list()->size(); ++i) {
+        list.push_back(Rewrite((*document.list())[i], &(*resolved->list())[i]));
+      }
+      return Value(std::move(list), document.location());
+    }
+    if (document.map() == nullptr || resolved->map() == nullptr) return document;
+    Value::Map map;
+    for (const Value::Entry& entry : *document.map()) {
+      const Value* const own = resolved->Find(entry.key);
+      const bool file = own != nullptr && NamesFile(entry.key) && own->string() != nullptr;
+      map.push_back({entry.key, entry.location,
+                     file ? Value(Attach(*own->string(), FolderOf(own->location())), {})
+                          : Rewrite(entry.value, own)});
+    }
+    return Value(std::move(map), document.location());
+  }
+
+  std::vector<McapAttachment> Take() {
+    std::vector<McapAttachment> attachments;
+    for (auto& [name, data] : files_) {
+      attachments.push_back({0, name, "application/octet-stream", std::move(data)});
+    }
+    return attachments;
+  }
+
+  /// `packages` of the rewritten document.
+  Value Packages() const {
+    Value::Map map;
+    for (const auto& [name, data] : files_) {
+      const fs::path path(name);
+      if (*path.begin() != "packages") continue;
+      const std::string package = std::next(path.begin())->string();
+      const bool known = std::any_of(map.begin(), map.end(),
+                                     [&](const auto& entry) { return entry.key == package; });
+      if (!known) map.push_back({package, {}, Value("packages/" + package, {})});
+    }
+    return Value(std::move(map), {});
+  }
+
+ private:
+  /// Attaches a file that the diagram names; returns its new name there.
+  std::string Attach(const std::string& name, const fs::path& folder) {
+    if (name.empty()) return name;
+    const fs::path path = diagrams::ResolvePath(name, folder, packages_);
+    const bool package = name.starts_with(kScheme);
+    const fs::path as =
+        package ? fs::path("packages") / name.substr(kScheme.size()) : PlaceOf(path);
+    const bool fresh = !files_.contains(as.string());
+    if (fresh) files_[as.string()] = ReadBytes(path);
+    if (fresh && path.extension() != ".srdf") AttachMeshes(as, path);
+    return package ? name : as.string();
+  }
+
+  /// Below `files/`, as it lies to the diagram; without the folders above what lies elsewhere.
+  fs::path PlaceOf(const fs::path& path) const {
+    const fs::path relative = fs::absolute(path).lexically_normal().lexically_relative(base_);
+    fs::path place;
+    // What comes from a record lies below `files/` already.
+    if (relative.empty() || *relative.begin() != "files") place = "files";
+    for (const fs::path& part : relative) place /= part == ".." ? fs::path("up") : part;
+    return place;
+  }
+
+  /// The meshes that a URDF names. What it finds by an absolute path it is given a relative one
+  /// for.
+  void AttachMeshes(const fs::path& urdf, const fs::path& path) {
+    const std::string text = files_.at(urdf.string());
+    if (text.find("<robot") == std::string::npos) return;
+    static const std::regex kMesh("<mesh[^>]*?filename\\s*=\\s*[\"']([^\"']+)[\"']");
+    std::string rewritten;
+    auto copied = text.begin();
+    for (std::sregex_iterator match(text.begin(), text.end(), kMesh), end; match != end; ++match) {
+      rewritten.append(copied, (*match)[1].first);
+      rewritten += AttachMesh((*match)[1].str(), urdf, path);
+      copied = (*match)[1].second;
+    }
+    rewritten.append(copied, text.end());
+    files_[urdf.string()] = rewritten;
+  }
+
+  std::string AttachMesh(const std::string& name, const fs::path& urdf, const fs::path& path) {
+    models::LoadOptions options;
+    options.find_package = [this](const std::string& package) -> fs::path {
+      const auto found = packages_.find(package);
+      return found == packages_.end() ? fs::path() : found->second;
+    };
+    options.package_directories = diagrams::PackageFolders();
+    const fs::path mesh = models::FindMesh(name, path.parent_path(), options, path.string());
+    if (name.starts_with(kScheme)) {
+      files_.try_emplace((fs::path("packages") / name.substr(kScheme.size())).string(),
+                         ReadBytes(mesh));
+      return name;
+    }
+    const fs::path beside = (urdf.parent_path() / name).lexically_normal();
+    const bool stays =
+        fs::path(name).is_relative() && name.find("://") == std::string::npos && Inside(beside);
+    const fs::path as = stays ? beside : PlaceOf(mesh);
+    files_.try_emplace(as.string(), ReadBytes(mesh));
+    return stays ? name : as.lexically_relative(urdf.parent_path()).string();
+  }
+
+  const fs::path base_;
+  std::map<std::string, fs::path> packages_;
+  std::map<std::string, std::string> files_;  ///< by name of the attachment
+};
+
+void Set(Value::Map& map, const std::string& key, Value value) {
+  const auto found = std::find_if(map.begin(), map.end(),
+                                  [&](const Value::Entry& entry) { return entry.key == key; });
+  if (found == map.end()) {
+    map.push_back({key, {}, std::move(value)});
+  } else {
+    found->value = std::move(value);
+  }
+}
+
+}  // namespace
+
+std::vector<McapAttachment> FilesOf(const diagrams::LoadedDiagram& loaded, double duration) {
+  FileCollector collector(loaded);
+  Value document = collector.Rewrite(loaded.document, &loaded.resolved);
+  Value::Map& map = *document.map();
+  Set(map, "name", Value(loaded.name, {}));
+  std::erase_if(map, [](const Value::Entry& entry) { return entry.key == "packages"; });
+  const Value packages = collector.Packages();
+  if (!packages.map()->empty()) Set(map, "packages", packages);
+  if (duration != loaded.simulator.duration) {
+    const Value* const section = document.Find("simulator");
+    Value simulator =
+        section != nullptr && section->map() != nullptr ? *section : Value(Value::Map{}, {});
+    Set(*simulator.map(), "duration", Value(duration, {}));
+    Set(map, "simulator", std::move(simulator));
+  }
+  std::vector<McapAttachment> attachments = collector.Take();
+  attachments.insert(attachments.begin(),
+                     {0, "diagram.yaml", "application/yaml", WriteYaml(document)});
+  return attachments;
+}
+
+void ExtractFiles(const McapFile& record, const fs::path& folder) {
+  if (record.FindAttachment("diagram.yaml") == nullptr) {
+    throw ConfigError("record: has no attachment diagram.yaml; expected a record of OCA");
+  }
+  for (const McapAttachment& attachment : record.attachments()) {
+    const fs::path name = fs::path(attachment.name).lexically_normal();
+    if (!Inside(name)) {
+      throw ConfigError(
+          fmt::format("record: attachment; got '{}'; expected a name that stays "
+                      "below its folder",
+                      attachment.name));
+    }
+    const fs::path file = folder / name;
+    fs::create_directories(file.parent_path());
+    std::ofstream stream(file, std::ios::binary);
+    stream.write(attachment.data.data(), static_cast<std::streamsize>(attachment.data.size()));
+    if (!stream.flush()) throw ConfigError(fmt::format("{}: cannot be written", file.string()));
+  }
+}
+
+ExtractedRecord::ExtractedRecord(const McapFile& record) {
+  std::string name = (fs::temp_directory_path() / "oca_record_XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) {
+    throw ConfigError(fmt::format("{}: cannot be made", name));
+  }
+  folder_ = name;
+  try {
+    ExtractFiles(record, folder_);
+  } catch (...) {
+    Remove();
+    throw;
+  }
+}
+
+ExtractedRecord::~ExtractedRecord() { Remove(); }
+
+void ExtractedRecord::Remove() {
+  std::error_code ignored;
+  fs::remove_all(folder_, ignored);
+}
+
+bool IsRecord(const fs::path& file) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return false;
+  std::ifstream stream(file, std::ios::binary);
+  std::string start(kMcapMagic.size(), '\0');
+  return stream.read(start.data(), static_cast<std::streamsize>(start.size())) &&
+         start == kMcapMagic;
+}
+
+}  // namespace oca::record

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "diagrams/loader.h"
+#include "diagrams/record/mcap_reader.h"
+
+namespace oca::record {
+
+/// Everything that a run was made from: `diagram.yaml`, with includes merged and overrides applied
+/// but its parameters kept, and every file that it names, as `packages/PACKAGE/...` or `files/...`,
+/// where the diagram then looks for it. `duration` s of the run, instead of the file's.
+/// throws ConfigError if a file cannot be read any more.
+std::vector<McapAttachment> FilesOf(const diagrams::LoadedDiagram& loaded, double duration);
+
+/// Writes the attachments of a record into a folder, from which `diagram.yaml` can be run.
+/// throws ConfigError if there is no such attachment, or a name that would leave the folder.
+void ExtractFiles(const McapFile& record, const std::filesystem::path& folder);
+
+/// The files of a record in a temporary folder of its own, gone with this.
+class ExtractedRecord {
+ public:
+  /// throws ConfigError as ExtractFiles does.
+  explicit ExtractedRecord(const McapFile& record);
+  ~ExtractedRecord();
+  ExtractedRecord(const ExtractedRecord&) = delete;
+  ExtractedRecord& operator=(const ExtractedRecord&) = delete;
+
+  std::filesystem::path diagram() const { return folder_ / "diagram.yaml"; }
+
+ private:
+  void Remove();
+  std::filesystem::path folder_;
+};
+
+/// Whether a file begins as an MCAP file does.
+bool IsRecord(const std::filesystem::path& file);
+
+}  // namespace oca::record

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "diagrams/record/run_metadata.h"
+
+#include <nlohmann/json.hpp>
+
+#include "diagrams/record/yaml_writer.h"
+
+namespace oca::record {
+
+McapTexts ParameterTexts(const diagrams::LoadedDiagram& loaded) {
+  McapTexts texts;
+  const Value* const parameters = loaded.document.Find("parameters");
+  if (parameters == nullptr || parameters->map() == nullptr) return texts;
+  for (const Value::Entry& entry : *parameters->map()) {
+    texts[entry.key] = WriteYamlValue(entry.value);
+  }
+  return texts;
+}
+
+McapTexts OverrideTexts(const std::vector<diagrams::Override>& overrides) {
+  McapTexts texts;
+  for (const diagrams::Override& change : overrides) texts[change.path] = change.value;
+  return texts;
+}
+
+std::string ExpectationsJson(const diagrams::RunResult& result) {
+  using nlohmann::ordered_json;
+  ordered_json list = ordered_json::array();
+  for (const diagrams::ExpectationResult& expectation : result.expectations) {
+    list.push_back(
+        {{"name", expectation.name},
+         {"value", expectation.value ? ordered_json(*expectation.value) : ordered_json()},
+         {"bound", expectation.bound},
+         {"at", expectation.at},
+         {"ok", expectation.ok}});
+  }
+  return list.dump();
+}
+
+}  // namespace oca::record

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagrams/record/mcap.h"
+#include "diagrams/run.h"
+
+namespace oca::record {
+
+/// The parameters of a diagram file by name, as YAML.
+McapTexts ParameterTexts(const diagrams::LoadedDiagram& loaded);
+/// What was overridden on the command line: path and value.
+McapTexts OverrideTexts(const std::vector<diagrams::Override>& overrides);
+/// The expectations and how they turned out, a JSON list as `simulator run --json` prints it.
+std::string ExpectationsJson(const diagrams::RunResult& result);
+
+}  // namespace oca::record
