@@ -4,7 +4,7 @@
 # and prints one table. Usage: tools/bench.sh [--quick] [REGEX]
 #   --quick  one short repetition of each row, no instruction counts
 #   REGEX    of rows, such as ^engine/d14; all without it
-# A time is the least of five repetitions, in ns of CPU an iteration (a block where the goal says
+# A time is the least of three repetitions, in ns of CPU an iteration (a block where the goal says
 # so; of the clock in rows with threads). A floor is the row's bare arithmetic, measured in the same
 # process as the release column; the ratio is release to floor.
 set -euo pipefail
@@ -22,7 +22,7 @@ trap 'rm -r "$work"' EXIT
 goals=tools/bench/goals.csv
 
 run() { # BUILD -> $work/BUILD: name, ns, allocations, failed
-  local effort=(--benchmark_repetitions=5 --benchmark_min_time=0.1)
+  local effort=(--benchmark_repetitions=3 --benchmark_min_time=0.05)
   $quick && effort=(--benchmark_repetitions=1 --benchmark_min_time=0.02)
   "build/$1/tools/bench/oca_bench" --benchmark_filter="$filter" "${effort[@]}" \
     --benchmark_format=json 2>/dev/null >"$work/$1.json" || true
@@ -56,7 +56,7 @@ run() { # BUILD -> $work/BUILD: name, ns, allocations, failed
 
 instructions() { # ROW -> instructions an iteration, in the release build
   valgrind --tool=callgrind --callgrind-out-file="$work/callgrind" \
-    build/release/tools/bench/oca_bench --benchmark_filter="^$1\$" --benchmark_min_time=0.05 \
+    build/release/tools/bench/oca_bench --benchmark_filter="^$1\$" --benchmark_min_time=0.01 \
     >/dev/null 2>&1 || return 0
   local last
   last=$(find "$work" -name 'callgrind.*' | sort -t. -k2n | tail -1)

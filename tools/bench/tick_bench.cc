@@ -51,6 +51,7 @@ void LimitFloor(benchmark::State& state, int trivial_blocks) {
 }
 
 /// Row c in several threads that share a diagram, each with a simulator and a Context of its own.
+/// It scales if a tick takes no more of the processor than in one thread.
 void Threads(benchmark::State& state) {
   static const TickDiagram ticks({});
   Simulator simulator(*ticks.diagram);
@@ -68,7 +69,7 @@ BENCHMARK_CAPTURE(LimitFloor, c7, 7)->Name("engine/c7/floor");
 BENCHMARK_CAPTURE(Limit, constant, kIdleOnConstant, 0.10099)->Name("engine/c-idle/constant");
 BENCHMARK_CAPTURE(Limit, downstream, kIdleDownstream, 0.10099)->Name("engine/c-idle/downstream");
 BENCHMARK(Log)->Name("engine/log");
-BENCHMARK(Threads)->Name("engine/threads")->Threads(1)->Threads(2)->UseRealTime();
+BENCHMARK(Threads)->Name("engine/threads")->Threads(1)->Threads(2);
 
 }  // namespace
 }  // namespace oca::bench
