@@ -137,14 +137,22 @@ void PlanCompiler::OrderNodes() {
     open[node] = static_cast<int>(predecessors[node].size());
     if (open[node] == 0) order.push_back(static_cast<int>(node));
   }
-  for (std::size_t i = 0; i < order.size(); ++i) {
+  nodes_ = std::move(unordered);
+  bool loops = false;
+  for (std::size_t i = 0; i < order.size() || order.size() < count; ++i) {
+    if (i == order.size()) {  // the rest is on loops and behind them
+      loops = true;
+      for (const int node : ReportLoop(open, predecessors)) {
+        open[node] = 0;
+        order.push_back(node);
+      }
+    }
     position[order[i]] = static_cast<int>(i);
     for (const int next : successors[order[i]]) {
-      if (--open[next] == 0) order.push_back(next);
+      if (open[next] > 0 && --open[next] == 0) order.push_back(next);
     }
   }
-  nodes_ = std::move(unordered);
-  if (order.size() < count) return ReportLoop(open, predecessors);
+  if (loops) return;
 
   std::vector<NodeInfo> ordered;
   for (const int node : order) {
@@ -163,8 +171,8 @@ void PlanCompiler::OrderNodes() {
   }
 }
 
-void PlanCompiler::ReportLoop(const std::vector<int>& open_predecessors,
-                              const std::vector<std::vector<int>>& predecessors) {
+std::vector<int> PlanCompiler::ReportLoop(const std::vector<int>& open_predecessors,
+                                          const std::vector<std::vector<int>>& predecessors) {
   int node = 0;
   while (open_predecessors[node] == 0) ++node;
   std::vector<int> walk;
@@ -192,6 +200,7 @@ void PlanCompiler::ReportLoop(const std::vector<int>& open_predecessors,
       "algebraic loop: {}; break it with a Delay, a ZeroOrderHold or any system whose output is a "
       "state",
       path));
+  return walk;
 }
 
 std::uint32_t PlanCompiler::Allocate(std::size_t bytes, std::size_t align) {

@@ -26,8 +26,8 @@ class PlanCompiler {
   void IndexLeaves();
   void MakeSources();
   void OrderNodes();
-  void ReportLoop(const std::vector<int>& open_predecessors,
-                  const std::vector<std::vector<int>>& predecessors);
+  std::vector<int> ReportLoop(const std::vector<int>& open_predecessors,
+                              const std::vector<std::vector<int>>& predecessors);
   void LayOut();
   void LayOutObject(Slot& slot, const SignalType& type);
   void CompileNodes();

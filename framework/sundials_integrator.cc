@@ -148,15 +148,13 @@ class SundialsIntegrator : public Integrator {
                               : fmt::format("{} failed with {}", call, name));
   }
 
-  /// Of the last step, s.
-  virtual double LastStep() const = 0;
   /// Largest step times fastest rate that accuracy alone asks for; above it the step is held by
   /// stability.
   virtual double LargestReach() const = 0;
 
   /// Says whether it is the system that is stiff or the limit that is low.
   std::string TooManySteps(double time) {
-    const double step = LastStep();
+    const double step = (time - from_) / max_steps_;  // on average
     const double rate = internal::FastestRate(state_, [&](const double* x, double* derivative) {
       try {
         plan_.SetTimeAndState(*context_, time, x);
@@ -173,7 +171,7 @@ class SundialsIntegrator : public Integrator {
           rate, step, max_steps_);
     }
     return fmt::format(
-        "steps to the next event; got more than max_steps = {}, of late {:.3g} s long; expected a "
+        "steps to the next event; got more than max_steps = {}, of {:.3g} s on average; expected a "
         "larger max_steps or looser tolerances",
         max_steps_, step);
   }
@@ -182,6 +180,7 @@ class SundialsIntegrator : public Integrator {
   std::vector<double> relative_, absolute_;
   std::vector<double> state_;  // y_ lies over it
   const int max_steps_;        // between two events
+  double from_{0.0};           // s; where the present integration started
   SUNContext sundials_{nullptr};
   N_Vector y_{nullptr};
   N_Vector between_{nullptr};  // for interpolation; lies over what the caller gives
@@ -283,11 +282,6 @@ class ErkIntegrator final : public SundialsIntegrator {
     ERKStepGetNumRhsEvals(memory_, &counters.derivative_calls);
     return counters;
   }
-  double LastStep() const override {
-    double step = 0.0;
-    ERKStepGetLastStep(memory_, &step);
-    return step;
-  }
   // The methods are stable on the negative axis to 3.3 (Dormand-Prince) and 2.5 (Bogacki-Shampine).
   double LargestReach() const override { return 2.0; }
 
@@ -295,7 +289,7 @@ class ErkIntegrator final : public SundialsIntegrator {
   void Evolve(Context& context, double to, int mode) {
     context_ = &context;
     CheckFlag(ERKStepSetStopTime(memory_, to), "ERKStepSetStopTime");
-    double reached = context.time();
+    double reached = from_ = context.time();
     const int flag = ERKStepEvolve(memory_, to, y_, &reached, mode);
     CountAll();
     CheckFlag(flag, "ERKStepEvolve");
@@ -386,11 +380,6 @@ class CvodeIntegrator final : public SundialsIntegrator {
     CVodeGetNumRhsEvals(memory_, &counters.derivative_calls);
     return counters;
   }
-  double LastStep() const override {
-    double step = 0.0;
-    CVodeGetLastStep(memory_, &step);
-    return step;
-  }
   // Fixed-point iteration of Adams' formulas converges up to about one.
   double LargestReach() const override {
     return iteration_ != nullptr ? 0.5 : std::numeric_limits<double>::infinity();
@@ -400,7 +389,7 @@ class CvodeIntegrator final : public SundialsIntegrator {
   void Evolve(Context& context, double to, int mode) {
     context_ = &context;
     CheckFlag(CVodeSetStopTime(memory_, to), "CVodeSetStopTime");
-    double reached = context.time();
+    double reached = from_ = context.time();
     const int flag = CVode(memory_, to, y_, &reached, mode);
     CountAll();
     CheckFlag(flag, "CVode");

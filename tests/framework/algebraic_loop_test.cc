@@ -55,6 +55,26 @@ TEST(AlgebraicLoopTest, ShowsOnlyTheSystemsOnTheLoop) {
               kAdvice)));
 }
 
+TEST(AlgebraicLoopTest, EveryLoopIsToldThoseBehindAnotherToo) {
+  DiagramBuilder builder;
+  const auto& first = builder.Add<blocks::Map>("first");
+  const auto& between = builder.Add<blocks::Map>("between");
+  const auto& sum = builder.Add<blocks::Sum>("sum");
+  const auto& behind = builder.Add<blocks::Map>("behind");
+  const auto& apart = builder.Add<blocks::Map>("apart");
+  builder.Connect(first.out, first.in);
+  builder.Connect(first.out, between.in);
+  builder.Connect(between.out, sum.in0);
+  builder.Connect(sum.out, sum.in1);
+  builder.Connect(sum.out, behind.in);
+  builder.Connect(apart.out, apart.in);
+  EXPECT_THAT(ProblemsOf(builder),
+              testing::UnorderedElementsAre(
+                  std::string("algebraic loop: first.out -> first.in -> first.out") + kAdvice,
+                  std::string("algebraic loop: sum.out -> sum.in1 -> sum.out") + kAdvice,
+                  std::string("algebraic loop: apart.out -> apart.in -> apart.out") + kAdvice));
+}
+
 TEST(AlgebraicLoopTest, ThroughANestedDiagramNamesThePathsInside) {
   DiagramBuilder inner;
   const auto& map = inner.Add<blocks::Map>("map");

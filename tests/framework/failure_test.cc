@@ -171,6 +171,86 @@ TEST_P(FailureTest, Line7DerivativesThatFailAreNotTriedHundredsOfTimes) {
   EXPECT_EQ(calls, 1);
 }
 
+/// What a run of x' = f(t, x) says when it stops, and whether a run that may go further succeeds.
+std::string StopOf(const blocks::Ode::Function& f, const IntegratorOptions& options) {
+  const auto diagram = MakeDiagramOf(std::make_unique<blocks::Ode>(1.0, f));
+  Simulator simulator(*diagram, options);
+  diagram->GetInput<Vector>("in").Fix(simulator.context(), Vec({0.0}));
+  const Status status = simulator.TryAdvanceTo(10.0);
+  return status.ok() ? "" : status.message();
+}
+
+class StiffnessTest : public testing::TestWithParam<IntegratorKind> {};
+INSTANTIATE_TEST_SUITE_P(Explicit, StiffnessTest,
+                         testing::Values(IntegratorKind::kErkDp5, IntegratorKind::kErkBs3,
+                                         IntegratorKind::kCvodeAdams),
+                         NameOfKind);
+
+TEST_P(StiffnessTest, IsToldApartFromALimitThatIsLow) {
+  for (const double tolerance : {1e-3, 1e-6}) {
+    const IntegratorOptions options{
+        .integrator = GetParam(), .relative_tolerance = tolerance, .max_steps = 2000};
+    // A lag of a microsecond behind a slow sine, and an oscillation to be resolved wave by wave.
+    EXPECT_THAT(
+        StopOf([](double t, double x, double) { return -1e6 * (x - std::cos(t)); }, options),
+        testing::AllOf(HasSubstr("stiff system; got a fastest rate of 1e+06 1/s"),
+                       HasSubstr("expected the integrator cvode_bdf")));
+    EXPECT_THAT(
+        StopOf([](double t, double x, double) { return -x + 1e3 * std::cos(1e4 * t); }, options),
+        testing::AllOf(HasSubstr("got more than max_steps = 2000"),
+                       testing::Not(HasSubstr("stiff"))));
+  }
+}
+
+TEST(StiffnessOfBdfTest, IsNoHindranceAndItsLimitIsOneOfSteps) {
+  const auto stiff = [](double t, double x, double) { return -1e6 * (x - std::cos(t)); };
+  EXPECT_EQ(StopOf(stiff, {.integrator = IntegratorKind::kCvodeBdf, .max_steps = 2000}), "");
+  EXPECT_THAT(StopOf(stiff, {.integrator = IntegratorKind::kCvodeBdf, .max_steps = 20}),
+              HasSubstr("got more than max_steps = 20"));
+}
+
+TEST_P(FailureTest, Line7NamesAFailureAtEveryStageOfAStep) {
+  for (const bool with_nan : {false, true}) {
+    for (int stage = 1; stage <= 16; ++stage) {
+      int calls = 0;
+      bool healed = false;
+      const auto diagram = MakeDiagramOf(
+          std::make_unique<blocks::Ode>(1.0, [&](double t, double x, double) -> double {
+            if (t > 0.5 && !healed && ++calls == stage) {
+              if (!with_nan) throw std::runtime_error("broken on purpose");
+              return std::nan("");
+            }
+            return -x;
+          }));
+      Simulator simulator(*diagram, {.integrator = GetParam(), .max_step = 0.05});
+      diagram->GetInput<Vector>("in").Fix(simulator.context(), Vec({0.0}));
+      simulator.AdvanceTo(0.5);
+      const Status status = simulator.TryAdvanceTo(1.0);
+      ASSERT_FALSE(status.ok()) << stage;
+      EXPECT_STREQ(status.system(), "system");
+      EXPECT_STREQ(status.port(), "x");
+      EXPECT_GE(status.time(), 0.5);
+      EXPECT_THAT(status.message(), HasSubstr(with_nan ? "is not finite" : "broken on purpose"));
+      EXPECT_EQ(simulator.context().time(), 0.5) << stage;
+      healed = true;
+      EXPECT_TRUE(simulator.TryAdvanceTo(1.0).ok());
+      EXPECT_NEAR(diagram->GetOutput<Vector>("out").Eval(simulator.context())[0], std::exp(-1.0),
+                  1e-5);
+    }
+  }
+}
+
+TEST(TryAdvanceToTest, TellsWhatTheCallerGotWrongToo) {
+  const auto diagram = MakeDiagramOf(std::make_unique<blocks::Counter>(Every{Period(1, 10)}));
+  Simulator simulator(*diagram);
+  EXPECT_TRUE(simulator.TryAdvanceTo(1.0).ok());
+  const Status status = simulator.TryAdvanceTo(0.5);
+  EXPECT_FALSE(status.ok());
+  EXPECT_THAT(status.message(), HasSubstr("got 0.5; expected at least 1"));
+  EXPECT_TRUE(simulator.TryAdvanceTo(2.0).ok());
+  EXPECT_EQ(diagram->GetOutput<Vector>("value").Eval(simulator.context())[0], 20.0);
+}
+
 TEST(FailureOfStartTest, Line7AFailedInitializationIsTriedAgain) {
   const auto owned =
       MakeDiagramOf(std::make_unique<Fragile>(Part::kInitialization, How::kThrow, 0.0));
