@@ -15,39 +15,30 @@ bool Finite(const Ball& ball) { return ball.centre.allFinite() && std::isfinite(
 
 }  // namespace
 
-void BallTree::Build(std::span<const Ball> balls) {
+void BallTree::Build(std::span<const Ball> balls, std::size_t capacity) {
+  const std::size_t most = std::max(capacity, balls.size());
+  const std::size_t leaves = (most + kLeaf - 1) / kLeaf;
+  balls_.reserve(most);
+  loose_.reserve(most);
+  place_.reserve(most);
+  order_.reserve(kLeaf * leaves);
+  columns_.reserve(4 * kLeaf * leaves);
+  nodes_.reserve(2 * leaves);
+
   balls_.assign(balls.begin(), balls.end());
   order_.clear();
   loose_.clear();
-  loose_.reserve(balls_.size());
   place_.assign(balls_.size(), -1);
   nodes_.clear();
   columns_.clear();
-  std::vector<int> tree;
-  tree.reserve(balls_.size());
-  for (int i = 0; i < size(); ++i) (Finite(ball(i)) ? tree : loose_).push_back(i);
-  order_.swap(tree);
-  const int count = static_cast<int>(order_.size());
-  if (count == 0) return;
-  nodes_.reserve(static_cast<std::size_t>(4 * (count / kLeaf + 1)));
-  BuildNode(0, count);
-
-  // Leaves were cut out of one row of numbers; each gets its own full places now.
-  std::vector<int> places;
-  for (Node& node : nodes_) {
-    if (node.first < 0) continue;
-    const int first = node.first, last = node.right;
-    node.first = static_cast<int>(places.size());
-    for (int k = 0; k < kLeaf; ++k) {
-      const int index = first + k < last ? order_[static_cast<std::size_t>(first + k)] : -1;
-      if (index >= 0) place_[static_cast<std::size_t>(index)] = node.first + k;
-      places.push_back(index);
-    }
-  }
-  order_.swap(places);
+  for (int i = 0; i < size(); ++i) (Finite(ball(i)) ? order_ : loose_).push_back(i);
+  if (order_.empty()) return;
+  BuildNode(0, static_cast<int>(order_.size()));
+  order_.resize((order_.size() + kLeaf - 1) / kLeaf * kLeaf, -1);  // the last leaf may have gaps
   columns_.assign(4 * order_.size(), kInfinity);
   for (std::size_t place = 0; place < order_.size(); ++place) {
     if (order_[place] < 0) continue;
+    place_[static_cast<std::size_t>(order_[place])] = static_cast<int>(place);
     const Ball& at = ball(order_[place]);
     double* const leaf = columns_.data() + 4 * (place / kLeaf * kLeaf) + place % kLeaf;
     for (int axis = 0; axis < 3; ++axis) leaf[axis * kLeaf] = at.centre[axis];
@@ -62,7 +53,7 @@ int BallTree::BuildNode(int first, int last) {
   Enclose(first, last, node);
   if (last - first <= kLeaf) {
     node.first = first;
-    node.right = last;
+    node.right = -1;
   } else {
     Vector3d low = ball(order_[static_cast<std::size_t>(first)]).centre, high = low;
     for (int i = first; i < last; ++i) {
@@ -72,7 +63,7 @@ int BallTree::BuildNode(int first, int last) {
     }
     int axis = 0;
     (high - low).maxCoeff(&axis);
-    // Full leaves on the left: a multiple of their size nearest to the half.
+    // A multiple of a leaf's size nearest to the half, so that all leaves but the last are full.
     const int half = std::max(kLeaf, (last - first + kLeaf) / (2 * kLeaf) * kLeaf);
     const int middle = std::min(first + half, last - 1);
     std::nth_element(

@@ -24,8 +24,9 @@ struct Ball {
 /// depends on where they are alone, not on how they came there.
 class BallTree {
  public:
-  /// Starts anew with these balls, numbered as they come; allocates only to grow.
-  void Build(std::span<const Ball> balls);
+  /// Starts anew with these balls, numbered as they come, and takes memory for `capacity` of them:
+  /// up to so many no later call touches the heap.
+  void Build(std::span<const Ball> balls, std::size_t capacity = 0);
   /// Puts ball `index` elsewhere. No heap.
   void Move(int index, const Ball& ball);
 
@@ -36,9 +37,9 @@ class BallTree {
   /// ball that is not finite counts as near. No heap if `found` has room for all.
   void FindNear(const Eigen::Vector3d& point, double reach, std::vector<int>& found) const;
 
-  /// Looks for a nearest ball by some measure: calls `visit(index)` for balls that may be nearer
-  /// than `limit()`, nearer groups first. `bound(centre, radius)` is a lower bound of the measure
-  /// for all that lies in such a ball. No heap.
+  /// Looks for what is nearest by some measure: calls `visit(index)` for the balls of each group
+  /// that may hold something nearer than `limit()`, nearer groups first. `bound(centre, radius)` is
+  /// a lower bound of the measure for all that lies in such a ball. No heap.
   template <class Bound, class Limit, class Visit>
   void Search(const Bound& bound, const Limit& limit, const Visit& visit) const;
 
@@ -66,11 +67,7 @@ class BallTree {
 
 template <class Bound, class Limit, class Visit>
 void BallTree::Search(const Bound& bound, const Limit& limit, const Visit& visit) const {
-  const auto look_at = [&](int index) {
-    const Ball& at = ball(index);
-    if (!(bound(at.centre, at.radius) > limit())) visit(index);
-  };
-  for (const int index : loose_) look_at(index);
+  for (const int index : loose_) visit(index);
   if (nodes_.empty()) return;
   struct Waiting {
     double bound;
@@ -86,7 +83,7 @@ void BallTree::Search(const Bound& bound, const Limit& limit, const Visit& visit
     if (node.first >= 0) {
       for (int place = node.first; place < node.first + kLeaf; ++place) {
         const int index = order_[static_cast<std::size_t>(place)];
-        if (index >= 0 && place_[static_cast<std::size_t>(index)] == place) look_at(index);
+        if (index >= 0 && place_[static_cast<std::size_t>(index)] == place) visit(index);
       }
       continue;
     }

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "models/error.h"
+#include "models/geometry/ball_tree.h"
 #include "models/geometry/core_support.h"
 
 namespace oca::models {
@@ -31,6 +32,9 @@ double CheckedSize(double value, std::string_view where, std::string_view what) 
 
 // Relative thickness below which the volume of a body drowns in rounding.
 constexpr double kFlattest = 1e-9;
+
+// From so many parts on a tree finds the nearest one sooner than a look at each.
+constexpr std::size_t kManyParts = 16;
 
 void CheckThickness(const Vector3d& half, std::string_view where) {
   if (half.minCoeff() >= kFlattest * half.maxCoeff()) return;
@@ -128,7 +132,8 @@ void Collider::Prepare(const Compound& compound, std::string_view where) {
           part.shape.index() == Shape(HalfSpace{}).index() ? "half-space" : "compound"));
     }
     CheckPose(part.X_SP, name);
-    parts_.push_back({part.X_SP, MakeCollider(part.shape, name)});
+    parts_.push_back({part.X_SP, SameAsLast(part.shape) ? parts_.back().collider
+                                                        : MakeCollider(part.shape, name)});
     const Collider& collider = *parts_.back().collider;
     const Vector3d centre = part.X_SP * collider.centre();
     const Vector3d reach = Vector3d::Constant(collider.bounding_radius());
@@ -139,6 +144,23 @@ void Collider::Prepare(const Compound& compound, std::string_view where) {
     const double offset = (part.X_SP * part.collider->centre() - centre_).norm();
     bounding_radius_ = std::max(bounding_radius_, offset + part.collider->bounding_radius());
   }
+  if (parts_.size() < kManyParts) return;
+  std::vector<Ball> balls;
+  balls.reserve(parts_.size());
+  for (const Part& part : parts_) {
+    balls.push_back({part.X_SP * part.collider->centre(), part.collider->bounding_radius()});
+  }
+  auto tree = std::make_shared<BallTree>();
+  tree->Build(balls);
+  part_balls_ = std::move(tree);
+}
+
+// The points of a cloud are thousands of equal spheres.
+bool Collider::SameAsLast(const Shape& shape) const {
+  const auto* sphere = std::get_if<Sphere>(&shape);
+  if (parts_.empty() || sphere == nullptr) return false;
+  const auto* last = std::get_if<Sphere>(&parts_.back().collider->shape());
+  return last != nullptr && last->radius == sphere->radius;
 }
 
 Vector3d Collider::Support(const Vector3d& direction) const {

@@ -12,6 +12,8 @@
 
 namespace oca::models {
 
+class BallTree;
+
 /// A shape prepared for distance queries: the set of all points within `radius` of a convex core.
 ///
 /// | shape    | core                                        | radius  |
@@ -60,6 +62,8 @@ class Collider {
   const ConvexHull* hull() const { return hull_; }
   /// Of a compound, else none.
   const std::vector<Part>& parts() const { return parts_; }
+  /// Balls around the parts, in the compound's frame, if there are many parts; else null.
+  const BallTree* part_balls() const { return part_balls_.get(); }
 
   /// A point of the core that lies farthest along `direction` (of any length, zero included); of a
   /// compound the farthest of all parts. NaN for a half-space, which has none.
@@ -68,6 +72,7 @@ class Collider {
  private:
   void Prepare(const ConvexMesh& mesh, std::string_view where);
   void Prepare(const Compound& compound, std::string_view where);
+  bool SameAsLast(const Shape& shape) const;
 
   Shape shape_;
   Core core_{Core::kPoint};
@@ -77,6 +82,7 @@ class Collider {
   double bounding_radius_{0.0};
   const ConvexHull* hull_{nullptr};  // kept alive by shape_
   std::vector<Part> parts_;
+  std::shared_ptr<const BallTree> part_balls_;
 };
 
 /// Prepares a shape. `where` names it in the error.

@@ -8,6 +8,7 @@
 #include "models/geometry/bullet_penetration.h"
 #include "models/geometry/closed_forms.h"
 #include "models/geometry/gjk.h"
+#include "models/geometry/nearest_part.h"
 #include "models/geometry/polytope_depth.h"
 
 namespace oca::models {
@@ -180,6 +181,34 @@ SignedDistance OfPair(const Collider& a, const Isometry3d& X_WA, const Collider&
   return found;
 }
 
+bool IsConvexAndEnds(const Collider& body) {
+  return body.core() != Collider::Core::kCompound && body.core() != Collider::Core::kHalfSpace;
+}
+
+// The nearest of many parts of B to the parts of A, of which there are fewer, or to A itself.
+SignedDistance OfManyParts(const Collider& a, const Isometry3d& X_WA, const Collider& b,
+                           const Isometry3d& X_WB, double max_distance) {
+  if (IsConvexAndEnds(a)) {
+    return internal::DistanceToNearestPart(a, X_WA, b, X_WB, max_distance);
+  }
+  SignedDistance best;
+  best.distance = max_distance;
+  best.status = DistanceStatus::kBeyond;
+  for (const Collider::Part& part : a.parts()) {
+    const auto found =
+        internal::DistanceToNearestPart(*part.collider, X_WA * part.X_SP, b, X_WB, best.distance);
+    if (found.status == DistanceStatus::kBeyond) continue;
+    if (best.status == DistanceStatus::kBeyond || found.distance < best.distance) best = found;
+  }
+  return best;
+}
+
+// Whether OfManyParts answers for A and B in this order.
+bool HasManyParts(const Collider& a, const Collider& b) {
+  return b.part_balls() != nullptr && a.core() != Collider::Core::kHalfSpace &&
+         a.parts().size() <= b.parts().size();
+}
+
 // The nearest pair of parts of two bodies that may be compounds. It starts with the pair that was
 // nearest last time, so that the others can be left early.
 SignedDistance OfParts(const Collider& a, const Isometry3d& X_WA, const Collider& b,
@@ -222,6 +251,8 @@ SignedDistance Distance(const Collider& a, const Isometry3d& X_WA, const Collide
   if (a.core() != Collider::Core::kCompound && b.core() != Collider::Core::kCompound) {
     return OfPair(a, X_WA, b, X_WB, max_distance, cache);
   }
+  if (HasManyParts(a, b)) return OfManyParts(a, X_WA, b, X_WB, max_distance);
+  if (HasManyParts(b, a)) return Swapped(OfManyParts(b, X_WB, a, X_WA, max_distance));
   return OfParts(a, X_WA, b, X_WB, max_distance, cache);
 }
 

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "models/geometry/point_cloud.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+
+#include "models/error.h"
+#include "tests/models/geometry/random_bodies.h"
+#include "tests/temporary_folder.h"
+
+namespace oca::models {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class PointCloudTest : public ::testing::Test {
+ protected:
+  std::filesystem::path File(const std::string& name, const std::string& content) {
+    return folder_.Write(name, content);
+  }
+  std::vector<Vector3d> Points(const std::string& name, const std::string& content) {
+    return LoadPointCloud(File(name, content));
+  }
+  std::string Refusal(const std::string& name, const std::string& content) {
+    try {
+      LoadPointCloud(File(name, content));
+    } catch (const ModelError& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+  std::string MapRefusal(const std::string& name, const std::string& content, double cell = 1.0) {
+    try {
+      LoadHeightmap(File(name, content), cell, 1.0);
+    } catch (const ModelError& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+  test::TemporaryFolder folder_;
+};
+
+template <class T>
+std::string Bytes(std::initializer_list<T> values) {
+  std::string bytes;
+  for (const T value : values) {
+    char raw[sizeof(T)];
+    std::memcpy(raw, &value, sizeof(T));
+    bytes.append(raw, sizeof(T));
+  }
+  return bytes;
+}
+
+const Vector3d kFirst(1.0, 2.0, 3.0), kSecond(-0.5, 0.25, 1e-3);
+
+TEST_F(PointCloudTest, ReadsTablesWithNamesCommentsAndMoreColumns) {
+  EXPECT_THAT(Points("a.csv", "x,y,z,intensity\n1,2,3,9\r\n# seen\n\n-0.5,0.25,1e-3,7\n"),
+              ElementsAre(kFirst, kSecond));
+  EXPECT_THAT(Points("a.xyz", "1 2 3\n-0.5\t+0.25 0.001"), ElementsAre(kFirst, kSecond));
+}
+
+TEST_F(PointCloudTest, ReadsPly) {
+  const std::string head =
+      "element vertex 2\nproperty float x\nproperty uchar red\nproperty float y\nproperty double "
+      "z\nelement face 0\nproperty list uchar int vertex_indices\nend_header\n";
+  EXPECT_THAT(Points("a.ply", "ply\nformat ascii 1.0\ncomment c\n" + head +
+                                  "1 255 2 3\n-0.5 0 0.25 0.001\n"),
+              ElementsAre(kFirst, kSecond));
+  const std::string body = Bytes<float>({1.0f}) + '\xff' + Bytes<float>({2.0f}) +
+                           Bytes<double>({3.0}) + Bytes<float>({-0.5f}) + '\x00' +
+                           Bytes<float>({0.25f}) + Bytes<double>({1e-3});
+  EXPECT_THAT(Points("b.ply", "ply\nformat binary_little_endian 1.0\n" + head + body),
+              ElementsAre(kFirst, kSecond));
+}
+
+TEST_F(PointCloudTest, ReadsPcdAndLeavesOutWhatTheCameraDidNotSee) {
+  const std::string head =
+      "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z rgb\nSIZE 4 4 4 1\nTYPE F F F U\nCOUNT 1 1 1 3\n"
+      "WIDTH 3\nHEIGHT 1\nPOINTS 3\n";
+  EXPECT_THAT(Points("a.pcd", head + "DATA ascii\n1 2 3 0 0 0\nnan nan nan 0 0 0\n0 0 0 1 2 3\n"),
+              ElementsAre(kFirst, Vector3d::Zero()));
+  const std::string body = Bytes<float>({1.0f, 2.0f, 3.0f}) + "rgb" +
+                           Bytes<float>({0.0f, 0.0f, std::numeric_limits<float>::infinity()}) +
+                           "rgb" + Bytes<float>({0.0f, 0.0f, 0.0f}) + "rgb";
+  EXPECT_THAT(Points("b.pcd", head + "DATA binary\n" + body),
+              ElementsAre(kFirst, Vector3d::Zero()));
+}
+
+TEST_F(PointCloudTest, RefusesWhatIsNoCloudSayingWhere) {
+  EXPECT_THAT(Refusal("a.csv", "1,2,3\n1,x,3\n"), HasSubstr("a.csv:2: no point"));
+  EXPECT_THAT(Refusal("a.csv", "1,2,3\n1,2\n"), HasSubstr("a.csv:2: no point"));
+  EXPECT_THAT(Refusal("a.csv", "x,y,z\n"), HasSubstr("holds no point"));
+  EXPECT_THAT(Refusal("a.txt", "1,2,3\n"), HasSubstr("extension; got '.txt'"));
+  EXPECT_THAT(Refusal("a.ply", "plx\n"), HasSubstr("is no PLY file"));
+  EXPECT_THAT(Refusal("a.ply", "ply\nformat ascii 1.0\n"), HasSubstr("ends in its header"));
+  EXPECT_THAT(Refusal("a.ply", "ply\nformat binary_big_endian 1.0\nend_header\n"),
+              HasSubstr("a.ply:2: format; got binary_big_endian"));
+  EXPECT_THAT(Refusal("a.ply",
+                      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"
+                      "end_header\n1\n"),
+              HasSubstr("has no coordinates"));
+  const std::string ply =
+      "element vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+  EXPECT_THAT(Refusal("a.ply", "ply\nformat ascii 1.0\n" + ply + "1 2 3\n"),
+              HasSubstr("ends too early; got 1 points; expected 2"));
+  EXPECT_THAT(Refusal("a.ply", "ply\nformat binary_little_endian 1.0\n" + ply + "12345678901"),
+              HasSubstr("ends too early; got 0 points"));
+  EXPECT_THAT(Refusal("a.pcd", "FIELDS x y z\nSIZE 4 4\nTYPE F F F\nPOINTS 1\nDATA ascii\n1 2 3"),
+              HasSubstr("unequal length"));
+  EXPECT_THAT(Refusal("a.pcd", "FIELDS x y z\nSIZE 4 4 3\nTYPE F F F\nPOINTS 1\nDATA ascii\n1 2 3"),
+              HasSubstr("field 'z'"));
+  EXPECT_THAT(Refusal("a.pcd",
+                      "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS 1\nDATA "
+                      "binary_compressed\n"),
+              HasSubstr("DATA; got binary_compressed"));
+  EXPECT_THROW(LoadPointCloud(folder_.path() / "absent.csv"), ModelError);
+  EXPECT_THROW(LoadPointCloud("/dev/zero"), ModelError);
+}
+
+TEST_F(PointCloudTest, MeasuresTheDistanceToTheNearestBallOfACloud) {
+  const std::vector<Vector3d> points{kFirst, kSecond, Vector3d(0.0, 0.0, 5.0)};
+  const Collider cloud(MakeCloud(points, 0.1), "cloud");
+  const Collider ball(Sphere{0.2}, "ball");
+  const auto found = Distance(ball, Isometry3d(Eigen::Translation3d(0.0, 0.0, 7.0)), cloud,
+                              Isometry3d::Identity());
+  EXPECT_NEAR(found.distance, 1.7, 1e-12);
+  EXPECT_NEAR((found.normal - Vector3d::UnitZ()).norm(), 0.0, 1e-12);
+}
+
+// The tree may only skip what is not the nearest: bodies of all kinds against a cloud, beside a
+// look at every ball.
+TEST_F(PointCloudTest, EqualsALookAtEveryBall) {
+  RandomBodies random(23);
+  int beyond = 0, inside = 0;
+  for (int i = 0; i < 300; ++i) {
+    std::vector<Vector3d> points(400);
+    const double size = random.Uniform(0.05, 1.0);
+    for (Vector3d& p : points) p = random.Uniform(0.0, size) * random.Direction();
+    const Collider cloud(MakeCloud(points, 0.02), "cloud");
+    const Collider ball(Sphere{0.02}, "ball");
+    const auto body = random.Body(random.Integer(RandomBodies::kKinds));
+    const Isometry3d X_WC = random.Pose(1.0), X_WB = random.Pose(1.0);
+    const double limit = i % 2 == 0 ? 0.3 : std::numeric_limits<double>::infinity();
+    double least = std::numeric_limits<double>::infinity();
+    for (const Vector3d& p : points) {
+      least = std::min(least, Distance(*body, X_WB, ball, X_WC * Eigen::Translation3d(p)).distance);
+    }
+    const auto found = Distance(*body, X_WB, cloud, X_WC, limit);
+    const auto turned = Distance(cloud, X_WC, *body, X_WB, limit);
+    if (least > limit) {
+      ++beyond;
+      EXPECT_EQ(found.status, DistanceStatus::kBeyond) << i;
+      continue;
+    }
+    if (least < 0.0) ++inside;
+    ASSERT_NEAR(found.distance, least, 1e-9) << i;
+    ASSERT_NEAR(turned.distance, least, 1e-9) << i;
+    EXPECT_NEAR((found.normal + turned.normal).norm(), 0.0, 1e-9) << i;
+  }
+  EXPECT_GT(beyond, 10);
+  EXPECT_GT(inside, 10);
+}
+
+TEST_F(PointCloudTest, BuildsHeightmapsOfColumns) {
+  // Two rows of 3 cells, 0.5 m wide; the upper row is one step, the lower one has a tower.
+  const auto file = File("map.csv", "1,1,1\n0,0,3\n");
+  const Collider map(LoadHeightmap(file, 0.5, 0.1), "map");
+  EXPECT_EQ(map.parts().size(), 3u);  // equal neighbours share a box
+  const Collider ball(Sphere{0.1}, "ball");
+  const auto above = [&](double x, double y) {
+    return Distance(ball, Isometry3d(Eigen::Translation3d(x, y, 1.0)), map, Isometry3d::Identity(),
+                    5.0)
+        .point_b.z();
+  };
+  EXPECT_NEAR(above(-0.5, 0.25), 0.1, 1e-12);
+  EXPECT_NEAR(above(0.6, -0.25), 0.3, 1e-12);
+  EXPECT_NEAR(above(-0.7, -0.45), 0.0, 1e-12);
+}
+
+TEST_F(PointCloudTest, ReadsHeightsFromGreyValues) {
+  for (const std::string& image :
+       {std::string("P2\n# two by one\n2 1\n100\n50 100\n"),
+        std::string("P5 2 1 255\n") + "\x33" + "\xff",
+        std::string("P5 2 1 1000\n") + std::string("\x01\xf4\x03\xe8", 4)}) {
+    const Compound map = LoadHeightmap(File("map.pgm", image), 1.0, 2.0);
+    ASSERT_EQ(map.parts.size(), 2u);
+    EXPECT_NEAR(std::get<Box>(map.parts[1].shape).size.z(), 1.0 + 2.0, 1e-12);
+    EXPECT_LT(std::get<Box>(map.parts[0].shape).size.z(), 1.0 + 1.01);
+  }
+}
+
+TEST_F(PointCloudTest, RefusesWhatIsNoHeightmap) {
+  EXPECT_THAT(MapRefusal("map.csv", "1,2\n1\n"), HasSubstr("map.csv:2: row; got 1 values"));
+  EXPECT_THAT(MapRefusal("map.csv", "1,-2\n"), HasSubstr("height in row 1; got -2"));
+  EXPECT_THAT(MapRefusal("map.csv", "1,nan\n"), HasSubstr("height in row 1"));
+  EXPECT_THAT(MapRefusal("map.csv", "1,a\n"), HasSubstr("map.csv:1: height; got a"));
+  EXPECT_THAT(MapRefusal("map.csv", ""), HasSubstr("holds no height"));
+  EXPECT_THAT(MapRefusal("map.csv", "1\n", 0.0), HasSubstr("cell and scale"));
+  EXPECT_THAT(MapRefusal("map.png", "1\n"), HasSubstr("extension"));
+  EXPECT_THAT(MapRefusal("map.pgm", "P6 1 1 255\nx"), HasSubstr("kind of PGM; got P6"));
+  EXPECT_THAT(MapRefusal("map.pgm", "P5 2 2 255\nxxx"), HasSubstr("ends too early"));
+  EXPECT_THAT(MapRefusal("map.pgm", "P2 2 1 9\n4 10\n"), HasSubstr("grey value; got 10"));
+  EXPECT_THAT(MapRefusal("map.pgm", "P2 -2 1 9\n4\n"), HasSubstr("width; got -2"));
+}
+
+}  // namespace
+}  // namespace oca::models
