@@ -6,6 +6,7 @@ set(avoidance
   force_sum
   jacobian_mapping
   motion_metrics
+  near_obstacles
   obstacle_motion
   obstacle_source
   repulsive_field
@@ -15,4 +16,4 @@ set(avoidance
 set(avoidance_headers geometry_params.h link_colliders.h model_links.h motion_metrics_value.h
     rotation.h)
 set(avoidance_sources geometry_params.cc json_fields.cc link_colliders.cc model_links.cc
-    motion_metrics_value.cc motion_tally.cc rotation.cc waypoint_table.cc)
+    motion_certificate.cc motion_metrics_value.cc motion_tally.cc rotation.cc waypoint_table.cc)

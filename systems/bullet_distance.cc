@@ -44,6 +44,14 @@ Proximity ToProximity(models::Name link, models::Name obstacle,
   return proximity;
 }
 
+// Bound on the speed of all points of a link; 0 if its pose does not come in.
+double SpeedOf(const LinkCollider& link, const LinkPoses& poses) {
+  const int at = poses.Find(link.link, link.number);
+  if (at < 0) return 0.0;
+  const models::LinkVelocity& V = poses.velocities[at];
+  return SpeedBound(V.linear, V.angular, poses.poses[at], {link.centre, link.radius});
+}
+
 }  // namespace
 
 void BulletDistance::Params::Describe(Fields<Params>& fields) {
@@ -74,6 +82,8 @@ BulletDistance::BulletDistance(const Params& params, const ModelSet& models)
       links(DeclareInput<LinkPoses>("links")),
       obstacles(DeclareInput<ObstacleSet>("obstacles")),
       links_of_others(DeclareOtherLinks()),
+      scene(DeclareOutput<ObstacleScene, &BulletDistance::CalcScene>("scene", {}, obstacles)),
+      near(DeclareOutput<NearObstacles, &BulletDistance::CalcNear>("near", {}, links, scene)),
       proximities(DeclareProximities()) {}
 
 std::vector<LinkCollider> BulletDistance::MakeMovable() const {
@@ -166,49 +176,79 @@ Output<ProximitySet> BulletDistance::DeclareProximities() {
   switch (link_forces_ ? moving_others_ : 0) {
     case 1:
       return DeclareOutput<ProximitySet, &B::CalcProximities<L>>("proximities", {}, links,
-                                                                 obstacles, of[0]);
+                                                                 obstacles, scene, near, of[0]);
     case 2:
-      return DeclareOutput<ProximitySet, &B::CalcProximities<L, L>>("proximities", {}, links,
-                                                                    obstacles, of[0], of[1]);
+      return DeclareOutput<ProximitySet, &B::CalcProximities<L, L>>(
+          "proximities", {}, links, obstacles, scene, near, of[0], of[1]);
     case 3:
       return DeclareOutput<ProximitySet, &B::CalcProximities<L, L, L>>(
-          "proximities", {}, links, obstacles, of[0], of[1], of[2]);
+          "proximities", {}, links, obstacles, scene, near, of[0], of[1], of[2]);
     default:
-      return DeclareOutput<ProximitySet, &B::CalcProximities<>>("proximities", {}, links,
-                                                                obstacles);
+      return DeclareOutput<ProximitySet, &B::CalcProximities<>>("proximities", {}, links, obstacles,
+                                                                scene, near);
+  }
+}
+
+void BulletDistance::CalcNear(const LinkPoses& poses, const ObstacleScene& of,
+                              NearObstacles& result) const {
+  CheckNames(poses);
+  result.Clear(movable_.size(), of.capacity());
+  for (const LinkCollider& link : movable_) {
+    const int index = poses.Find(link.link, link.number);
+    if (index < 0) {
+      result.AddNone();
+    } else {
+      result.Add(of.balls(), poses.poses[index] * link.centre, link.radius + max_distance_);
+    }
   }
 }
 
 template <class... Poses>
 void BulletDistance::CalcProximities(const LinkPoses& poses, const ObstacleSet& set,
+                                     const ObstacleScene& of, const NearObstacles& candidates,
                                      const Poses&... others, ProximitySet& result) const {
   const std::array<const LinkPoses*, sizeof...(Poses) + 1> poses_of_others{&others..., nullptr};
-  CheckNames(poses);
+  result.max_distance = max_distance_;
+  result.fastest = of.fastest();
   for (std::size_t i = 0; i < sizeof...(Poses); ++i) {
     CheckVelocities(others_[i], *poses_of_others[i]);
+    for (const Neighbour& other : others_[i].links) {
+      result.fastest = std::max(result.fastest, SpeedOf(other.collider, *poses_of_others[i]));
+    }
   }
   std::size_t most = set.obstacles.capacity() + own_.size();
   for (const Other& other : others_) most += other.links.size();
   result.proximities.clear();
   result.proximities.reserve(movable_.size() * most);  // so that no pair that comes near allocates
-  for (const LinkCollider& link : movable_) {
+  for (std::size_t i = 0; i < movable_.size(); ++i) {
+    const LinkCollider& link = movable_[i];
     const int index = poses.Find(link.link, link.number);
-    if (index >= 0) AddLink(link, poses, index, set, poses_of_others.data(), result);
+    if (index < 0) continue;
+    AddObstacles(link, poses.poses[index], set, candidates.of(i), result);
+    AddLinks(link, poses, index, poses_of_others.data(), result);
   }
 }
 
-void BulletDistance::AddLink(const LinkCollider& link, const LinkPoses& poses, int index,
-                             const ObstacleSet& set, const LinkPoses* const* others,
-                             ProximitySet& result) const {
-  const Eigen::Isometry3d& X_WL = poses.poses[index];
-  for (const Obstacle& obstacle : set.obstacles) {
+void BulletDistance::AddObstacles(const LinkCollider& link, const Eigen::Isometry3d& X_WL,
+                                  const ObstacleSet& set, std::span<const int> candidates,
+                                  ProximitySet& result) const {
+  for (const int place : candidates) {
+    const Obstacle& obstacle = set.obstacles[static_cast<std::size_t>(place)];
     if (Ignored(link.link, obstacle.body->id)) continue;
-    const auto found =
-        DistanceToBody(link, X_WL, *obstacle.body->collider, obstacle.X_WO, max_distance_);
+    const models::Collider& collider = *obstacle.body->collider;
+    const auto found = DistanceToBody(link, X_WL, collider, obstacle.X_WO, max_distance_);
     if (found.status == models::DistanceStatus::kBeyond) continue;
-    result.proximities.push_back(ToProximity(link.link, obstacle.body->id, found));
-    result.proximities.back().obstacle_velocity = obstacle.VelocityAt(found.point_b);
+    Proximity& proximity =
+        result.proximities.emplace_back(ToProximity(link.link, obstacle.body->id, found));
+    proximity.obstacle_velocity = obstacle.VelocityAt(found.point_b);
+    proximity.obstacle_speed = SpeedBound(obstacle.linear, obstacle.angular, obstacle.X_WO,
+                                          {collider.centre(), collider.bounding_radius()});
   }
+}
+
+void BulletDistance::AddLinks(const LinkCollider& link, const LinkPoses& poses, int index,
+                              const LinkPoses* const* others, ProximitySet& result) const {
+  const Eigen::Isometry3d& X_WL = poses.poses[index];
   for (const Neighbour& own : own_) {
     if (model_->adjacent(link.number, own.collider.number) ||
         model_->collision_disabled(link.number, own.collider.number)) {
@@ -232,6 +272,7 @@ void BulletDistance::AddLink(const LinkCollider& link, const LinkPoses& poses, i
       if (at >= 0 && AddOther(link, X_WL, other, others[i]->poses[at], result)) {
         Proximity& found = result.proximities.back();
         found.obstacle_velocity = others[i]->VelocityAt(at, found.point_on_obstacle);
+        found.obstacle_speed = SpeedOf(other.collider, *others[i]);
       }
     }
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "framework/system.h"
 #include "systems/link_colliders.h"
 #include "systems/model_set.h"
+#include "systems/near_obstacles.h"
 #include "systems/signals.h"
 
 namespace oca::systems {
@@ -27,6 +29,10 @@ namespace oca::systems {
 /// other: the lowest movable link against the other arm's lowest movable link and what of the other
 /// arm cannot move.
 ///
+/// Pairs whose bounding balls are farther apart than max_distance are not looked at: balls around
+/// the obstacles form a tree, which only obstacles that move make work for, so many far ones cost
+/// little.
+///
 /// Every tick is computed afresh: warm starts would let the last bits depend on which ticks were
 /// looked at before.
 ///
@@ -34,6 +40,8 @@ namespace oca::systems {
 /// in    obstacles     ObstacleSet
 /// in    links_<name>  LinkPoses    for each of `others` that has movable joints; with velocities
 /// out   proximities   ProximitySet
+/// out   scene         ObstacleScene  the obstacles, arranged for searches
+/// out   near          NearObstacles  of each movable link that has solids, in the model's order
 /// state -
 /// throws ConfigError if a model or a link of `ignore` does not exist, a pair is no pair,
 ///        max_distance is not positive, calculate_link_forces has no `others`, or more than 3 of
@@ -80,11 +88,16 @@ class BulletDistance final : public System {
   std::vector<Input<LinkPoses>> DeclareOtherLinks();
   Output<ProximitySet> DeclareProximities();
 
+  void CalcScene(const ObstacleSet& set, ObstacleScene& result) const { result.Follow(set); }
+  void CalcNear(const LinkPoses& poses, const ObstacleScene& of, NearObstacles& result) const;
   template <class... Poses>
-  void CalcProximities(const LinkPoses& poses, const ObstacleSet& set, const Poses&... others,
+  void CalcProximities(const LinkPoses& poses, const ObstacleSet& set, const ObstacleScene& of,
+                       const NearObstacles& candidates, const Poses&... others,
                        ProximitySet& result) const;
-  void AddLink(const LinkCollider& link, const LinkPoses& poses, int index, const ObstacleSet& set,
-               const LinkPoses* const* others, ProximitySet& result) const;
+  void AddObstacles(const LinkCollider& link, const Eigen::Isometry3d& X_WL, const ObstacleSet& set,
+                    std::span<const int> candidates, ProximitySet& result) const;
+  void AddLinks(const LinkCollider& link, const LinkPoses& poses, int index,
+                const LinkPoses* const* others, ProximitySet& result) const;
   bool AddOther(const LinkCollider& link, const Eigen::Isometry3d& X_WL, const Neighbour& other,
                 const Eigen::Isometry3d& X_WO, ProximitySet& result) const;
   bool Ignored(models::Name link, models::Name obstacle) const;
@@ -106,6 +119,8 @@ class BulletDistance final : public System {
   const Input<LinkPoses> links;
   const Input<ObstacleSet> obstacles;
   const std::vector<Input<LinkPoses>> links_of_others;
+  const Output<ObstacleScene> scene;
+  const Output<NearObstacles> near;
   const Output<ProximitySet> proximities;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "systems/motion_metrics.h"
 
+#include "systems/model_links.h"
 #include "systems/require.h"
 
 namespace oca::systems {
@@ -9,11 +10,15 @@ void MotionMetrics::Params::Describe(Fields<Params>& fields) {
   fields.Add("period", &Params::period, "s", "time between samples; that of control")
       .Above(0.0)
       .Required();
+  fields.Add("model", &Params::model, "",
+             "robot whose position comes in, for certified_min_distance; none if left out");
 }
 
-MotionMetrics::MotionMetrics(const Params& params)
+MotionMetrics::MotionMetrics(const Params& params, const ModelSet& models)
     : period_(params.period.seconds()),
-      spec_{DeclareSize(), DeclareUnit()},
+      model_(params.model.empty() ? nullptr : MovableModel(models, params.model)),
+      travel_(model_ ? std::optional<models::TravelBound>(*model_) : std::nullopt),
+      spec_(MakeSpec()),
       x_(DeclareDiscreteState<MotionTally>("x", {})),
       position(DeclareOptionalInput<Vector>("position", spec_)),
       request(DeclareOptionalInput<Vector>("request", spec_)),
@@ -29,10 +34,22 @@ MotionMetrics::MotionMetrics(const Params& params)
                                         goal, delta, proximities);
 }
 
+PortSpec MotionMetrics::MakeSpec() {
+  return model_ ? PositionSpec(*model_) : PortSpec{DeclareSize(), DeclareUnit()};
+}
+
+MotionSample MotionMetrics::Sample(double time, OptionalVector position_value,
+                                   OptionalVector request_value, OptionalVector goal_value,
+                                   OptionalVector delta_value,
+                                   const ProximitySet* proximity_set) const {
+  return {time,        position_value, request_value, goal_value,
+          delta_value, proximity_set,  model_.get(),  travel_ ? &*travel_ : nullptr};
+}
+
 void MotionMetrics::Update(double time, OptionalVector position_value, OptionalVector request_value,
                            OptionalVector goal_value, OptionalVector delta_value,
                            const ProximitySet* proximity_set, MotionTally& next) const {
-  next.Add({time, position_value, request_value, goal_value, delta_value, proximity_set});
+  next.Add(Sample(time, position_value, request_value, goal_value, delta_value, proximity_set));
 }
 
 void MotionMetrics::CalcTally(double time, OptionalVector position_value,
@@ -43,15 +60,15 @@ void MotionMetrics::CalcTally(double time, OptionalVector position_value,
   // Times of ticks are rationals rounded to doubles, so their differences are off by a little.
   const bool pending = x.samples() == 0 || time - x.last_time() > 0.999999 * period_;
   if (!pending) return;
-  value.Add({time, position_value, request_value, goal_value, delta_value, proximity_set});
+  value.Add(Sample(time, position_value, request_value, goal_value, delta_value, proximity_set));
 }
 
 void MotionMetrics::CalcMetrics(double time, OptionalVector position_value,
                                 OptionalVector request_value, OptionalVector goal_value,
                                 OptionalVector delta_value, const ProximitySet* proximity_set,
                                 const MotionTally& complete, MotionMetricsValue& value) const {
-  value =
-      complete.At({time, position_value, request_value, goal_value, delta_value, proximity_set});
+  value = complete.At(
+      Sample(time, position_value, request_value, goal_value, delta_value, proximity_set));
 }
 
 }  // namespace oca::systems

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <string>
 
 #include "framework/params.h"
 #include "framework/system.h"
+#include "models/robot/travel_bound.h"
+#include "systems/model_set.h"
 #include "systems/motion_metrics_value.h"
 
 namespace oca::systems {
@@ -14,6 +18,12 @@ namespace oca::systems {
 /// the updates of the instant.
 ///
 /// - min_distance: the least distance of all samples, with its pair and its time
+/// - certified_min_distance: a proved lower bound of the distance at every time, between the
+/// samples
+///   too: over each step, and for each pair, (before + after - travel) / 2, with what is not listed
+///   at its max_distance. travel bounds how far the link moves, from what the joints of `model`
+///   went, and the obstacle, from its speed. The proof takes for granted that no joint turns round
+///   within a step and no obstacle is faster in it than at either end
 /// - contact_time: sum of the times from samples at distance <= 0 to the next one
 /// - first_contact_time: of the first sample at distance <= 0
 /// - max_abs_delta: largest |delta| of any joint
@@ -32,24 +42,33 @@ namespace oca::systems {
 /// out   metrics      MotionMetrics
 /// out   tally        MotionTally   the sums behind them, the present sample included
 /// state x            MotionTally
-/// throws ConfigError if period is not positive
+/// throws ConfigError if period is not positive or there is no such model
+/// source models/robot/travel_bound.h
 class MotionMetrics final : public System {
  public:
   static constexpr SystemDoc kDoc{"measures nearness, contact, smoothness and arrival of a run",
                                   "extremes, sums and rates over samples taken every period", ""};
   struct Params {
     Period period{};
+    std::string model{};
     static void Describe(Fields<Params>& fields);
   };
-  static Params Example() { return {.period = Period(1, 100)}; }
+  static Params Example() { return {.period = Period(1, 100), .model = {}}; }
 
-  explicit MotionMetrics(const Params& params);
+  explicit MotionMetrics(const Params& params) : MotionMetrics(params, {}) {}
+  MotionMetrics(const Params& params, const ModelSet& models);
 
  private:
   using OptionalVector = std::optional<VectorView>;
-  const double period_;  // s
+  const double period_;                                    // s
+  const std::shared_ptr<const models::RobotModel> model_;  ///< null: positions mean nothing
+  const std::optional<models::TravelBound> travel_;
   const PortSpec spec_;
   const DiscreteState<MotionTally> x_;
+  PortSpec MakeSpec();
+  MotionSample Sample(double time, OptionalVector position_value, OptionalVector request_value,
+                      OptionalVector goal_value, OptionalVector delta_value,
+                      const ProximitySet* proximity_set) const;
   void Update(double time, OptionalVector position_value, OptionalVector request_value,
               OptionalVector goal_value, OptionalVector delta_value,
               const ProximitySet* proximity_set, MotionTally& next) const;

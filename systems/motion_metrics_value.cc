@@ -28,6 +28,7 @@ struct NumberField {
 constexpr std::array kNumbers{
     NumberField{"min_distance", &MotionMetricsValue::min_distance},
     NumberField{"min_distance_time", &MotionMetricsValue::min_distance_time},
+    NumberField{"certified_min_distance", &MotionMetricsValue::certified_min_distance},
     NumberField{"contact_time", &MotionMetricsValue::contact_time},
     NumberField{"first_contact_time", &MotionMetricsValue::first_contact_time},
     NumberField{"max_abs_delta", &MotionMetricsValue::max_abs_delta},
@@ -64,8 +65,8 @@ void Signal<MotionMetricsValue>::WriteJson(const MotionMetricsValue& value, std:
 MotionMetricsValue Signal<MotionMetricsValue>::ReadJson(std::string_view text) {
   const Json json = systems::ParseJson(text);
   const JsonReader reader(json, "metrics");
-  reader.CheckKeys({"min_distance", kPair, "min_distance_time", "contact_time",
-                    "first_contact_time", "max_abs_delta", "final_error",
+  reader.CheckKeys({"min_distance", kPair, "min_distance_time", "certified_min_distance",
+                    "contact_time", "first_contact_time", "max_abs_delta", "final_error",
                     "delta_sign_changes_per_second", "total_variation_ratio", "max_joint_speed",
                     "max_joint_acceleration"});
   MotionMetricsValue value;
@@ -90,10 +91,17 @@ bool Signal<MotionTally>::Finite(const MotionTally& value) {
   const auto finite = [](const std::vector<double>& vector) {
     return AllFinite(vector.data(), static_cast<std::size_t>(vector.size()));
   };
-  const std::array numbers{value.last_time_,     value.min_distance_.value_or(0.0),
-                           value.contact_time_,  value.max_abs_delta_,
-                           value.position_path_, value.request_path_,
-                           value.max_speed_,     value.max_acceleration_};
+  const std::array numbers{value.certified_,
+                           value.reach_,
+                           value.fastest_,
+                           value.last_time_,
+                           value.min_distance_.value_or(0.0),
+                           value.contact_time_,
+                           value.max_abs_delta_,
+                           value.position_path_,
+                           value.request_path_,
+                           value.max_speed_,
+                           value.max_acceleration_};
   return AllFinite(numbers.data(), numbers.size()) && finite(value.position_) &&
          finite(value.velocity_) && finite(value.request_) && finite(value.delta_);
 }

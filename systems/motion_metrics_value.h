@@ -2,12 +2,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "framework/signal.h"
 #include "models/name.h"
+#include "models/robot/travel_bound.h"
 #include "systems/signals.h"
 
 namespace oca::systems {
@@ -19,6 +22,7 @@ struct MotionMetricsValue {
   models::Name min_distance_link;
   models::Name min_distance_obstacle;
   std::optional<double> min_distance_time;              ///< s
+  std::optional<double> certified_min_distance;         ///< not above the distance at any time, m
   std::optional<double> contact_time;                   ///< total time at distance <= 0, s
   std::optional<double> first_contact_time;             ///< s; none if there was no contact
   std::optional<double> max_abs_delta;                  ///< of the applied delta; rad, m
@@ -37,6 +41,9 @@ struct MotionSample {
   std::optional<VectorView> goal;
   std::optional<VectorView> delta;
   const ProximitySet* proximities;
+  /// The robot that `position` is of, and how far it travels; both or none.
+  const models::RobotModel* model{nullptr};
+  const models::TravelBound* travel{nullptr};
 };
 
 /// The sums behind the metrics, sample by sample in the order of time. Nothing allocates after the
@@ -54,6 +61,27 @@ class MotionTally {
  private:
   friend struct Signal<MotionTally>;
   void AddDistance(const MotionSample& sample);
+
+  /// What a proximity leaves for the next sample.
+  struct Pair {
+    models::Name link;
+    models::Name obstacle;
+    models::Name own_link;
+    double distance;
+    double obstacle_speed;
+    bool found;  ///< listed in the next sample too
+  };
+  /// Takes over the capacity too, so that a list that grows later does not allocate.
+  struct PairList : std::vector<Pair> {
+    PairList() = default;
+    PairList(const PairList& other) : vector() { *this = other; }
+    PairList& operator=(const PairList& other);
+  };
+  void Certify(const MotionSample& sample, double step);
+  void CalcTravel(const MotionSample& sample);
+  double LeastInStep(const MotionSample& sample, double step);
+  Pair* FindPair(const Proximity& proximity, std::size_t& place);
+  double TravelOf(const models::RobotModel& model, models::Name link) const;
   void AddPosition(VectorView position, double step);
   void AddDelta(VectorView delta);
 
@@ -64,6 +92,14 @@ class MotionTally {
   models::Name min_distance_link_;
   models::Name min_distance_obstacle_;
   double min_distance_time_{0.0};
+  bool certain_{false};  // all of every sample so far was known
+  double certified_{0.0};
+  double reach_{0.0};    // max_distance of the last sample
+  double fastest_{0.0};  // of the last sample
+  PairList pairs_;       // of the last sample
+  std::vector<Eigen::Isometry3d> poses_;
+  std::vector<double> path_;
+  std::vector<double> travel_;
   bool in_contact_{false};
   double contact_time_{0.0};
   std::optional<double> first_contact_time_;

@@ -45,6 +45,7 @@ void MotionTally::Add(const MotionSample& sample) {
   if (samples_ == 0) first_time_ = sample.time;
   if (samples_ > 0 && in_contact_) contact_time_ += step;
   AddDistance(sample);
+  Certify(sample, step);
   if (sample.position) AddPosition(*sample.position, step);
   if (sample.request) {
     if (samples_ > 0) request_path_ += PathLength(*sample.request, request_);
@@ -113,6 +114,7 @@ MotionMetricsValue MotionTally::At(const MotionSample& now) const {
     value.min_distance_obstacle = min_distance_obstacle_;
     value.min_distance_time = min_distance_time_;
   }
+  if (certain_) value.certified_min_distance = certified_;
   if (now.proximities != nullptr) {
     value.contact_time = contact_time_ + (in_contact_ ? now.time - last_time_ : 0.0);
     value.first_contact_time = first_contact_time_;

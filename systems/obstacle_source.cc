@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -43,6 +44,18 @@ FramePoses MakeFrames(const std::vector<ObstacleSource::Frame>& frames) {
 
 bool HasOwnPositions(const std::optional<MotionParams>& motion) {
   return motion && (motion->type == MotionType::kWaypoints || motion->type == MotionType::kCsv);
+}
+
+// Numbers that no other source of this process has.
+std::uint64_t NewLayouts(std::size_t count) {
+  static std::atomic<std::uint64_t> next{1};
+  return next.fetch_add(count);
+}
+
+void Place(Obstacle& obstacle, const Eigen::Isometry3d& X_WF, const MotionState& state) {
+  obstacle.X_WO = X_WF * state.X_FO;
+  obstacle.linear = X_WF.linear() * state.linear;
+  obstacle.angular = X_WF.linear() * state.angular;
 }
 
 Eigen::Isometry3d StartPose(const ObstacleSource::ObstacleParams& params,
@@ -93,7 +106,12 @@ ObstacleSource::Params ObstacleSource::Example() {
 }
 
 ObstacleSource::ObstacleSource(const Params& params)
-    : period_(params.period), entries_(MakeEntries(params)), obstacles(DeclareObstacles(params)) {}
+    : period_(params.period),
+      entries_(MakeEntries(params)),
+      moving_(MakeMoving()),
+      changes_(MakeChanges()),
+      layout_(NewLayouts(changes_.size() + 1)),
+      obstacles(DeclareObstacles(params)) {}
 
 std::vector<ObstacleSource::Entry> ObstacleSource::MakeEntries(const Params& params) {
   RequireNotNegative("period", params.period);
@@ -120,7 +138,8 @@ ObstacleSource::Entry ObstacleSource::MakeEntry(const ObstacleParams& params,
               X_WF,
               {},
               params.appear.value_or(-kInfinity),
-              params.disappear.value_or(kInfinity)};
+              params.disappear.value_or(kInfinity),
+              !params.motion || params.motion->type == MotionType::kStatic};
   entry.motion = MakeMotion(params.motion.value_or(MotionParams{}),
                             StartPose(params, where + ".pose"), where + ".motion");
   if (!(entry.appear < entry.disappear)) {
@@ -152,19 +171,54 @@ double ObstacleSource::SampleTime(double time) const {
   return (on_tick ? nearest : std::floor(ticks)) * numerator / denominator;
 }
 
+std::vector<int> ObstacleSource::MakeMoving() const {
+  std::vector<int> moving;
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    if (!entries_[i].stands) moving.push_back(static_cast<int>(i));
+  }
+  return moving;
+}
+
+std::vector<double> ObstacleSource::MakeChanges() const {
+  std::vector<double> changes;
+  for (const Entry& entry : entries_) {
+    for (const double time : {entry.appear, entry.disappear}) {
+      if (std::isfinite(time)) changes.push_back(time);
+    }
+  }
+  std::sort(changes.begin(), changes.end());
+  return changes;
+}
+
 void ObstacleSource::CalcObstacles(double time, ObstacleSet& set) const {
   const double sample_time = SampleTime(time);
+  const auto past = std::upper_bound(changes_.begin(), changes_.end(), sample_time);
+  const std::uint64_t layout = layout_ + static_cast<std::uint64_t>(past - changes_.begin());
+  if (set.layout != layout) {
+    FillIn(sample_time, set);
+    set.layout = layout;
+    return;
+  }
+  auto place = set.moving.begin();
+  for (const int i : moving_) {
+    const Entry& entry = entries_[static_cast<std::size_t>(i)];
+    if (!entry.There(sample_time)) continue;
+    Place(set.obstacles[static_cast<std::size_t>(*place++)], entry.X_WF, entry.motion(sample_time));
+  }
+}
+
+void ObstacleSource::FillIn(double sample_time, ObstacleSet& set) const {
   set.obstacles.reserve(entries_.size());  // so that no obstacle that appears allocates
+  set.moving.reserve(entries_.size());
+  set.moving.clear();
   std::size_t count = 0;
   for (const Entry& entry : entries_) {
-    if (sample_time < entry.appear || sample_time >= entry.disappear) continue;
+    if (!entry.There(sample_time)) continue;
+    if (!entry.stands) set.moving.push_back(static_cast<int>(count));
     if (count == set.obstacles.size()) set.obstacles.emplace_back();
     Obstacle& obstacle = set.obstacles[count++];
     if (obstacle.body != entry.body) obstacle.body = entry.body;
-    const MotionState state = entry.motion(sample_time);
-    obstacle.X_WO = entry.X_WF * state.X_FO;
-    obstacle.linear = entry.X_WF.linear() * state.linear;
-    obstacle.angular = entry.X_WF.linear() * state.angular;
+    Place(obstacle, entry.X_WF, entry.motion(sample_time));
   }
   set.obstacles.resize(count);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -68,15 +69,24 @@ class ObstacleSource final : public System {
     Motion motion;
     double appear;
     double disappear;
+    bool stands;
+
+    bool There(double time) const { return time >= appear && time < disappear; }
   };
   static std::vector<Entry> MakeEntries(const Params& params);
   static Entry MakeEntry(const ObstacleParams& params, const Eigen::Isometry3d& X_WF);
 
   const Period period_;
   const std::vector<Entry> entries_;
+  const std::vector<int> moving_;      ///< places in entries_ of those that do not stand
+  const std::vector<double> changes_;  ///< times at which bodies come or go, ascending
+  const std::uint64_t layout_;         ///< before the first of them; one more after each
   Output<ObstacleSet> DeclareObstacles(const Params& params);
   double SampleTime(double time) const;
+  std::vector<int> MakeMoving() const;
+  std::vector<double> MakeChanges() const;
   void CalcObstacles(double time, ObstacleSet& set) const;
+  void FillIn(double sample_time, ObstacleSet& set) const;
   void CalcStanding(ObstacleSet& set) const;
 
  public:

@@ -75,7 +75,7 @@ Obstacle ReadObstacle(const JsonReader& json) {
 
 Proximity ReadProximity(const JsonReader& json) {
   json.CheckKeys({"link", "obstacle", "distance", "point_on_link", "point_on_obstacle", "normal"},
-                 {"obstacle_velocity", "own_link"});
+                 {"obstacle_velocity", "own_link", "obstacle_speed"});
   Proximity proximity;
   proximity.link = models::Name(json.At("link").Label());
   proximity.obstacle = models::Name(json.At("obstacle").Label());
@@ -86,6 +86,7 @@ Proximity ReadProximity(const JsonReader& json) {
   if (json.Has("obstacle_velocity")) {
     proximity.obstacle_velocity = json.At("obstacle_velocity").Vector3();
   }
+  if (json.Has("obstacle_speed")) proximity.obstacle_speed = json.At("obstacle_speed").Number();
   if (json.Has("own_link")) proximity.own_link = models::Name(json.At("own_link").Label());
   return proximity;
 }
@@ -181,10 +182,12 @@ LinkPoses Signal<LinkPoses>::ReadJson(std::string_view text) {
 }
 
 bool Signal<ProximitySet>::Finite(const ProximitySet& value) {
-  return std::all_of(value.proximities.begin(), value.proximities.end(), [](const Proximity& p) {
-    return AllFinite(&p.distance, 1) && Finite3(p.point_on_link) && Finite3(p.point_on_obstacle) &&
-           Finite3(p.normal) && Finite3(p.obstacle_velocity);
-  });
+  return AllFinite(&value.max_distance, 1) && AllFinite(&value.fastest, 1) &&
+         std::all_of(value.proximities.begin(), value.proximities.end(), [](const Proximity& p) {
+           return AllFinite(&p.distance, 1) && Finite3(p.point_on_link) &&
+                  Finite3(p.point_on_obstacle) && Finite3(p.normal) &&
+                  Finite3(p.obstacle_velocity) && AllFinite(&p.obstacle_speed, 1);
+         });
 }
 
 void Signal<ProximitySet>::WriteJson(const ProximitySet& value, std::string& out) {

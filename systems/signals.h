@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -39,8 +40,13 @@ struct Obstacle {
   }
 };
 
+/// `layout` and `moving` spare who follows the set a look at what stands: two sets of the same
+/// layout, if it is not 0, hold the same bodies in the same order, and those that are not in
+/// `moving` (places, ascending) stand still where they stood. JSON: the list of obstacles.
 struct ObstacleSet {
   std::vector<Obstacle> obstacles;
+  std::uint64_t layout{0};
+  std::vector<int> moving{};
 };
 
 /// Poses X_WL of the links of a robot, in three columns of equal length so that kinematics writes
@@ -80,10 +86,17 @@ struct Proximity {
   /// of the robot's own joints, so obstacle_velocity is 0 and the row of the distance takes two
   /// links: see models::DistanceRow. JSON: as obstacle_velocity.
   models::Name own_link{};
+  /// Bound on the speed of all points of the obstacle, m/s; 0 for an own link. JSON: as
+  /// obstacle_velocity.
+  double obstacle_speed{0.0};
 };
 
+/// What is not listed is farther than `max_distance` (m; 0: unknown) and no faster than `fastest`
+/// (m/s). JSON: the list of proximities.
 struct ProximitySet {
   std::vector<Proximity> proximities;
+  double max_distance{0.0};
+  double fastest{0.0};
 };
 
 /// A force (N) that acts on `link` at `point`, because of `obstacle`.
