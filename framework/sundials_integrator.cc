@@ -28,6 +28,10 @@
 namespace oca {
 namespace {
 
+/// In a row, of one step. A kink in a right-hand side, as at a joint's stop, takes more than the 7
+/// that SUNDIALS allows.
+constexpr int kMostRejections = 40;
+
 /// What both families share: the vector, the tolerances, and the right-hand side.
 class SundialsIntegrator : public Integrator {
  public:
@@ -230,6 +234,7 @@ class ErkIntegrator final : public SundialsIntegrator {
     CheckFlag(ERKStepWFtolerances(memory_, ErrorWeights), "ERKStepWFtolerances");
     CheckFlag(ERKStepSetTableName(memory_, table), "ERKStepSetTableName");
     CheckFlag(ERKStepSetMaxNumSteps(memory_, options.max_steps), "ERKStepSetMaxNumSteps");
+    CheckFlag(ERKStepSetMaxErrTestFails(memory_, kMostRejections), "ERKStepSetMaxErrTestFails");
     if (std::isfinite(options.max_step)) {
       CheckFlag(ERKStepSetMaxStep(memory_, options.max_step), "ERKStepSetMaxStep");
     }
@@ -334,6 +339,7 @@ class CvodeIntegrator final : public SundialsIntegrator {
     CheckFlag(CVodeInit(memory_, RightHandSide, 0.0, y_), "CVodeInit");
     CheckFlag(CVodeWFtolerances(memory_, ErrorWeights), "CVodeWFtolerances");
     CheckFlag(CVodeSetMaxNumSteps(memory_, options.max_steps), "CVodeSetMaxNumSteps");
+    CheckFlag(CVodeSetMaxErrTestFails(memory_, kMostRejections), "CVodeSetMaxErrTestFails");
     if (std::isfinite(options.max_step)) {
       CheckFlag(CVodeSetMaxStep(memory_, options.max_step), "CVodeSetMaxStep");
     }

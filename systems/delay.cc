@@ -76,13 +76,8 @@ void Delay::CalcOut(const DelayLine& line, MutableVectorView out_value) const {
 }
 
 void Delay::Update(VectorView in_value, DelayLine& next) const {
-  // The length is known only here, at the first tick.
-  if (next.empty()) {
-    const Eigen::VectorXd initial =
-        params_.initial.scalar() ? Eigen::VectorXd::Constant(in_value.size(), params_.initial[0])
-                                 : params_.initial.values();
-    next.Fill(static_cast<std::size_t>(steps_), initial);
-  }
+  // The length is known only here, when a simulator takes the capacity or at the first tick.
+  if (next.empty()) next.Fill(static_cast<std::size_t>(steps_), in_value.size(), params_.initial);
   next.Push(in_value);
 }
 

@@ -5,12 +5,13 @@
 
 namespace oca::systems {
 
-void DelayLine::Fill(std::size_t steps, const Eigen::Ref<const Eigen::VectorXd>& initial) {
-  size_ = initial.size();
+void DelayLine::Fill(std::size_t steps, Eigen::Index size, const PerComponent& initial) {
+  size_ = size;
   next_ = 0;
   values_.clear();
+  values_.reserve(steps * static_cast<std::size_t>(size));
   for (std::size_t step = 0; step < steps; ++step) {
-    values_.insert(values_.end(), initial.data(), initial.data() + size_);
+    for (Eigen::Index i = 0; i < size; ++i) values_.push_back(initial[i]);
   }
 }
 

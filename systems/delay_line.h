@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "framework/per_component.h"
 #include "framework/signal.h"
 
 namespace oca::systems {
@@ -13,8 +14,8 @@ namespace oca::systems {
 /// The last samples of a vector, a ring; state of Delay.
 class DelayLine {
  public:
-  /// Makes room for `steps` samples of length n, all `initial`.
-  void Fill(std::size_t steps, const Eigen::Ref<const Eigen::VectorXd>& initial);
+  /// Makes room for `steps` samples of `size` components, all `initial`.
+  void Fill(std::size_t steps, Eigen::Index size, const PerComponent& initial);
   /// Replaces the oldest sample.
   void Push(const Eigen::Ref<const Eigen::VectorXd>& sample);
   bool empty() const { return values_.empty(); }

@@ -13,7 +13,7 @@ using Eigen::Vector2d;
 TEST(DelayLineTest, GivesBackTheOldestOfItsSamples) {
   DelayLine line;
   EXPECT_TRUE(line.empty());
-  line.Fill(3, Vector2d(7.0, 8.0));
+  line.Fill(3, 2, Eigen::VectorXd(Vector2d(7.0, 8.0)));
   for (int i = 0; i < 10; ++i) {
     EXPECT_EQ(Vector2d(line.oldest()), i < 3 ? Vector2d(7.0, 8.0) : Vector2d(i - 3, 3 - i)) << i;
     line.Push(Vector2d(i, -i));
@@ -22,15 +22,22 @@ TEST(DelayLineTest, GivesBackTheOldestOfItsSamples) {
 
 TEST(DelayLineTest, SaysWhetherASampleIsNotFinite) {
   DelayLine line;
-  line.Fill(2, Vector2d(1.0, 2.0));
+  line.Fill(2, 2, Eigen::VectorXd(Vector2d(1.0, 2.0)));
   EXPECT_TRUE(Signal<DelayLine>::Finite(line));
   line.Push(Vector2d(1.0, std::numeric_limits<double>::quiet_NaN()));
   EXPECT_FALSE(Signal<DelayLine>::Finite(line));
 }
 
+TEST(DelayLineTest, AScalarInitialValueCountsForEveryComponent) {
+  DelayLine line;
+  line.Fill(2, 3, 4.0);
+  EXPECT_EQ(Eigen::VectorXd(line.oldest()), Eigen::VectorXd(Eigen::Vector3d(4.0, 4.0, 4.0)));
+  EXPECT_EQ(line.values().size(), 6U);
+}
+
 TEST(DelayLineTest, ShowsItsSamplesAsJson) {
   DelayLine line;
-  line.Fill(2, Vector2d(1.0, 2.5));
+  line.Fill(2, 2, Eigen::VectorXd(Vector2d(1.0, 2.5)));
   std::string json;
   Signal<DelayLine>::WriteJson(line, json);
   EXPECT_EQ(Eigen::VectorXd(ReadVectorJson(json)), Eigen::Vector4d(1.0, 2.5, 1.0, 2.5));

@@ -77,7 +77,7 @@ std::vector<Problem> NamedProblems() {
        {0.2811667558504880, 0.1269153059629040, -std::sin(20.0) - 1.5 * std::sin(30.0),
         -std::sin(20.0) + 1.5 * std::sin(30.0)}},
       {"kepler",
-       "r'' = -r / |r|^3, eccentricity 0.6, from the perihelion",
+       "r'' = -r / norm(r)^3, eccentricity 0.6, from the perihelion",
        "Kepler's equation",
        {0.4, 0.0, 0.0, 2.0},
        [](double, const double* x, double, double* d) {
@@ -224,6 +224,19 @@ Outcome Simulate(const Problem& problem, const IntegratorOptions& options) {
   const IntegratorStatistics& cost = simulator.statistics().integrator;
   return {problem.ErrorOf(state), static_cast<long>(cost.steps),
           static_cast<long>(cost.derivative_calls)};
+}
+
+const std::vector<OrderCase>& OrderCases() {
+  static const std::vector<OrderCase> cases{
+      {"sine", 20}, {"pendulum", 40}, {"oscillators", 20}, {"kepler", 80}, {"detest_a3", 20}};
+  return cases;
+}
+
+double ObservedOrder(const Problem& problem, IntegratorKind kind, int steps) {
+  const auto error = [&](int a_second) {
+    return Simulate(problem, {.integrator = kind, .fixed_step = 1.0 / a_second}).error;
+  };
+  return std::log2(error(steps) / error(2 * steps));
 }
 
 IntegratorOptions WithTolerance(const Problem& problem, IntegratorKind kind, double relative) {

@@ -53,4 +53,14 @@ Outcome Simulate(const Problem& problem, const IntegratorOptions& options);
 /// The options of an adaptive integrator for a problem: both tolerances from the relative one.
 IntegratorOptions WithTolerance(const Problem& problem, IntegratorKind kind, double relative);
 
+/// A problem whose errors at `steps` to `4 steps` equal steps a second follow their order: small
+/// enough for the leading term, large enough to stand above rounding.
+struct OrderCase {
+  const char* problem;
+  int steps;
+};
+const std::vector<OrderCase>& OrderCases();
+/// The binary logarithm of what halving the step gains, from `steps` a second.
+double ObservedOrder(const Problem& problem, IntegratorKind kind, int steps);
+
 }  // namespace oca::verification

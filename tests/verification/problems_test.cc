@@ -81,6 +81,16 @@ TEST_P(FixedProblemTest, ErrsWhatSundialsWithEqualStepsErrs) {
   }
 }
 
+TEST(ObservedOrderTest, IsFiveAndFour) {
+  for (const auto& [name, steps] : OrderCases()) {
+    for (const int from : {steps, 2 * steps}) {
+      const Problem& problem = ProblemNamed(name);
+      EXPECT_NEAR(ObservedOrder(problem, IntegratorKind::kFixedDp5, from), 5.0, 0.45) << name;
+      EXPECT_NEAR(ObservedOrder(problem, IntegratorKind::kFixedRk4, from), 4.0, 0.45) << name;
+    }
+  }
+}
+
 TEST(YardstickTest, AnErrorOfTheProblemIsSeen) {
   // The checker itself: a frequency off by a millionth must fail the gate at 1e-9.
   Problem wrong = ProblemNamed("sine");

@@ -58,7 +58,7 @@ class Solver {
  protected:
   virtual void Restart(double t) = 0;
   virtual void Advance(double to) = 0;
-  /// Adds what was done since the last restart to the outcome.
+  /// Brings the counts of the outcome up to date.
   virtual void Count() = 0;
 
   static int Derive(sunrealtype t, N_Vector y, N_Vector ydot, void* self) {
@@ -110,8 +110,8 @@ class Erk final : public Solver {
     long steps = 0, calls = 0;
     ERKStepGetNumSteps(memory_, &steps);
     ERKStepGetNumRhsEvals(memory_, &calls);
-    outcome_.steps += steps;
-    outcome_.calls += calls;
+    outcome_.steps = steps;  // a reset keeps the counters
+    outcome_.calls = calls;
   }
   void* memory_{nullptr};
 };

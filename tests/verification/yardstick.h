@@ -6,7 +6,7 @@
 namespace oca::verification {
 
 /// What SUNDIALS itself reaches, called as its examples call it: its own vectors and tolerances, a
-/// re-initialization wherever a held control changes, nothing of the framework.
+/// restart wherever a held control changes, nothing of the framework.
 ///
 /// A fixed_dp5 is ERKStep with fixed steps; so is fixed_rk4, with the table of Zonneveld, whose
 /// solution of order 4 is the classical method of Kutta.
