@@ -1,3 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 set(methods
-  motion_limiter)
+  filter_activity
+  motion_limiter
+  safety_filter)
+set(methods_sources safety_filter_problem.cc)

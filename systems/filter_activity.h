@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "framework/signal.h"
+#include "models/motion/stoppable_motion.h"
+#include "models/name.h"
+#include "models/qp/projection_qp.h"
+
+namespace oca::systems {
+
+/// One bound that held a SafetyFilter's velocity back.
+struct FilterBound {
+  enum class Kind { kDistance, kRecovery, kLower, kUpper };
+  Kind kind{Kind::kDistance};
+  models::Name link;      ///< of a distance; of a side of the box the joint
+  models::Name obstacle;  ///< of a distance
+  models::MotionLimit limit{models::MotionLimit::kNone};  ///< of a side of the box
+  double multiplier{0.0};                                 ///< what one unit of the bound costs, > 0
+  double slack{0.0};  ///< m/s by which a distance row is not kept
+};
+
+/// What a SafetyFilter did at one tick, and how far it can be trusted.
+/// JSON: {"status": "optimal" | "iteration_limit" | "invalid", "rows", "dropped", "yields",
+/// "slack", "margin", "kkt_residual", "gap", "bounds": [{"kind": "distance" | "recovery", "link",
+/// "obstacle", "multiplier", "slack"}, {"kind": "lower" | "upper", "joint", "limit",
+/// "multiplier"}]}
+struct FilterActivity {
+  static constexpr int kMostBounds = 24;
+
+  models::QpStatus status{models::QpStatus::kOptimal};
+  int rows{0};         ///< that could matter within the box
+  int dropped{0};      ///< for want of room; those farthest away
+  int yields{0};       ///< joints of which a position or velocity limit cannot be kept
+  double slack{0.0};   ///< m/s; the largest of a distance row
+  double margin{0.0};  ///< m; how far below safe_distance ticks may lead, see docs/safety_filter.md
+  double kkt_residual{0.0};
+  double gap{0.0};
+  int num_bounds{0};
+  std::array<FilterBound, kMostBounds> bounds{};  ///< the first num_bounds
+};
+
+}  // namespace oca::systems
+
+namespace oca {
+
+template <>
+struct Signal<systems::FilterActivity> {
+  static constexpr const char* kName = "FilterActivity";
+  static bool Finite(const systems::FilterActivity& value);
+  static void WriteJson(const systems::FilterActivity& value, std::string& out);
+  static systems::FilterActivity ReadJson(std::string_view text);
+};
+
+}  // namespace oca

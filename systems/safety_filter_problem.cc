@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How a SafetyFilter states its problem, and how it reads the answer.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "framework/error.h"
+#include "models/robot/kinematics.h"
+#include "systems/motion_limiter.h"
+#include "systems/safety_filter.h"
+
+namespace oca::systems {
+namespace {
+
+// Share of the acceleration limit that the return to the request brakes with.
+constexpr double kArrivalShare = 0.5;
+// Bounds a velocity that nothing else does, so that the problem is finite (rad/s, m/s).
+constexpr double kFastest = 1e3;
+
+}  // namespace
+
+FilterSolution::Workspace::Workspace(int num_positions, int most_rows)
+    : qp(num_positions, most_rows),
+      solver(num_positions, most_rows),
+      solution(qp),
+      box(static_cast<std::size_t>(num_positions)),
+      command(Eigen::VectorXd::Zero(num_positions)),
+      last_velocity(command),
+      row(command) {
+  rows.reserve(static_cast<std::size_t>(most_rows));
+}
+
+double SafetyFilter::Approach(double headroom) const {
+  if (headroom <= 0.0) return 0.0;
+  if (params_.form == Form::kLinear) return params_.approach_gain * headroom;
+  return models::LargestStoppableVelocity(headroom, params_.deceleration, params_.period.seconds());
+}
+
+int SafetyFilter::FindLink(models::Name name) const {
+  const auto& all = model_->links();
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const models::Link& link) { return link.name == name; });
+  if (found != all.end()) return static_cast<int>(found - all.begin());
+  throw ConfigError(fmt::format("proximities: got one of '{}'; expected a link of '{}'",
+                                name.text(), model_->name().text()));
+}
+
+void SafetyFilter::FillBox(FilterSolution& result) const {
+  FilterSolution::Workspace& work = *result.workspace;
+  const double dt = params_.period.seconds();
+  for (Eigen::Index j = 0; j < model_->num_positions(); ++j) {
+    const models::JointMotion motion{work.command[j], work.last_velocity[j], 0.0};
+    models::JointLimits limits = LimitsOf(*model_, j);
+    limits.jerk = models::kUnlimited;  // a MotionLimiter's task
+    limits.velocity = std::min(limits.velocity, kFastest);
+    models::VelocityRange& range = work.box[static_cast<std::size_t>(j)];
+    range = models::StoppableVelocities(limits, motion, dt);
+    work.qp.lower[j] = range.lower;
+    work.qp.upper[j] = range.upper;
+    work.qp.weights[j] = params_.weights[j];
+    if (range.yields != models::MotionLimit::kNone) ++result.activity.yields;
+  }
+}
+
+void SafetyFilter::FillWish(VectorView request, OptionalVector rate, OptionalVector rate_rate,
+                            FilterSolution& result) const {
+  FilterSolution::Workspace& work = *result.workspace;
+  const double dt = params_.period.seconds();
+  for (Eigen::Index j = 0; j < request.size(); ++j) {
+    const double away = request[j] - work.command[j];
+    const double a = kArrivalShare * model_->acceleration_limits()[j];
+    const double fastest = models::LargestStoppableVelocity(std::fabs(away), a, dt);
+    double wish = std::copysign(std::min(params_.position_gain * std::fabs(away), fastest), away);
+    if (rate) wish += (*rate)[j];
+    if (rate_rate) wish += 0.5 * dt * (*rate_rate)[j];
+    work.qp.wish[j] = wish;
+  }
+}
+
+void SafetyFilter::AddRow(const FilterRow& source, double bound, FilterSolution& result) const {
+  FilterSolution::Workspace& work = *result.workspace;
+  const auto reach =
+      work.row.cwiseProduct(work.qp.lower).cwiseMin(work.row.cwiseProduct(work.qp.upper));
+  if (reach.sum() >= bound) return;  // every velocity of the box keeps it
+  auto at = static_cast<std::size_t>(work.qp.num_rows);
+  if (work.qp.num_rows < params_.most_rows) {
+    work.rows.push_back(source);
+    ++work.qp.num_rows;
+  } else {
+    ++result.activity.dropped;
+    const auto farthest = std::max_element(
+        work.rows.begin(), work.rows.end(),
+        [](const FilterRow& a, const FilterRow& b) { return a.headroom < b.headroom; });
+    if (farthest->headroom <= source.headroom) return;
+    *farthest = source;
+    at = static_cast<std::size_t>(farthest - work.rows.begin());
+  }
+  const auto row = static_cast<Eigen::Index>(at);
+  work.qp.rows.row(row) = work.row.transpose();
+  work.qp.bounds[row] = bound;
+  work.qp.penalties[row] = source.recovery ? params_.recovery_penalty : params_.slack_penalty;
+}
+
+void SafetyFilter::FillRows(const ProximitySet& set, Poses X_WL, FilterSolution& result) const {
+  FilterSolution::Workspace& work = *result.workspace;
+  work.rows.clear();
+  work.qp.num_rows = 0;
+  for (std::size_t i = 0; i < set.proximities.size(); ++i) {
+    const Proximity& proximity = set.proximities[i];
+    const int link = FindLink(proximity.link);
+    const int other = proximity.own_link.empty() ? -1 : FindLink(proximity.own_link);
+    models::DistanceRow(*model_, X_WL, link, proximity.point_on_link, other,
+                        proximity.point_on_obstacle, proximity.normal, work.row);
+    const double headroom = proximity.distance - params_.safe_distance;
+    const double rest = proximity.normal.dot(proximity.obstacle_velocity);
+    AddRow({static_cast<int>(i), false, headroom}, rest - Approach(headroom), result);
+    if (headroom >= 0.0) continue;
+    const double growth = std::min(-params_.recovery_gain * headroom, params_.recovery_speed);
+    AddRow({static_cast<int>(i), true, headroom}, rest + growth, result);
+  }
+  result.activity.rows = work.qp.num_rows;
+}
+
+/// The rows that were active at the last tick, found again by what they are about.
+void SafetyFilter::FillGuess(const ProximitySet& set, const FilterActivity& last,
+                             FilterSolution& result) const {
+  FilterSolution::Workspace& work = *result.workspace;
+  using Kind = models::QpActive::Kind;
+  auto& guess = work.solution.active;
+  guess.clear();
+  for (int b = 0; b < last.num_bounds; ++b) {
+    const FilterBound& bound = last.bounds[b];
+    if (bound.kind == FilterBound::Kind::kLower || bound.kind == FilterBound::Kind::kUpper) {
+      const auto& names = model_->position_names();
+      const auto joint = std::find(names.begin(), names.end(), bound.link);
+      const Kind kind = bound.kind == FilterBound::Kind::kLower ? Kind::kLower : Kind::kUpper;
+      guess.push_back({kind, static_cast<int>(joint - names.begin()), 0.0, 0.0});
+      continue;
+    }
+    const bool recovery = bound.kind == FilterBound::Kind::kRecovery;
+    for (std::size_t i = 0; i < work.rows.size(); ++i) {
+      const Proximity& proximity = set.proximities[work.rows[i].proximity];
+      if (work.rows[i].recovery == recovery && proximity.link == bound.link &&
+          proximity.obstacle == bound.obstacle) {
+        guess.push_back({Kind::kRow, static_cast<int>(i), 0.0, 0.0});
+        break;
+      }
+    }
+  }
+}
+
+/// How far below its row's promise one tick may lead the distance, summed up over all later ticks:
+/// docs/safety_filter.md.
+double SafetyFilter::Margin(const Proximity& proximity, Poses X_WL,
+                            const Eigen::VectorXd& u) const {
+  double reach = 0.0;
+  for (const int body : model_->bodies()) {
+    reach = std::max(reach, (proximity.point_on_link - X_WL[body].translation()).norm());
+  }
+  const double turn = u.cwiseAbs().sum();
+  const double bend = turn * turn * reach + 2.0 * turn * proximity.obstacle_velocity.norm();
+  const double gain = params_.form == Form::kLinear
+                          ? std::min(params_.approach_gain, params_.recovery_gain)
+                          : params_.recovery_gain;
+  return 0.5 * params_.period.seconds() * bend / gain;
+}
+
+void SafetyFilter::Report(const ProximitySet& set, Poses X_WL, FilterSolution& result) const {
+  const FilterSolution::Workspace& work = *result.workspace;
+  FilterActivity& report = result.activity;
+  report.status = work.solution.status;
+  const bool valid = report.status != models::QpStatus::kInvalid;
+  report.kkt_residual = valid ? work.solution.kkt_residual : 0.0;
+  report.gap = valid ? work.solution.gap : 0.0;
+  for (const Proximity& proximity : set.proximities) {
+    report.margin = std::max(report.margin, Margin(proximity, X_WL, result.velocity));
+  }
+  for (const models::QpActive& active : work.solution.active) {
+    FilterBound bound;
+    bound.multiplier = active.multiplier;
+    bound.slack = active.slack;
+    if (active.kind == models::QpActive::Kind::kRow) {
+      const FilterRow& row = work.rows[static_cast<std::size_t>(active.index)];
+      const Proximity& proximity = set.proximities[row.proximity];
+      bound.kind = row.recovery ? FilterBound::Kind::kRecovery : FilterBound::Kind::kDistance;
+      bound.link = proximity.link;
+      bound.obstacle = proximity.obstacle;
+      if (!row.recovery) report.slack = std::max(report.slack, active.slack);
+    } else {
+      const bool lower = active.kind == models::QpActive::Kind::kLower;
+      const models::VelocityRange& range = work.box[static_cast<std::size_t>(active.index)];
+      bound.kind = lower ? FilterBound::Kind::kLower : FilterBound::Kind::kUpper;
+      bound.link = model_->position_names()[static_cast<std::size_t>(active.index)];
+      bound.limit = lower ? range.lower_limit : range.upper_limit;
+    }
+    if (report.num_bounds < FilterActivity::kMostBounds) {
+      report.bounds[report.num_bounds++] = bound;
+    }
+  }
+}
+
+}  // namespace oca::systems
