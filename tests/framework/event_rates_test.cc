@@ -66,6 +66,26 @@ TEST(SimulatorContractTest, Line4AMillisecondMeetsThreeFourAndTen) {
   }
 }
 
+TEST(SimulatorContractTest, Line4FiveMillisecondsMeetASixtiethOfASecondForADay) {
+  Rates rates({{Period(5, 1000)}, {Period(1, 60)}}, false);
+  rates.simulator->AdvanceTo(86400.0);
+  EXPECT_EQ(rates.CountOf(0), 17280000.0);
+  EXPECT_EQ(rates.CountOf(1), 5184000.0);
+  EXPECT_EQ(rates.simulator->statistics().steps, 86400 * (200 + 60 - 20));
+}
+
+TEST(SimulatorContractTest, Line4AMillisecondMeetsThreeFourAndTenAtTheEndOfADayAsAtItsStart) {
+  Rates rates({{Period(1, 1000)}, {Period(3, 1000)}, {Period(4, 1000)}, {Period(10, 1000)}});
+  rates.simulator->context().SetTime(86388.0);
+  rates.simulator->AdvanceTo(86400.0);
+  EXPECT_EQ(rates.CountOf(0), 12000.0);
+  EXPECT_EQ(rates.CountOf(1), 4000.0);
+  EXPECT_EQ(rates.CountOf(2), 3000.0);
+  EXPECT_EQ(rates.CountOf(3), 1200.0);
+  EXPECT_EQ(rates.simulator->statistics().steps, 12000);
+  for (int i = 0; i < 12000; ++i) EXPECT_EQ(rates.counters[0]->times[i], (86388000 + i) / 1000.0);
+}
+
 TEST(SimulatorContractTest, Line4TimesAreTheNearestDoublesOfTheExactOnes) {
   Rates rates({{Period(1, 10)}, {Period(1, 60)}});
   rates.simulator->AdvanceTo(100.0);
