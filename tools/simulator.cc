@@ -143,8 +143,7 @@ class CommandLine {
     const std::string first = argc > 1 ? argv[1] : "";
     std::string what = error.what();
     if (first == "robot") {
-      what = ExplainOption(*app_.get_subcommand(first)->get_subcommand("check-collisions"), what,
-                           argc, argv);
+      what = ExplainRobot(what, argc, argv);
     } else if (std::find(commands.begin(), commands.end(), first) != commands.end()) {
       what = ExplainOption(*app_.get_subcommand(first), what, argc, argv);
     } else if (argc > 1 && !first.starts_with("-")) {
@@ -155,6 +154,18 @@ class CommandLine {
                "--help` tells more\n",
                what, fmt::join(commands, ", "));
     return kUsage;
+  }
+
+  std::string ExplainRobot(const std::string& what, int argc, char** argv) {
+    const std::string command = "check-collisions";
+    const std::vector<std::string> commands{command};
+    const std::string second = argc > 2 ? argv[2] : "";
+    if (second == command) {
+      return ExplainOption(*app_.get_subcommand("robot")->get_subcommand(command), what, argc,
+                           argv);
+    }
+    if (second.empty() || second.starts_with("-")) return what + ": robot " + command;
+    return fmt::format("unknown command 'robot {}'{}", second, DidYouMean(second, commands));
   }
 
   static std::string ExplainOption(const CLI::App& command, const std::string& what, int argc,

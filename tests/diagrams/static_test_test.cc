@@ -129,7 +129,8 @@ TEST(StaticTest, TheArmOfMeshesGoesThroughTheBoxAndEvadesItAlike) {
 // Listing A.1's switch: the frame of the static test pushes, and within its reach of 0.3 m for
 // ever.
 TEST(StaticTest, LinkForcesOfTheFrameAreFeltWhereTheyAreSwitchedOn) {
-  const Outcome outcome({{"parameters.calculate_link_forces", "true"}});
+  const Override link_forces{"parameters.calculate_link_forces", "true"};
+  const Outcome outcome({link_forces});
   EXPECT_EQ(outcome.metrics.at("min_distance_pair").at(1), "frame/table");
   EXPECT_IN(outcome["final_error"], 0.1, 0.25);
 }

@@ -69,7 +69,9 @@ TEST_F(RobotCommandTest, RefusesWhatItCannotDo) {
   EXPECT_EQ(over.status, 2);
   EXPECT_THAT(over.err, HasSubstr("got a URDF"));
   EXPECT_EQ(run("$S robot").status, 64);
-  EXPECT_EQ(run("$S robot check-colisions x").status, 64);
+  const Ran unknown = run("$S robot check-colisions x");
+  EXPECT_EQ(unknown.status, 64);
+  EXPECT_THAT(unknown.err, HasSubstr("did you mean 'check-collisions'?"));
   const Ran misspelt = run(check_ + "--sampels 5");
   EXPECT_EQ(misspelt.status, 64);
   EXPECT_THAT(misspelt.err, HasSubstr("did you mean '--samples'?"));
