@@ -58,6 +58,9 @@ void ModelParams::Describe(Fields<ModelParams>& fields) {
   fields.Add("urdf", &ModelParams::urdf, "", "robot description: a path or package://NAME/PATH")
       .Required();
   fields.Add("srdf", &ModelParams::srdf, "", "pairs of links that are not checked for collision");
+  fields.Add("collision", &ModelParams::collision, "",
+             "what its collision meshes count as: their convex hull, or the convex parts of a "
+             "decomposition, which keep hollows");
   fields.Add("base_pose", &ModelParams::base_pose, "", "pose of the root link in the world");
   fields
       .Add("acceleration_limits", &ModelParams::acceleration_limits, "rad/s^2",

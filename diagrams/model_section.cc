@@ -80,6 +80,7 @@ void ModelSection::ReadModel(const Value::Entry& entry) {
   try {
     models::LoadOptions options;
     options.X_WB = params.base_pose.Pose(where + ".base_pose");
+    options.decompose_meshes = params.collision == CollisionMeshes::kDecomposition;
     options.srdf = Resolve(params.srdf, LocationOf(entry.value, "srdf"));
     if (params.acceleration_limits) {
       options.acceleration_limits = params.acceleration_limits->values();

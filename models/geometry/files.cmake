@@ -8,6 +8,7 @@ list(APPEND sources geometry/box_overlap.cc geometry/bullet_penetration.cc
   geometry/simplex.cc)
 
 # Many bodies at once.
-list(APPEND headers geometry/ball_tree.h geometry/point_cloud.h)
-list(APPEND sources geometry/ball_tree.cc geometry/heightmap.cc geometry/nearest_part.cc
+list(APPEND headers geometry/ball_tree.h geometry/decomposition.h geometry/point_cloud.h)
+list(APPEND sources geometry/ball_tree.cc geometry/decomposition.cc
+  geometry/decomposition_cache.cc geometry/heightmap.cc geometry/nearest_part.cc
   geometry/point_cloud.cc geometry/table_text.cc)

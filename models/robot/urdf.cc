@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "models/error.h"
+#include "models/geometry/decomposition.h"
 #include "models/geometry/mesh.h"
 #include "models/robot/fuse_capsules.h"
 #include "models/robot/mesh_path.h"
@@ -154,7 +155,9 @@ class UrdfReader {
       const auto& mesh = static_cast<const urdf::Mesh&>(geometry);
       const std::filesystem::path file = FindMesh(mesh.filename, directory_, options_, where);
       try {
-        return ConvexMesh{LoadConvexHull(file, ToVector(mesh.scale))};
+        const Eigen::Vector3d scale = ToVector(mesh.scale);
+        if (options_.decompose_meshes) return LoadDecomposition(file, scale);
+        return ConvexMesh{LoadConvexHull(file, scale)};
       } catch (const ModelError& error) {
         throw ModelError(where + ": " + error.what());
       }

@@ -25,6 +25,9 @@ struct LoadOptions {
   /// as DIR/NAME/rest for each DIR.
   std::function<std::filesystem::path(const std::string& package)> find_package;
   std::vector<std::filesystem::path> package_directories;
+  /// true: a collision mesh counts as the compound that LoadDecomposition makes of it, which keeps
+  /// its hollows, instead of its convex hull.
+  bool decompose_meshes{false};
   /// false: visual elements are not read, and their meshes need not exist.
   bool load_visuals{true};
 };

@@ -135,7 +135,7 @@ class NearAnArmTest : public ::testing::Test {
     NameLinks(*model_, links_);
   }
   void MoveArm(double t) {
-    Eigen::VectorXd q(7);
+    Eigen::Matrix<double, 7, 1> q;
     for (int i = 0; i < 7; ++i) q[i] = 1.5 * std::sin(0.7 * t + i);
     models::ForwardKinematics(*model_, q, links_.poses);
   }
@@ -193,7 +193,7 @@ TEST_F(NearAnArmTest, IsNotMisledByAHundredThousandFarBodies) {
     obstacle.X_WO.translation() = strewn.Point() + 10.0 * Vector3d(1 + i % 7, i % 11, i % 13);
   }
   const ProximitySet& found = Eval(strewn.set);
-  ASSERT_GT(alone.proximities.size(), 5u);
+  ASSERT_GE(alone.proximities.size(), 5u);
   ASSERT_EQ(found.proximities.size(), alone.proximities.size());
   for (std::size_t i = 0; i < alone.proximities.size(); ++i) {
     EXPECT_EQ(found.proximities[i].distance, alone.proximities[i].distance);

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "models/geometry/convex_hull.h"
+#include "models/geometry/mesh.h"
+#include "models/shape.h"
+
+namespace oca::models {
+
+/// Deepest dent that a part may have before it is cut further, of the diagonal of the mesh.
+inline constexpr double kDefaultConcavity = 0.03;
+
+/// Convex parts whose union holds every triangle of the mesh: hulls of the clusters that
+/// hierarchical approximate convex decomposition finds. Vertices within 1e-6 of the extent are
+/// welded first. What is inside a closed mesh need not be covered. The same mesh gives the same
+/// parts. Takes seconds for thousands of triangles.
+///
+/// throws ModelError naming `name` for a concavity outside (0, 1), and as MakeConvexHull does
+/// source Mamou, Ghorbel 2009, A simple and efficient approach for 3D mesh approximate convex
+/// decomposition
+std::vector<std::shared_ptr<const ConvexHull>> DecomposeMesh(const TriangleMesh& mesh,
+                                                             std::string_view name,
+                                                             double concavity = kDefaultConcavity);
+
+/// Where decompositions are kept: oca in $XDG_CACHE_HOME, else .cache/oca in $HOME; empty if
+/// neither is set.
+std::filesystem::path DecompositionCache();
+
+/// The parts of a mesh file as a compound. They are kept in `cache` under a hash of the file's
+/// content, the scale and the concavity, and taken from there the next time; several processes may
+/// do so at once. An empty folder, or one that cannot be written, only costs time.
+/// throws ModelError as LoadMesh and DecomposeMesh do
+Compound LoadDecomposition(const std::filesystem::path& file,
+                           const Eigen::Vector3d& scale = Eigen::Vector3d::Ones(),
+                           double concavity = kDefaultConcavity,
+                           const std::filesystem::path& cache = DecompositionCache());
+
+}  // namespace oca::models
