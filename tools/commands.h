@@ -25,6 +25,8 @@ struct RunArguments {
   std::optional<double> duration;
   std::optional<int> seed;
   std::string csv_folder;
+  std::string record;  ///< file to record into; empty: none
+  std::string record_compression{"zstd"};
   std::optional<double> realtime;  ///< simulated seconds a second
   bool profile{false};
   bool json{false};

@@ -6,11 +6,14 @@
 
 #include <atomic>
 #include <csignal>
+#include <fstream>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "diagrams/record/record_files.h"
+#include "diagrams/record/run_recorder.h"
 #include "diagrams/run.h"
 #include "framework/error.h"
 #include "tools/commands.h"
@@ -56,6 +59,51 @@ class StderrLog final : public Log {
     }
   }
   mutable spdlog::logger logger_;
+};
+
+/// A record's own diagram if `file` is a record.
+diagrams::LoadedDiagram Load(const std::string& file,
+                             const std::vector<diagrams::Override>& overrides,
+                             std::optional<record::ExtractedRecord>& extracted) {
+  if (!record::IsRecord(file)) return diagrams::LoadDiagram(file, overrides);
+  extracted.emplace(record::McapFile::Read(file));
+  return diagrams::LoadDiagram(extracted->diagram(), overrides);
+}
+
+/// Records a run into a file.
+class FileRecorder {
+ public:
+  FileRecorder(const RunArguments& arguments, const diagrams::LoadedDiagram& loaded,
+               const std::vector<diagrams::Override>& overrides, Log* log)
+      : file_(arguments.record),
+        stream_(Open(file_)),
+        sink_(stream_, record::ParseCompression(arguments.record_compression)),
+        recorder_(loaded, {OCA_VERSION, overrides}, {&sink_}, log) {}
+
+  record::RunRecorder& recorder() { return recorder_; }
+  /// Says what was lost. throws ConfigError if the file could not be written to the end.
+  void Finish() {
+    if (recorder_.dropped() > 0) {
+      fmt::print(stderr, "warning: {}: {} samples dropped, the writer was too slow\n", file_,
+                 recorder_.dropped());
+    }
+    stream_.close();
+    if (!stream_) {
+      throw ConfigError(fmt::format("{}: could not be written to the end (disk full?)", file_));
+    }
+  }
+
+ private:
+  static std::ofstream Open(const std::string& file) {
+    std::ofstream stream(file, std::ios::binary | std::ios::trunc);
+    if (!stream) throw ConfigError(fmt::format("{}: cannot be written", file));
+    return stream;
+  }
+
+  std::string file_;
+  std::ofstream stream_;
+  record::McapSink sink_;
+  record::RunRecorder recorder_;
 };
 
 ordered_json ToJson(const diagrams::LoadedDiagram& loaded, const diagrams::RunResult& result) {
@@ -110,9 +158,12 @@ int RunCommand(const RunArguments& arguments) {
     overrides.push_back(diagrams::Override::Parse(text));
   }
   if (arguments.seed) overrides.push_back({"simulator.seed", std::to_string(*arguments.seed)});
-  const diagrams::LoadedDiagram loaded = diagrams::LoadDiagram(arguments.file, overrides);
+  std::optional<record::ExtractedRecord> extracted;
+  const diagrams::LoadedDiagram loaded = Load(arguments.file, overrides, extracted);
 
-  for (const std::string& warning : loaded.warnings) fmt::print(stderr, "{}\n", warning);
+  if (!extracted) {  // a record's were told when it was made
+    for (const std::string& warning : loaded.warnings) fmt::print(stderr, "{}\n", warning);
+  }
   StderrLog log(arguments.log_level);
   diagrams::RunOptions options;
   options.duration = arguments.duration;
@@ -120,6 +171,12 @@ int RunCommand(const RunArguments& arguments) {
   options.realtime_factor = arguments.realtime;
   options.profile = arguments.profile;
   options.log = &log;
+  std::optional<FileRecorder> recorder;
+  if (!arguments.record.empty()) {
+    recorder.emplace(arguments, loaded, overrides, &log);
+    options.observers.push_back(&recorder->recorder());
+    options.log = &recorder->recorder();
+  }
   std::signal(SIGINT, Interrupt);
   std::signal(SIGTERM, Interrupt);
   std::optional<ProgressBar> bar;
@@ -132,6 +189,7 @@ int RunCommand(const RunArguments& arguments) {
   };
   const diagrams::RunResult result = diagrams::Run(loaded, options);
   bar.reset();
+  if (recorder) recorder->Finish();
 
   if (arguments.json) {
     std::cout << ToJson(loaded, result).dump(2) << '\n';

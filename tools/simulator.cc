@@ -12,6 +12,7 @@
 #include "framework/nearest.h"
 #include "models/error.h"
 #include "tools/commands.h"
+#include "tools/record_commands.h"
 
 namespace oca::tools {
 namespace {
@@ -24,6 +25,7 @@ class CommandLine {
     app_.set_version_flag("--version", "simulator (OCA) " OCA_VERSION);
     AddRun();
     AddOthers();
+    AddRecordCommands(app_, command_);
     AddRobot();
   }
 
@@ -64,13 +66,16 @@ class CommandLine {
 
   void AddRun() {
     CLI::App* const run = app_.add_subcommand("run", "run a diagram file and judge the motion");
-    run->add_option("FILE", run_.file, "diagram file")->required();
+    run->add_option("FILE", run_.file, "diagram file, or a record of a run")->required();
     run->add_option("-s,--set", run_.overrides, "PATH=VALUE: override a value of the file")
         ->allow_extra_args(false);
     run->add_option("-t,--duration", run_.duration, "seconds to simulate, instead of the file's");
     run->add_option("--seed", run_.seed, "seed of everything random")
         ->check(CLI::NonNegativeNumber);
     run->add_option("--csv", run_.csv_folder, "folder to write the recorded signals to");
+    run->add_option("--record", run_.record, "MCAP file to record the run into");
+    run->add_option("--record-compression", run_.record_compression, "none, lz4 or zstd")
+        ->check(CLI::IsMember({"none", "lz4", "zstd"}));
     run->add_option("--realtime", run_.realtime,
                     "hold to the wall clock: =FACTOR simulated seconds a second, or 1");
     run->add_flag("--profile", run_.profile, "print what each system took");

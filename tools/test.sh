@@ -16,3 +16,10 @@ for test in "${hostile[@]}"; do
   echo "$test under sanitizers"
   "$(find build/debug/tests -type f -name "$test")" --gtest_brief=1
 done
+
+if command -v npm > /dev/null; then
+  echo "Records, by readers of others"
+  tests/record_node/run.sh build/release/tools/simulator
+else
+  echo "Records are not read by others: no npm."
+fi

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "diagrams/record/series.h"
+
+#include <fmt/format.h>
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "framework/error.h"
+
+namespace oca::record {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// The numbers of one message with the ends of their names.
+void Flatten(const ordered_json& json, const std::string& name,
+             std::vector<std::pair<std::string, double>>& out) {
+  if (json.is_number()) {
+    out.emplace_back(name, json.get<double>());
+  } else if (json.is_array() && !json.empty() && json[0].is_object() &&
+             json[0].contains("distance")) {
+    for (const auto& pair : json) {
+      out.emplace_back("." + pair.value("link", "") + "/" + pair.value("obstacle", ""),
+                       pair.value("distance", 0.0));
+    }
+  } else if (json.is_array()) {
+    for (std::size_t i = 0; i < json.size(); ++i) {
+      if (json[i].is_number()) Flatten(json[i], fmt::format("[{}]", i), out);
+    }
+  } else if (json.is_object()) {
+    for (const auto& [key, value] : json.items()) Flatten(value, "." + key, out);
+  }
+}
+
+std::string UnitOf(const McapFile& record, const McapChannel& channel) {
+  const McapSchema* const schema = record.FindSchema(channel.schema);
+  if (schema == nullptr) return "";
+  const std::size_t at = schema->data.find("\"x-unit\":\"");
+  if (at == std::string::npos) return "";
+  const std::size_t start = at + 10;
+  return schema->data.substr(start, schema->data.find('"', start) - start);
+}
+
+ordered_json ParseMessage(const McapMessage& message, const McapChannel& channel) {
+  ordered_json json = ordered_json::parse(message.data, nullptr, false);
+  if (json.is_discarded()) {
+    throw ConfigError(
+        fmt::format("record: {}: message {}; got no JSON", channel.topic, message.sequence));
+  }
+  return json;
+}
+
+}  // namespace
+
+bool IsSignal(const McapChannel& channel) {
+  const std::string& topic = channel.topic;
+  return topic.size() > 2 && topic.find('/', 1) != std::string::npos &&
+         !topic.starts_with("/scene/");
+}
+
+std::string SignalName(const McapChannel& channel) {
+  std::string name = channel.topic.substr(1);
+  std::replace(name.begin(), name.end(), '/', '.');
+  return name;
+}
+
+std::uint64_t StartOf(const McapFile& record) {
+  const McapTexts* const main = record.FindMetadata("oca");
+  if (main != nullptr && main->contains("start_epoch_ns")) {
+    return std::strtoull(main->at("start_epoch_ns").c_str(), nullptr, 10);
+  }
+  return record.messages().empty() ? 0 : record.messages().front().log_time;
+}
+
+std::vector<Series> ReadSeries(const McapFile& record, const std::string& pattern) {
+  const std::uint64_t start = StartOf(record);
+  std::vector<Series> found;
+  std::vector<std::pair<std::string, double>> numbers;
+  for (const McapChannel& channel : record.channels()) {
+    if (!IsSignal(channel)) continue;
+    const std::string signal = SignalName(channel);
+    const bool whole = fnmatch(pattern.c_str(), signal.c_str(), 0) == 0;
+    std::map<std::string, std::size_t> places;
+    for (const McapMessage* const message : record.MessagesOf(channel.topic)) {
+      numbers.clear();
+      Flatten(ParseMessage(*message, channel), "", numbers);
+      const double time = static_cast<double>(message->log_time - start) * 1e-9;
+      for (const auto& [end, value] : numbers) {
+        const std::string name = signal + end;
+        if (!whole && fnmatch(pattern.c_str(), name.c_str(), 0) != 0) continue;
+        const auto [place, fresh] = places.emplace(name, found.size());
+        if (fresh) found.push_back({name, UnitOf(record, channel), {}, {}});
+        found[place->second].times.push_back(time);
+        found[place->second].values.push_back(value);
+      }
+    }
+  }
+  return found;
+}
+
+Series LeastDistance(const McapFile& record, const std::string& signal) {
+  Series least{signal, "m", {}, {}};
+  std::map<double, double> at;
+  for (const Series& pair : ReadSeries(record, signal)) {
+    for (std::size_t i = 0; i < pair.times.size(); ++i) {
+      const auto [place, fresh] = at.emplace(pair.times[i], pair.values[i]);
+      if (!fresh) place->second = std::min(place->second, pair.values[i]);
+    }
+  }
+  for (const auto& [time, distance] : at) {
+    least.times.push_back(time);
+    least.values.push_back(distance);
+  }
+  return least;
+}
+
+}  // namespace oca::record

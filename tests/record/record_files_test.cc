@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "diagrams/record/record_files.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "diagrams/record/mcap_writer.h"
+#include "diagrams/run.h"
+#include "framework/error.h"
+#include "tests/record/record_runs.h"
+#include "tests/temporary_folder.h"
+
+namespace oca::record {
+namespace {
+
+namespace fs = std::filesystem;
+using oca::test::TemporaryFolder;
+using testing::HasSubstr;
+
+McapFile FileOf(const std::vector<McapAttachment>& attachments) {
+  std::ostringstream stream;
+  McapWriter writer(stream, Compression::kNone);
+  for (const McapAttachment& attachment : attachments) writer.AddAttachment(attachment);
+  writer.Close();
+  return McapFile::Parse(stream.str(), "attachments");
+}
+
+class EachDiagram : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(RecordFilesTest, EachDiagram,
+                         testing::Values("static_test.yaml", "dynamic_test.yaml", "dual_arm.yaml",
+                                         "link_forces_test.yaml", "attractive_goal.yaml",
+                                         "planar_arm.yaml"),
+                         [](const auto& tested) {
+                           const std::string name = tested.param;
+                           return name.substr(0, name.find('.'));
+                         });
+
+TEST_P(EachDiagram, RunsFromItsAttachmentsAloneWithTheSameBits) {
+  const auto loaded = test::Load(GetParam());
+  const auto attachments = FilesOf(loaded, loaded.simulator.duration);
+  const ExtractedRecord extracted(FileOf(attachments));
+  const auto again = diagrams::LoadDiagram(extracted.diagram());
+  EXPECT_EQ(FilesOf(again, again.simulator.duration)[0].data, attachments[0].data)
+      << "a record of a replay is another one";
+  const diagrams::RunOptions options{.duration = 1.0};
+  EXPECT_EQ(diagrams::Run(again, options).metrics, diagrams::Run(loaded, options).metrics);
+}
+
+TEST(RecordFilesTest, KeepsParametersSoThatOneCanBeChanged) {
+  const auto attachments = FilesOf(test::Load("static_test.yaml"), 14.5);
+  const ExtractedRecord extracted(FileOf(attachments));
+  const auto changed =
+      diagrams::LoadDiagram(extracted.diagram(), {{"parameters.test_obstacle_height", "1.5"}});
+  EXPECT_NE(diagrams::Run(changed, {.duration = 4.0}).metrics,
+            diagrams::Run(test::Load("static_test.yaml"), {.duration = 4.0}).metrics);
+}
+
+TEST(RecordFilesTest, KeepsOverridesAndTheDurationOfTheRun) {
+  const auto loaded = test::Load("static_test.yaml", {{"parameters.max_distance", "0.125"}});
+  const ExtractedRecord extracted(FileOf(FilesOf(loaded, 0.75)));
+  const auto again = diagrams::LoadDiagram(extracted.diagram());
+  EXPECT_EQ(again.simulator.duration, 0.75);
+  EXPECT_THAT(FilesOf(again, 0.75)[0].data, HasSubstr("max_distance: 0.125"));
+}
+
+/// A robot beside the diagram, its mesh beside the robot, a table of motion: none in a package.
+TEST(RecordFilesTest, CarriesFilesThatLieBesideTheDiagram) {
+  const TemporaryFolder folder;
+  folder.Write("robots/meshes/part.obj",
+               "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  folder.Write("robots/one.urdf", R"(<robot name="one">
+<link name="base"/><link name="tip"><collision><geometry><mesh filename="meshes/part.obj"/>
+</geometry></collision></link>
+<joint name="turn" type="continuous"><parent link="base"/><child link="tip"/><axis xyz="0 0 1"/></joint>
+</robot>)");
+  folder.Write("motion.csv", "time,x,y,z\n0,3,0,0\n1,2,0,0\n");
+  const auto file = folder.Write("work/one.yaml", R"(
+simulator: {duration: 1}
+models: {arm: {urdf: ../robots/one.urdf}}
+systems:
+  q: {type: Constant, value: [0.5]}
+  kinematics: {type: RobotKinematics, model: arm}
+  obstacles:
+    type: ObstacleSource
+    obstacles: [{id: ball, shape: {type: sphere, radius: 0.1}, motion: {type: csv, file: ../motion.csv}}]
+  distance: {type: BulletDistance, model: arm, max_distance: 10}
+connections:
+  - q.value -> kinematics.position
+  - kinematics.links -> distance.links
+  - obstacles.obstacles -> distance.obstacles
+expect: {}
+)");
+  const auto attachments = FilesOf(diagrams::LoadDiagram(file), 1.0);
+  std::vector<std::string> names;
+  for (const auto& attachment : attachments) names.push_back(attachment.name);
+  EXPECT_THAT(names, testing::UnorderedElementsAre("diagram.yaml", "files/up/motion.csv",
+                                                   "files/up/robots/one.urdf",
+                                                   "files/up/robots/meshes/part.obj"));
+  const ExtractedRecord extracted(FileOf(attachments));
+  EXPECT_EQ(FilesOf(diagrams::LoadDiagram(extracted.diagram()), 1.0)[0].data, attachments[0].data);
+}
+
+TEST(RecordFilesTest, RefusesAttachmentsThatWouldLeaveTheFolder) {
+  const TemporaryFolder folder;
+  for (const char* const name : {"../evil", "/evil", "a/../../evil"}) {
+    const McapFile file = FileOf({{0, "diagram.yaml", "", "systems: {}"}, {0, name, "", "x"}});
+    EXPECT_THROW(ExtractFiles(file, folder.path() / "inside"), ConfigError) << name;
+  }
+}
+
+TEST(RecordFilesTest, RefusesARecordWithoutADiagram) {
+  EXPECT_THROW(ExtractedRecord{FileOf({})}, ConfigError);
+}
+
+}  // namespace
+}  // namespace oca::record

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "diagrams/record/sample_queue.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "framework/diagram.h"
+#include "systems/ramp_source.h"
+
+namespace oca::record {
+namespace {
+
+/// A ramp of slope 1: its value is the time.
+class SampleQueueTest : public testing::Test {
+ protected:
+  static std::unique_ptr<Diagram> MakeRamp() {
+    auto params = systems::RampSource::Example();
+    params.slope = {1.0};
+    return MakeDiagramOf(std::make_unique<systems::RampSource>(params));
+  }
+  std::unique_ptr<Diagram> diagram_{MakeRamp()};
+  Context context_{diagram_->MakeContext()};
+  OutputHandle value_{diagram_->FindOutput("value")};
+
+  static double First(const SampleQueue::Sample& sample) {
+    return *static_cast<const double*>(sample.values[0]);
+  }
+};
+
+TEST_F(SampleQueueTest, GivesSamplesAndTextsInTheOrderTheyCameIn) {
+  SampleQueue queue({{{value_}, 4}, {{value_}, 4}}, context_);
+  context_.SetTime(1.0);
+  EXPECT_TRUE(queue.Store(1, context_));
+  EXPECT_TRUE(queue.StoreText(2, 1.5, "hello"));
+  context_.SetTime(2.0);
+  EXPECT_TRUE(queue.Store(0, context_));
+  std::string order;
+  const auto note = [&](const SampleQueue::Sample& sample) {
+    order += sample.group < 0 ? std::string(sample.text) : std::to_string(sample.group);
+    if (sample.group >= 0) EXPECT_EQ(First(sample), sample.time);
+  };
+  while (queue.Take(note)) continue;
+  EXPECT_EQ(order, "1hello0");
+}
+
+TEST_F(SampleQueueTest, CountsWhatFindsNoRoom) {
+  SampleQueue queue({{{value_}, 2}}, context_);
+  EXPECT_TRUE(queue.Store(0, context_));
+  EXPECT_TRUE(queue.HasRoom(0));
+  EXPECT_TRUE(queue.Store(0, context_));
+  EXPECT_FALSE(queue.HasRoom(0));
+  EXPECT_FALSE(queue.Store(0, context_));
+  EXPECT_EQ(queue.dropped(), 1);
+  EXPECT_TRUE(queue.Take([](const auto&) {}));
+  EXPECT_TRUE(queue.Store(0, context_));
+  EXPECT_EQ(queue.dropped(), 1);
+}
+
+TEST_F(SampleQueueTest, CutsATextThatIsTooLong) {
+  SampleQueue queue({}, context_);
+  queue.StoreText(1, 0.0, std::string(SampleQueue::kTextSize + 1, 'x'));
+  std::size_t size = 0;
+  queue.Take([&](const auto& sample) { size = sample.text.size(); });
+  EXPECT_EQ(size, SampleQueue::kTextSize);
+}
+
+TEST_F(SampleQueueTest, LosesNothingBetweenTwoThreads) {
+  constexpr int kSamples = 20000;
+  SampleQueue queue({{{value_}, 16}}, context_);
+  int taken = 0;
+  bool ordered = true;
+  std::thread taker([&] {
+    while (taken < kSamples) {
+      queue.Take([&](const SampleQueue::Sample& sample) {
+        ordered = ordered && First(sample) == static_cast<double>(taken);
+        ++taken;
+      });
+    }
+  });
+  for (int i = 0; i < kSamples; ++i) {
+    context_.SetTime(i);
+    while (!queue.HasRoom(0)) std::this_thread::yield();
+    queue.Store(0, context_);
+  }
+  taker.join();
+  EXPECT_TRUE(ordered);
+  EXPECT_EQ(queue.dropped(), 0);
+}
+
+}  // namespace
+}  // namespace oca::record

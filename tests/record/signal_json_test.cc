@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "diagrams/record/signal_json.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "diagrams/record/json_text.h"
+#include "systems/signals.h"
+
+namespace oca::record {
+namespace {
+
+using nlohmann::json;
+
+std::string Text(const SignalFormat& format, const void* value) {
+  std::string out;
+  AppendSignal(out, format, value);
+  return out;
+}
+
+TEST(SignalJsonTest, JointsAreNamedOtherVectorsAreNot) {
+  const double values[] = {0.1, -2.0};
+  EXPECT_EQ(Text({"plant", "position", &kVectorType, 2, "rad", {"a1", "a2"}}, values),
+            R"({"a1":0.1,"a2":-2})");
+  EXPECT_EQ(Text({"gain", "out", &kVectorType, 2, "", {}}, values), R"({"values":[0.1,-2]})");
+}
+
+TEST(SignalJsonTest, NumbersComeBackToTheLastBit) {
+  for (const double value : {0.1, 1.0 / 3.0, 5e-324, -1.7976931348623157e308, 1e22}) {
+    const std::string text = Text({"a", "b", &kVectorType, 1, "", {"x"}}, &value);
+    EXPECT_EQ(json::parse(text)["x"].get<double>(), value);
+  }
+}
+
+TEST(SignalJsonTest, WhatIsNotFiniteIsNull) {
+  const double values[] = {std::nan(""), std::numeric_limits<double>::infinity()};
+  EXPECT_EQ(Text({"a", "b", &kVectorType, 2, "", {}}, values), R"({"values":[null,null]})");
+}
+
+TEST(SignalJsonTest, ProximitiesAreThoseOfTheSignalItself) {
+  systems::ProximitySet set;
+  set.proximities.resize(2);
+  set.proximities[0].link = models::Name("a \"link\"");
+  set.proximities[0].obstacle = models::Name("box");
+  set.proximities[0].distance = 1.0 / 3.0;
+  set.proximities[1].point_on_link = {0.1, 0.2, 1e-9};
+  const SignalFormat format{"distance", "proximities", &TypeOf<systems::ProximitySet>(), 0, "", {}};
+  std::string own;
+  Signal<systems::ProximitySet>::WriteJson(set, own);
+  EXPECT_EQ(json::parse(Text(format, &set))["proximities"], json::parse(own));
+}
+
+TEST(SignalJsonTest, Base64IsThatOfTheStandard) {
+  // RFC 4648, section 10.
+  for (const auto& [bytes, expected] : std::vector<std::pair<std::string, std::string>>{
+           {"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foobar", "Zm9vYmFy"}}) {
+    std::string out;
+    AppendBase64(out, bytes);
+    EXPECT_EQ(out, expected);
+  }
+}
+
+TEST(SignalJsonTest, TextIsEscaped) {
+  std::string out;
+  AppendQuoted(out, "a\"b\\c\nd");
+  EXPECT_EQ(out, R"("a\"b\\c\u000ad")");
+}
+
+TEST(SignalJsonTest, TimesAreSecondsAndNanoseconds) {
+  std::string out;
+  AppendTime(out, 1'700'000'000'000'000'001);
+  EXPECT_EQ(out, R"({"sec":1700000000,"nsec":1})");
+}
+
+}  // namespace
+}  // namespace oca::record

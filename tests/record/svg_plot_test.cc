@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "diagrams/record/svg_plot.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "framework/error.h"
+
+namespace oca::record {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(SvgPlotTest, TicksAreRoundNumbersWithinTheRange) {
+  EXPECT_THAT(Ticks(0.0, 10.0, 5), ElementsAre(0, 2, 4, 6, 8, 10));
+  EXPECT_THAT(Ticks(0.0, 10.0, 4), ElementsAre(0, 5, 10));
+  EXPECT_THAT(Ticks(-0.11, 0.11, 5), ElementsAre(-0.1, -0.05, 0, 0.05, 0.1));
+}
+
+/// The plot area is 510 wide from 74, 166 high from 34; y is padded by 6 %.
+TEST(SvgPlotTest, PutsPointsWhereTheyBelong) {
+  PlotPanel panel{"title", "x", "y", {{"curve", {0, 1, 2}, {0, 1, 0}}}};
+  panel.y_min = 0;
+  panel.y_max = 1;
+  EXPECT_THAT(SvgPlot({panel}), HasSubstr("d=\"M74.0 200.0L329.0 34.0L584.0 200.0\""));
+}
+
+TEST(SvgPlotTest, LiftsThePenOverWhatIsNotFinite) {
+  PlotPanel panel{"", "", "", {{"", {0, 1, 2, 3, 4}, {0, 1, std::nan(""), 1, 0}}}};
+  const std::string svg = SvgPlot({panel});
+  const std::string path = svg.substr(svg.find("<path"));
+  EXPECT_EQ(std::count(path.begin(), path.begin() + path.find("/>"), 'M'), 2);
+  EXPECT_THAT(svg, Not(HasSubstr("nan")));
+}
+
+TEST(SvgPlotTest, FurtherRunsAreDashed) {
+  PlotPanel panel{"", "", "", {{"one", {0, 1}, {0, 1}, 0, 0}}};
+  EXPECT_THAT(SvgPlot({panel}), Not(HasSubstr("stroke-dasharray")));
+  panel.curves.push_back({"two", {0, 1}, {1, 0}, 0, 1});
+  EXPECT_THAT(SvgPlot({panel}), HasSubstr("stroke-dasharray"));
+}
+
+TEST(SvgPlotTest, EscapesNames) {
+  const PlotPanel panel{"a < b & c", "", "", {{"", {0, 1}, {0, 1}}}};
+  EXPECT_THAT(SvgPlot({panel}), HasSubstr("a &lt; b &amp; c"));
+}
+
+TEST(SvgPlotTest, RefusesToDrawNothing) {
+  EXPECT_THROW(SvgPlot({}), ConfigError);
+  EXPECT_THROW(SvgPlot({PlotPanel{"empty", "", ""}}), ConfigError);
+  EXPECT_THROW(SvgPlot({PlotPanel{"", "", "", {{"", {0}, {std::nan("")}}}}}), ConfigError);
+}
+
+}  // namespace
+}  // namespace oca::record
