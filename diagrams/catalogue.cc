@@ -25,11 +25,13 @@
 #include "systems/jacobian_mapping.h"
 #include "systems/joint_servo.h"
 #include "systems/linear_interpolator.h"
+#include "systems/motion_limiter.h"
 #include "systems/motion_metrics.h"
 #include "systems/obstacle_source.h"
 #include "systems/ramp_source.h"
 #include "systems/repulsive_field.h"
 #include "systems/robot_kinematics.h"
+#include "systems/safety_filter.h"
 #include "systems/saturation.h"
 #include "systems/sine_source.h"
 #include "systems/spline_generator.h"
@@ -114,11 +116,13 @@ const std::vector<CatalogueRow>& Catalogue() {
       Row<JacobianMapping>("JacobianMapping"),
       Row<JointServo>("JointServo"),
       Row<LinearInterpolator>("LinearInterpolator"),
+      Row<MotionLimiter>("MotionLimiter"),
       Row<MotionMetrics>("MotionMetrics"),
       Row<ObstacleSource>("ObstacleSource"),
       Row<RampSource>("RampSource"),
       Row<RepulsiveField>("RepulsiveField"),
       Row<RobotKinematics>("RobotKinematics"),
+      Row<SafetyFilter>("SafetyFilter"),
       Row<Saturation>("Saturation"),
       Row<SineSource>("SineSource"),
       Row<SplineGenerator>("SplineGenerator"),

@@ -51,7 +51,16 @@ void Merge(Value& base, Value over) {
 
 class Includer {
  public:
-  explicit Includer(Problems& problems) : problems_(problems) {}
+  Includer(const std::vector<Override>& overrides, Problems& problems) : problems_(problems) {
+    constexpr std::string_view kParameters = "parameters.";
+    for (const Override& change : overrides) {
+      if (!change.path.starts_with(kParameters)) continue;
+      Problems ignored;  // Apply reports them
+      const Value value = ReadYaml(change.value, "-s " + change.path, ignored);
+      if (value.string() == nullptr) continue;
+      texts_.emplace_back(change.path.substr(kParameters.size()), *value.string());
+    }
+  }
 
   Value Load(const fs::path& file, const Location& from) {
     std::error_code ignored;
@@ -79,9 +88,52 @@ class Includer {
     return merged;
   }
 
+  const std::vector<std::string>& choosing() const { return choosing_; }
+
  private:
+  /// Texts among the parameters of a file, behind those that win over them.
+  void AddTexts(const Value& file) {
+    const Value* const parameters = file.Find("parameters");
+    if (parameters == nullptr || parameters->map() == nullptr) return;
+    for (const Value::Entry& entry : *parameters->map()) {
+      if (entry.value.string() != nullptr) texts_.emplace_back(entry.key, *entry.value.string());
+    }
+  }
+
+  /// The file name with each `${name}` replaced by that parameter; empty, with a problem, if it is
+  /// no text. Includes come before arithmetic, so nothing else may stand in the braces.
+  std::string FileName(const std::string& text, const Location& location) {
+    std::string name;
+    for (std::size_t from = 0; from < text.size();) {
+      const std::size_t open = std::min(text.find("${", from), text.size());
+      name += text.substr(from, open - from);
+      if (open == text.size()) break;
+      const std::size_t close = text.find('}', open);
+      if (close == std::string::npos) {
+        problems_.Add(location,
+                      fmt::format("include: got '{}'; expected a '}}' after '${{'", text));
+        return {};
+      }
+      const std::string key = text.substr(open + 2, close - open - 2);
+      const auto found = std::find_if(texts_.begin(), texts_.end(),
+                                      [&](const auto& entry) { return entry.first == key; });
+      if (found == texts_.end()) {
+        std::vector<std::string> known;
+        for (const auto& entry : texts_) known.push_back(entry.first);
+        problems_.Add(location, fmt::format("include: {}: no parameter '{}' that is a text{}", text,
+                                            key, DidYouMean(key, known)));
+        return {};
+      }
+      name += found->second;
+      choosing_.push_back(key);
+      from = close + 1;
+    }
+    return name;
+  }
+
   Value Expand(Value value, const fs::path& folder) {
     if (value.map() == nullptr) return value;
+    AddTexts(value);
     Value::Map own;
     Value base(Value::Map{}, value.location());
     for (Value::Entry& entry : *value.map()) {
@@ -100,7 +152,9 @@ class Includer {
                         fmt::format("include: got {}; expected a file name", item.Show()));
           continue;
         }
-        Value included = Load(folder / *item.string(), item.location());
+        const std::string name = FileName(*item.string(), item.location());
+        if (name.empty()) continue;
+        Value included = Load(folder / name, item.location());
         if (included.map() != nullptr) {
           Merge(base, std::move(included));
         } else if (!included.null()) {
@@ -116,6 +170,8 @@ class Includer {
   Problems& problems_;
   static constexpr int kMostFiles = 200;
   std::vector<fs::path> open_;
+  std::vector<std::pair<std::string, std::string>> texts_;  // parameters; the first one wins
+  std::vector<std::string> choosing_;
   int files_{0};
 };
 
@@ -243,9 +299,11 @@ Override Override::Parse(const std::string& text) {
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
-Value LoadDocument(const fs::path& file, const std::vector<Override>& overrides,
-                   Problems& problems) {
-  Value root = Includer(problems).Load(file, {});
+Value LoadDocument(const fs::path& file, const std::vector<Override>& overrides, Problems& problems,
+                   std::vector<std::string>* choosing) {
+  Includer includer(overrides, problems);
+  Value root = includer.Load(file, {});
+  if (choosing != nullptr) *choosing = includer.choosing();
   if (root.map() == nullptr && problems.empty()) {
     problems.Add({std::make_shared<const std::string>(file.string()), 1, 1},
                  root.null() ? "is empty; expected a map with systems"

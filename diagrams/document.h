@@ -20,8 +20,11 @@ struct Override {
 /// A diagram file as one tree: the files it includes first, itself over them, overrides over all.
 ///
 /// Maps are merged key by key, `connections` are appended, everything else is replaced. Included
-/// paths are relative to the file that includes. Problems of all files are added to `problems`.
+/// paths are relative to the file that includes; `${name}` in one is replaced by the parameter of
+/// that name, a text, as overrides, the including files from the outermost on, or the file itself
+/// say first. Problems of all files are added to `problems`, and the parameters that chose files to
+/// `choosing`, if that is given.
 Value LoadDocument(const std::filesystem::path& file, const std::vector<Override>& overrides,
-                   Problems& problems);
+                   Problems& problems, std::vector<std::string>* choosing = nullptr);
 
 }  // namespace oca::diagrams

@@ -23,6 +23,8 @@ class Expressions {
 
   /// `value` with all expressions replaced; what fails is added to the problems.
   Value Resolve(const Value& value);
+  /// Says that the parameter was used where no expression shows it.
+  void MarkUsed(const std::string& name) { used_.insert(name); }
   /// A line for each parameter that neither the tree nor another parameter uses, with its place and
   /// the nearest one that is used. Complete once everything is resolved.
   std::vector<std::string> Unused() const;

@@ -41,7 +41,7 @@ class Loader {
   }
 
   LoadedDiagram Load(const fs::path& file, const std::vector<Override>& overrides) {
-    const Value document = LoadDocument(file, overrides, problems_);
+    const Value document = LoadDocument(file, overrides, problems_, &choosing_);
     problems_.Throw();
     CheckKeys(document);
     root_ = Resolve(document);
@@ -89,6 +89,7 @@ class Loader {
                     fmt::format("parameters: got {}; expected a map", parameters->Show()));
     }
     Expressions expressions(parameters == nullptr ? Value() : *parameters, problems_);
+    for (const std::string& name : choosing_) expressions.MarkUsed(name);
     Value::Map resolved;
     for (const Value::Entry& entry : *document.map()) {
       if (entry.key == "parameters") continue;
@@ -361,6 +362,7 @@ class Loader {
 
   const std::vector<std::string> part_;  // systems to build; empty: all
   LoadedDiagram loaded_;
+  std::vector<std::string> choosing_;  // parameters that chose included files
   Problems problems_;
   Value root_;
   std::optional<ModelSection> models_;

@@ -55,6 +55,34 @@ TEST_F(DocumentTest, ThisFileWinsWhereverItsIncludeStands) {
   EXPECT_EQ(*At(Load(), "name").string(), "main");
 }
 
+TEST_F(DocumentTest, AParameterMayChooseTheFileToInclude) {
+  folder.Write("part_one.yaml", "name: one\n");
+  folder.Write("part_two.yaml", "name: two\n");
+  folder.Write("choice.yaml", "include: ['part_${method}.yaml']\nparameters: {method: one}\n");
+  folder.Write("main.yaml", "include: [choice.yaml]\n");
+  EXPECT_EQ(*At(Load(), "name").string(), "one");
+  EXPECT_EQ(*At(Load({"parameters.method=two"}), "name").string(), "two");
+  folder.Write("main.yaml", "include: [choice.yaml]\nparameters: {method: two}\n");
+  EXPECT_EQ(*At(Load(), "name").string(), "two");
+  EXPECT_EQ(*At(Load({"parameters.method=one"}), "name").string(), "one");
+  EXPECT_EQ(*At(Load(), "parameters", "method").string(), "two");
+  EXPECT_EQ(problems, "");
+}
+
+TEST_F(DocumentTest, AFileNameRefusesAParameterThatIsNoText) {
+  folder.Write("main.yaml", "include: ['part_${metod}.yaml']\nparameters: {method: one, n: 2}\n");
+  Load();
+  EXPECT_THAT(problems,
+              HasSubstr("main.yaml:1:11: error: include: part_${metod}.yaml: no parameter "
+                        "'metod' that is a text; did you mean 'method'?"));
+  folder.Write("main.yaml", "include: ['part_${n}.yaml']\nparameters: {n: 2}\n");
+  Load();
+  EXPECT_THAT(problems, HasSubstr("no parameter 'n' that is a text"));
+  folder.Write("main.yaml", "include: ['part_${n']\nparameters: {n: two}\n");
+  Load();
+  EXPECT_THAT(problems, HasSubstr("got 'part_${n'; expected a '}' after '${'"));
+}
+
 TEST_F(DocumentTest, ListsAreReplacedButConnectionsAppended) {
   folder.Write("base.yaml", "x: {list: [1, 2, 3]}\nconnections: [a.out -> b.in]\n");
   folder.Write("main.yaml", "include: [base.yaml]\nx: {list: [4]}\nconnections: [b.out -> c.in]\n");
