@@ -70,6 +70,12 @@ ordered_json WorstOf(const ordered_json& one, const ordered_json& other) {
     worst["first_contact_time"] =
         std::min(first.get<double>(), one["first_contact_time"].get<double>());
   }
+  const char* const kCertified = "certified_min_distance";  // known only if it is for both
+  const auto certified = other[kCertified];
+  worst[kCertified] =
+      certified.is_number() && one[kCertified].is_number()
+          ? ordered_json(std::min(certified.get<double>(), one[kCertified].get<double>()))
+          : ordered_json();
   return worst;
 }
 

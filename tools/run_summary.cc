@@ -38,6 +38,12 @@ std::string ClearanceLine(const ordered_json& metrics, bool colour) {
   }
   const double nearest = distance.get<double>();
   if (nearest > 0.0) {
+    const auto& certified = metrics.value("certified_min_distance", ordered_json());
+    if (certified.is_number() && certified.get<double>() <= 0.0) {
+      where += "; between the samples a contact is not ruled out";
+    } else if (certified.is_number()) {
+      where += fmt::format("; {:.3f} m or more at every time", certified.get<double>());
+    }
     return Line("clearance",
                 Good("clear", colour) + fmt::format(": nearest {:.3f} m", nearest) + where);
   }
