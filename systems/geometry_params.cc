@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <utility>
 
 #include "framework/error.h"
@@ -19,13 +20,17 @@ void CheckFinite(bool finite, const std::string& where) {
 
 // Which sizes each type has, in the order of ShapeType.
 struct Sizes {
-  bool radius, length, size, file;
+  bool radius{false}, length{false}, size{false}, radii{false}, file{false}, parts{false};
 };
-constexpr Sizes kSizes[] = {{true, false, false, false},
-                            {false, false, true, false},
-                            {true, true, false, false},
-                            {true, true, false, false},
-                            {false, false, false, true}};
+constexpr std::array<Sizes, kShapeTypeNames.size()> kSizes{{{.radius = true},
+                                                            {.size = true},
+                                                            {.radius = true, .length = true},
+                                                            {.radius = true, .length = true},
+                                                            {.file = true},
+                                                            {.radius = true, .length = true},
+                                                            {.radii = true},
+                                                            {},
+                                                            {.parts = true}}};
 
 void CheckPresence(bool present, bool wanted, const char* key, ShapeType type,
                    const std::string& where) {
@@ -35,12 +40,17 @@ void CheckPresence(bool present, bool wanted, const char* key, ShapeType type,
                                 EnumNames(type)[static_cast<int>(type)]));
 }
 
-models::Shape MakeShape(const ShapeParams& shape, const std::string& where) {
+void CheckSizes(const SolidParams& shape, bool parts, const std::string& where) {
   const Sizes& has = kSizes[static_cast<int>(shape.type)];
   CheckPresence(shape.radius.has_value(), has.radius, "radius", shape.type, where);
   CheckPresence(shape.length.has_value(), has.length, "length", shape.type, where);
   CheckPresence(shape.size.has_value(), has.size, "size", shape.type, where);
+  CheckPresence(shape.radii.has_value(), has.radii, "radii", shape.type, where);
   CheckPresence(shape.file.has_value(), has.file, "file", shape.type, where);
+  CheckPresence(parts, has.parts, "parts", shape.type, where);
+}
+
+models::Shape MakeSolid(const SolidParams& shape) {
   switch (shape.type) {
     case ShapeType::kSphere:
       return models::Sphere{*shape.radius};
@@ -51,9 +61,87 @@ models::Shape MakeShape(const ShapeParams& shape, const std::string& where) {
     case ShapeType::kCapsule:
       return models::Capsule{*shape.radius, *shape.length};
     case ShapeType::kMesh:
+      return models::ConvexMesh{models::LoadConvexHull(*shape.file)};
+    case ShapeType::kCone:
+      return models::Cone{*shape.radius, *shape.length};
+    case ShapeType::kEllipsoid:
+      return models::Ellipsoid{*shape.radii};
+    case ShapeType::kHalfSpace:
+      return models::HalfSpace{};
+    case ShapeType::kCompound:
       break;
   }
-  return models::ConvexMesh{models::LoadConvexHull(*shape.file)};
+  return models::Compound{};
+}
+
+models::Shape MakeShape(const ShapeParams& shape, const std::string& where) {
+  CheckSizes(shape, !shape.parts.empty(), where);
+  if (shape.type != ShapeType::kCompound) return MakeSolid(shape);
+  models::Compound compound;
+  for (std::size_t i = 0; i < shape.parts.size(); ++i) {
+    const PartParams& part = shape.parts[i];
+    const std::string name = fmt::format("{}.parts[{}]", where, i);
+    if (part.shape.type >= ShapeType::kHalfSpace) {
+      throw ConfigError(fmt::format("{}.shape.type: got a {}; expected a convex body that ends",
+                                    name,
+                                    EnumNames(part.shape.type)[static_cast<int>(part.shape.type)]));
+    }
+    CheckSizes(part.shape, false, name + ".shape");
+    compound.parts.push_back(
+        {part.pose.value_or(PoseParams()).Pose(name + ".pose"), MakeSolid(part.shape)});
+  }
+  return compound;
+}
+
+// The fields that a part and a whole have in common.
+template <class P>
+void DescribeSolid(const char* types, Fields<P>& fields) {
+  using Number = std::optional<double>;
+  using Triple = std::optional<Eigen::Vector3d>;
+  using File = std::optional<std::string>;
+  fields.template Add<ShapeType>("type", &P::type, "", types).Required();
+  fields.template Add<Number>("radius", &P::radius, "m", "of a sphere, cylinder, capsule or cone")
+      .Above(0.0);
+  fields
+      .template Add<Number>("length", &P::length, "m",
+                            "along z, of a cylinder, a cone or the straight part of a capsule")
+      .Above(0.0);
+  fields.template Add<Triple>("size", &P::size, "m", "full edge lengths of a box").Above(0.0);
+  fields.template Add<Triple>("radii", &P::radii, "m", "semi-axes of an ellipsoid").Above(0.0);
+  fields.template Add<File>("file", &P::file, "",
+                            "mesh (STL, OBJ, Collada); its convex hull counts");
+}
+
+SolidParams SolidParamsOf(const models::Shape& shape) {
+  SolidParams params;
+  if (const auto* sphere = std::get_if<models::Sphere>(&shape)) {
+    params.radius = sphere->radius;
+  } else if (const auto* box = std::get_if<models::Box>(&shape)) {
+    params.type = ShapeType::kBox;
+    params.size = box->size;
+  } else if (const auto* cylinder = std::get_if<models::Cylinder>(&shape)) {
+    params.type = ShapeType::kCylinder;
+    params.radius = cylinder->radius;
+    params.length = cylinder->length;
+  } else if (const auto* capsule = std::get_if<models::Capsule>(&shape)) {
+    params.type = ShapeType::kCapsule;
+    params.radius = capsule->radius;
+    params.length = capsule->length;
+  } else if (const auto* mesh = std::get_if<models::ConvexMesh>(&shape)) {
+    params.type = ShapeType::kMesh;
+    params.file = mesh->hull->name;
+  } else if (const auto* cone = std::get_if<models::Cone>(&shape)) {
+    params.type = ShapeType::kCone;
+    params.radius = cone->radius;
+    params.length = cone->length;
+  } else if (const auto* ellipsoid = std::get_if<models::Ellipsoid>(&shape)) {
+    params.type = ShapeType::kEllipsoid;
+    params.radii = ellipsoid->radii;
+  } else {
+    params.type = std::holds_alternative<models::HalfSpace>(shape) ? ShapeType::kHalfSpace
+                                                                   : ShapeType::kCompound;
+  }
+  return params;
 }
 
 }  // namespace
@@ -82,15 +170,26 @@ Eigen::Isometry3d PoseParams::Pose(const std::string& where) const {
   return pose;
 }
 
+PoseParams PoseParamsOf(const Eigen::Isometry3d& X) {
+  const Eigen::Quaterniond quaternion(X.linear());
+  return {X.translation(), {}, Eigen::VectorXd(quaternion.coeffs())};
+}
+
+void SolidParams::Describe(Fields<SolidParams>& fields) {
+  DescribeSolid("sphere, box, cylinder, capsule, mesh, cone or ellipsoid", fields);
+}
+
+void PartParams::Describe(Fields<PartParams>& fields) {
+  fields.Add("shape", &PartParams::shape, "", "convex body").Required();
+  fields.Add("pose", &PartParams::pose, "", "in the frame of the compound");
+}
+
 void ShapeParams::Describe(Fields<ShapeParams>& fields) {
-  fields.Add("type", &ShapeParams::type, "", "sphere, box, cylinder, capsule or mesh").Required();
-  fields.Add("radius", &ShapeParams::radius, "m", "of a sphere, cylinder or capsule").Above(0.0);
-  fields
-      .Add("length", &ShapeParams::length, "m",
-           "of the straight part of a cylinder or capsule, along z")
-      .Above(0.0);
-  fields.Add("size", &ShapeParams::size, "m", "full edge lengths of a box").Above(0.0);
-  fields.Add("file", &ShapeParams::file, "", "mesh (STL, OBJ, Collada); its convex hull counts");
+  DescribeSolid(
+      "sphere, box, cylinder, capsule, mesh, cone (apex up), ellipsoid, half_space (all below the "
+      "xy plane) or compound",
+      fields);
+  fields.Add("parts", &ShapeParams::parts, "", "convex bodies that make a compound");
 }
 
 std::shared_ptr<const ObstacleBody> MakeObstacleBody(const std::string& id,
@@ -108,23 +207,13 @@ std::shared_ptr<const ObstacleBody> MakeObstacleBody(const std::string& id,
 
 ShapeParams ShapeParamsOf(const ObstacleBody& body) {
   const models::Shape& shape = body.collider->shape();
-  ShapeParams params{.type = ShapeType::kMesh, .radius = {}, .length = {}, .size = {}, .file = {}};
-  if (const auto* sphere = std::get_if<models::Sphere>(&shape)) {
-    params.type = ShapeType::kSphere;
-    params.radius = sphere->radius;
-  } else if (const auto* box = std::get_if<models::Box>(&shape)) {
-    params.type = ShapeType::kBox;
-    params.size = box->size;
-  } else if (const auto* cylinder = std::get_if<models::Cylinder>(&shape)) {
-    params.type = ShapeType::kCylinder;
-    params.radius = cylinder->radius;
-    params.length = cylinder->length;
-  } else if (const auto* capsule = std::get_if<models::Capsule>(&shape)) {
-    params.type = ShapeType::kCapsule;
-    params.radius = capsule->radius;
-    params.length = capsule->length;
-  } else {
-    params.file = body.file;
+  ShapeParams params;
+  static_cast<SolidParams&>(params) = SolidParamsOf(shape);
+  if (params.file) params.file = body.file;
+  if (const auto* compound = std::get_if<models::Compound>(&shape)) {
+    for (const models::CompoundPart& part : compound->parts) {
+      params.parts.push_back({SolidParamsOf(part.shape), PoseParamsOf(part.X_SP)});
+    }
   }
   return params;
 }

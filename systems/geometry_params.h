@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "framework/params.h"
 #include "systems/signals.h"
@@ -25,17 +26,45 @@ struct PoseParams {
   Eigen::Isometry3d Pose(const std::string& where) const;
 };
 
-enum class ShapeType { kSphere, kBox, kCylinder, kCapsule, kMesh };
-inline constexpr std::array kShapeTypeNames{"sphere", "box", "cylinder", "capsule", "mesh"};
+/// The inverse, with a quaternion.
+PoseParams PoseParamsOf(const Eigen::Isometry3d& X);
+
+enum class ShapeType {
+  kSphere,
+  kBox,
+  kCylinder,
+  kCapsule,
+  kMesh,
+  kCone,
+  kEllipsoid,
+  kHalfSpace,
+  kCompound
+};
+inline constexpr std::array kShapeTypeNames{"sphere", "box",       "cylinder",   "capsule", "mesh",
+                                            "cone",   "ellipsoid", "half_space", "compound"};
 inline std::span<const char* const> EnumNames(ShapeType) { return kShapeTypeNames; }
 
-/// A shape as files and JSON give it: a type, and just those sizes that the type has.
-struct ShapeParams {
+/// A convex shape as files and JSON give it: a type, and just those sizes that the type has.
+struct SolidParams {
   ShapeType type{ShapeType::kSphere};
-  std::optional<double> radius;
-  std::optional<double> length;
-  std::optional<Eigen::Vector3d> size;
-  std::optional<std::string> file;
+  std::optional<double> radius{};
+  std::optional<double> length{};
+  std::optional<Eigen::Vector3d> size{};
+  std::optional<Eigen::Vector3d> radii{};
+  std::optional<std::string> file{};
+  static void Describe(Fields<SolidParams>& fields);
+};
+
+/// A part of a compound, and where it is in the frame of the compound.
+struct PartParams {
+  SolidParams shape{};
+  std::optional<PoseParams> pose{};
+  static void Describe(Fields<PartParams>& fields);
+};
+
+/// Any shape; a compound has parts and no sizes.
+struct ShapeParams : SolidParams {
+  std::vector<PartParams> parts{};
   static void Describe(Fields<ShapeParams>& fields);
 };
 

@@ -2,6 +2,7 @@
 #include "systems/signals.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -19,28 +20,56 @@ bool Finite3(const Eigen::Vector3d& vector) { return AllFinite(vector.data(), 3)
 
 bool FinitePose(const Eigen::Isometry3d& pose) { return AllFinite(pose.data(), 16); }
 
-Json ToJson(const ShapeParams& shape) {
+Json ToJson(const SolidParams& shape) {
   Json json{{"type", EnumNames(shape.type)[static_cast<int>(shape.type)]}};
   if (shape.radius) json["radius"] = *shape.radius;
   if (shape.length) json["length"] = *shape.length;
   if (shape.size) json["size"] = systems::ToJson(*shape.size);
+  if (shape.radii) json["radii"] = systems::ToJson(*shape.radii);
   if (shape.file) json["file"] = *shape.file;
   return json;
 }
 
-ShapeParams ReadShape(const JsonReader& json) {
-  json.CheckKeys({"type"}, {"radius", "length", "size", "file"});
+Json ToJson(const ShapeParams& shape) {
+  Json json = ToJson(static_cast<const SolidParams&>(shape));
+  for (const PartParams& part : shape.parts) {
+    json["parts"].push_back(
+        {{"shape", ToJson(part.shape)}, {"pose", systems::ToJson(part.pose->Pose("part"))}});
+  }
+  return json;
+}
+
+void ReadSolid(const JsonReader& json, SolidParams* shape) {
   const std::string type = json.At("type").Text();
   const auto found = std::find(kShapeTypeNames.begin(), kShapeTypeNames.end(), type);
   if (found == kShapeTypeNames.end()) {
-    json.At("type").Fail("'" + type + "'", "sphere, box, cylinder, capsule or mesh");
+    json.At("type").Fail("'" + type + "'", fmt::format("{}", fmt::join(kShapeTypeNames, ", ")));
   }
+  shape->type = static_cast<ShapeType>(found - kShapeTypeNames.begin());
+  if (json.Has("radius")) shape->radius = json.At("radius").Number();
+  if (json.Has("length")) shape->length = json.At("length").Number();
+  if (json.Has("size")) shape->size = json.At("size").Vector3();
+  if (json.Has("radii")) shape->radii = json.At("radii").Vector3();
+  if (json.Has("file")) shape->file = json.At("file").Label();
+}
+
+PartParams ReadPart(const JsonReader& json) {
+  json.CheckKeys({"shape"}, {"pose"});
+  json.At("shape").CheckKeys({"type"}, {"radius", "length", "size", "radii", "file"});
+  PartParams part;
+  ReadSolid(json.At("shape"), &part.shape);
+  if (json.Has("pose")) part.pose = PoseParamsOf(json.At("pose").Pose());
+  return part;
+}
+
+ShapeParams ReadShape(const JsonReader& json) {
+  json.CheckKeys({"type"}, {"radius", "length", "size", "radii", "file", "parts"});
   ShapeParams shape;
-  shape.type = static_cast<ShapeType>(found - kShapeTypeNames.begin());
-  if (json.Has("radius")) shape.radius = json.At("radius").Number();
-  if (json.Has("length")) shape.length = json.At("length").Number();
-  if (json.Has("size")) shape.size = json.At("size").Vector3();
-  if (json.Has("file")) shape.file = json.At("file").Label();
+  ReadSolid(json, &shape);
+  if (json.Has("parts")) {
+    json.At("parts").ForEach(
+        [&](const JsonReader& part) { shape.parts.push_back(ReadPart(part)); });
+  }
   return shape;
 }
 

@@ -97,6 +97,41 @@ TEST(SignalsTest, ReadsEachShape) {
       std::get<models::Capsule>(shape(R"("type":"capsule","radius":0.2,"length":0.6)"));
   EXPECT_EQ(capsule.radius, 0.2);
   EXPECT_EQ(capsule.length, 0.6);
+  const auto cone = std::get<models::Cone>(shape(R"("type":"cone","radius":0.1,"length":0.5)"));
+  EXPECT_EQ(cone.radius, 0.1);
+  EXPECT_EQ(cone.length, 0.5);
+  const auto ellipsoid =
+      std::get<models::Ellipsoid>(shape(R"("type":"ellipsoid","radii":[0.1,0.2,0.3])"));
+  EXPECT_EQ(ellipsoid.radii, Eigen::Vector3d(0.1, 0.2, 0.3));
+  EXPECT_TRUE(std::holds_alternative<models::HalfSpace>(shape(R"("type":"half_space")")));
+}
+
+TEST(SignalsTest, ACompoundComesBackAsItWasWritten) {
+  const std::string parts =
+      R"({"type":"compound","parts":[{"shape":{"type":"box","size":[0.1,0.2,0.3]},)"
+      R"("pose":{"xyz":[0.0,0.0,0.5],"quaternion":[0.0,0.0,0.0,1.0]}},)"
+      R"({"shape":{"type":"cone","radius":0.1,"length":0.2},)"
+      R"("pose":{"xyz":[1.0,0.0,0.0],"quaternion":[0.0,0.0,0.0,1.0]}}]})";
+  const auto set = Signal<ObstacleSet>::ReadJson(R"([{"id":"s","shape":)" + parts +
+                                                 R"(,"pose":{"xyz":[0,0,0]}}])");
+  const auto& compound = std::get<models::Compound>(set.obstacles[0].body->collider->shape());
+  ASSERT_EQ(compound.parts.size(), 2u);
+  EXPECT_EQ(compound.parts[0].X_SP.translation().z(), 0.5);
+  EXPECT_THAT(WriteText<ObstacleSet>(set), HasSubstr(parts));
+}
+
+TEST(SignalsTest, RefusesAShapeThatHasSizesOfAnother) {
+  const auto refusal = [](const std::string& shape) {
+    return Refusal<ObstacleSet>(R"([{"id":"s","shape":)" + shape + R"(,"pose":{"xyz":[0,0,0]}}])");
+  };
+  EXPECT_THAT(refusal(R"({"type":"half_space","radius":1})"),
+              HasSubstr("radius: got a value; expected none of a half_space"));
+  EXPECT_THAT(refusal(R"({"type":"ellipsoid","size":[1,1,1]})"),
+              HasSubstr("size: got a value; expected none of a ellipsoid"));
+  EXPECT_THAT(refusal(R"({"type":"compound"})"), HasSubstr("parts: got none"));
+  EXPECT_THAT(refusal(R"({"type":"compound","parts":[{"shape":{"type":"half_space"}}]})"),
+              HasSubstr("parts[0].shape.type: got a half_space"));
+  EXPECT_THAT(refusal(R"({"type":"dodecahedron"})"), HasSubstr("'dodecahedron'"));
 }
 
 TEST(SignalsTest, VelocityAtAPointAddsTheRotation) {
@@ -196,7 +231,7 @@ TEST(SignalsTest, RefusesShapesWithMissingSurplusOrBadSizes) {
               HasSubstr("shape.length: got a value"));
   EXPECT_THAT(refusal(R"({"type":"sphere","radius":0})"), HasSubstr("above 0"));
   EXPECT_THAT(refusal(R"({"type":"box","size":[1,1,-1]})"), HasSubstr("above 0"));
-  EXPECT_THAT(refusal(R"({"type":"cone","radius":1})"), HasSubstr("'cone'"));
+  EXPECT_THAT(refusal(R"({"type":"torus","radius":1})"), HasSubstr("'torus'"));
   EXPECT_THAT(refusal(R"({"type":"mesh","file":"no_such_mesh.stl"})"),
               HasSubstr("no_such_mesh.stl"));
 }
