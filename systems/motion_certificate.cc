@@ -56,9 +56,6 @@ double MotionTally::TravelOf(const models::RobotModel& model, models::Name link)
 
 void MotionTally::CalcTravel(const MotionSample& sample) {
   const Eigen::Map<const Eigen::VectorXd> before(position_.data(), std::ssize(position_));
-  poses_.resize(sample.model->links().size());
-  travel_.resize(poses_.size());
-  path_.resize(position_.size());
   Eigen::Map<Eigen::VectorXd> path(path_.data(), before.size());
   path = (*sample.position - before).cwiseAbs();
   models::ForwardKinematics(*sample.model, before, poses_);
@@ -94,7 +91,12 @@ double MotionTally::LeastInStep(const MotionSample& sample, double step) {
 void MotionTally::Certify(const MotionSample& sample, double step) {
   if (samples_ == 0) {
     certain_ = Known(sample);
-    if (certain_) certified_ = Nearest(*sample.proximities);
+    if (certain_) {
+      certified_ = Nearest(*sample.proximities);
+      poses_.resize(sample.model->links().size());
+      travel_.resize(poses_.size());
+      path_.resize(static_cast<std::size_t>(sample.position->size()));
+    }
   } else if (certain_) {
     certain_ = Known(sample);
     if (certain_) {
