@@ -119,7 +119,16 @@ class SafetyFilter final : public System {
 
   SafetyFilter(const Params& params, const ModelSet& models);
 
+  /// How far below safe_distance ticks may lead, m: what the curvature of the way costs within a
+  /// period, divided by the share of it that is won back in the next one. For joint speeds that add
+  /// up to `turn` rad/s, a nearest point at most `reach` m from every joint and obstacles up to
+  /// `obstacle_speed` m/s that do not turn. Holds between balls and convex bodies while no row
+  /// takes slack; derivation in docs/safety_filter.md.
+  double TickMargin(double turn, double reach, double obstacle_speed) const;
+  /// No point of the arm is farther than this from a joint before it, m.
+  double Reach() const;
   const Params& params() const { return params_; }
+  const models::RobotModel& model() const { return *model_; }
 
  private:
   using OptionalVector = std::optional<VectorView>;
@@ -139,7 +148,6 @@ class SafetyFilter final : public System {
   void AddRow(const FilterRow& source, double bound, FilterSolution& result) const;
   void FillGuess(const ProximitySet& set, const FilterActivity& last, FilterSolution& result) const;
   void Report(const ProximitySet& set, Poses X_WL, FilterSolution& result) const;
-  double Margin(const Proximity& proximity, Poses X_WL, const Eigen::VectorXd& velocity) const;
 
   void Start(VectorView measured, MutableVectorView c) const;
   void CalcSolution(const ProximitySet& set, const LinkPoses& poses, VectorView request,

@@ -7,6 +7,7 @@
 
 #include "framework/error.h"
 #include "models/robot/kinematics.h"
+#include "systems/link_colliders.h"
 #include "systems/motion_limiter.h"
 #include "systems/safety_filter.h"
 
@@ -150,20 +151,28 @@ void SafetyFilter::FillGuess(const ProximitySet& set, const FilterActivity& last
   }
 }
 
-/// How far below its row's promise one tick may lead the distance, summed up over all later ticks:
-/// docs/safety_filter.md.
-double SafetyFilter::Margin(const Proximity& proximity, Poses X_WL,
-                            const Eigen::VectorXd& u) const {
-  double reach = 0.0;
-  for (const int body : model_->bodies()) {
-    reach = std::max(reach, (proximity.point_on_link - X_WL[body].translation()).norm());
-  }
-  const double turn = u.cwiseAbs().sum();
-  const double bend = turn * turn * reach + 2.0 * turn * proximity.obstacle_velocity.norm();
+double SafetyFilter::TickMargin(double turn, double reach, double obstacle_speed) const {
+  const double bend = turn * turn * reach + 2.0 * turn * obstacle_speed;
   const double gain = params_.form == Form::kLinear
                           ? std::min(params_.approach_gain, params_.recovery_gain)
                           : params_.recovery_gain;
   return 0.5 * params_.period.seconds() * bend / gain;
+}
+
+double SafetyFilter::Reach() const {
+  // Along each link's chain of joints, to the far side of its solids.
+  std::vector<double> from_base(model_->links().size(), 0.0);
+  double reach = 0.0;
+  for (int i = 1; i < model_->num_links(); ++i) {
+    const models::Joint& joint = model_->joints()[i - 1];
+    const bool first = model_->body(joint.parent_link) < 0;
+    from_base[i] = first ? 0.0 : from_base[joint.parent_link] + joint.X_PJ.translation().norm();
+    reach = std::max(reach, from_base[i]);
+  }
+  for (const LinkCollider& link : MakeLinkColliders(*model_)) {
+    reach = std::max(reach, from_base[link.number] + link.centre.norm() + link.radius);
+  }
+  return reach;
 }
 
 void SafetyFilter::Report(const ProximitySet& set, Poses X_WL, FilterSolution& result) const {
@@ -174,7 +183,12 @@ void SafetyFilter::Report(const ProximitySet& set, Poses X_WL, FilterSolution& r
   report.kkt_residual = valid ? work.solution.kkt_residual : 0.0;
   report.gap = valid ? work.solution.gap : 0.0;
   for (const Proximity& proximity : set.proximities) {
-    report.margin = std::max(report.margin, Margin(proximity, X_WL, result.velocity));
+    double reach = 0.0;
+    for (const int body : model_->bodies()) {
+      reach = std::max(reach, (proximity.point_on_link - X_WL[body].translation()).norm());
+    }
+    report.margin = std::max(report.margin, TickMargin(result.velocity.cwiseAbs().sum(), reach,
+                                                       proximity.obstacle_velocity.norm()));
   }
   for (const models::QpActive& active : work.solution.active) {
     FilterBound bound;
