@@ -27,6 +27,9 @@ struct RunArguments {
   std::string csv_folder;
   std::string record;  ///< file to record into; empty: none
   std::string record_compression{"zstd"};
+  std::string report;       ///< HTML file to write; empty: none
+  std::optional<int> live;  ///< port to show the run on; 0: any that is free
+  std::string live_address{"127.0.0.1"};
   std::optional<double> realtime;  ///< simulated seconds a second
   bool profile{false};
   bool json{false};
@@ -34,6 +37,14 @@ struct RunArguments {
   std::string log_level{"debug"};
 };
 int RunCommand(const RunArguments& arguments);
+
+struct ViewArguments {
+  std::string file;
+  int port{8765};
+  std::string address{"127.0.0.1"};
+};
+/// Serves the page on a record until it is interrupted.
+int ViewCommand(const ViewArguments& arguments);
 
 int CheckCommand(const std::vector<std::string>& files);
 

@@ -17,6 +17,8 @@
 #include "diagrams/run.h"
 #include "framework/error.h"
 #include "tools/commands.h"
+#include "tools/live_commands.h"
+#include "tools/report_writer.h"
 #include "tools/run_summary.h"
 #include "tools/terminal.h"
 
@@ -158,6 +160,13 @@ int RunCommand(const RunArguments& arguments) {
     overrides.push_back(diagrams::Override::Parse(text));
   }
   if (arguments.seed) overrides.push_back({"simulator.seed", std::to_string(*arguments.seed)});
+  if (arguments.live) {
+    StderrLog live_log(arguments.log_level);
+    std::signal(SIGINT, Interrupt);
+    std::signal(SIGTERM, Interrupt);
+    return RunLiveCommand(arguments, overrides, &live_log,
+                          [] { return interrupted.load(std::memory_order_relaxed); });
+  }
   std::optional<record::ExtractedRecord> extracted;
   const diagrams::LoadedDiagram loaded = Load(arguments.file, overrides, extracted);
 
@@ -177,6 +186,12 @@ int RunCommand(const RunArguments& arguments) {
     options.observers.push_back(&recorder->recorder());
     options.log = &recorder->recorder();
   }
+  std::optional<ReportWriter> report;
+  if (!arguments.report.empty()) {
+    report.emplace(arguments.report, loaded, overrides, options.log);
+    options.observers.push_back(&report->recorder());
+    options.log = &report->recorder();
+  }
   std::signal(SIGINT, Interrupt);
   std::signal(SIGTERM, Interrupt);
   std::optional<ProgressBar> bar;
@@ -190,6 +205,7 @@ int RunCommand(const RunArguments& arguments) {
   const diagrams::RunResult result = diagrams::Run(loaded, options);
   bar.reset();
   if (recorder) recorder->Finish();
+  if (report) report->Finish();
 
   if (arguments.json) {
     std::cout << ToJson(loaded, result).dump(2) << '\n';

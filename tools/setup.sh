@@ -8,11 +8,14 @@ preset=${1:-release}
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=true
 [ $# -gt 0 ] && shift
 
-mapfile -t packages < <(grep -v '^#' tools/packages.txt)
+mapfile -t packages < <(grep -v '^#' tools/packages.txt; printf '%s\n' ${EXTRA_PACKAGES:-})
 missing=()
 for package in "${packages[@]}"; do
   dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
 done
+# The page of reports is built with Node, which a machine may have from elsewhere than Debian.
+command -v node > /dev/null || missing+=(nodejs)
+command -v npm > /dev/null || missing+=(npm)
 if [ ${#missing[@]} -gt 0 ]; then
   echo "Installing: ${missing[*]}" >&2
   as_root=()
@@ -21,6 +24,12 @@ if [ ${#missing[@]} -gt 0 ]; then
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
 fi
 
+modules=tools/viewer/node_modules/.package-lock.json
+if [ ! -e "$modules" ] || [ tools/viewer/package-lock.json -nt "$modules" ]; then
+  npm --prefix tools/viewer ci --ignore-scripts --no-audit --no-fund > /dev/null ||
+    echo "No viewer page: npm could not fetch its packages; everything else goes on." >&2
+  rm -f "build/$preset/build.ninja"  # configure again: the page can be built now
+fi
 [ -f "build/$preset/build.ninja" ] || cmake --preset "$preset" >&2
 if [ $# -gt 0 ]; then
   cmake --build --preset "$preset" --target "$@" >&2

@@ -24,6 +24,7 @@ class CommandLine {
     app_.require_subcommand(1);
     app_.set_version_flag("--version", "simulator (OCA) " OCA_VERSION);
     AddRun();
+    AddView();
     AddOthers();
     AddRecordCommands(app_, command_);
     AddRobot();
@@ -60,6 +61,7 @@ class CommandLine {
     std::vector<std::string> words(argv + 1, argv + argc);
     std::replace(words.begin(), words.end(), std::string("--realtime"),
                  std::string("--realtime=1"));
+    std::replace(words.begin(), words.end(), std::string("--live"), std::string("--live=8765"));
     std::reverse(words.begin(), words.end());
     return words;
   }
@@ -76,6 +78,12 @@ class CommandLine {
     run->add_option("--record", run_.record, "MCAP file to record the run into");
     run->add_option("--record-compression", run_.record_compression, "none, lz4 or zstd")
         ->check(CLI::IsMember({"none", "lz4", "zstd"}));
+    run->add_option("--report", run_.report, "HTML file of the run: opens in a browser, offline");
+    run->add_option("--live", run_.live,
+                    "show the run while it goes on, to browsers and Foxglove: =PORT, or 8765")
+        ->check(CLI::Range(0, 65535));
+    run->add_option("--live-address", run_.live_address, "address to show it on")
+        ->capture_default_str();
     run->add_option("--realtime", run_.realtime,
                     "hold to the wall clock: =FACTOR simulated seconds a second, or 1");
     run->add_flag("--profile", run_.profile, "print what each system took");
@@ -84,6 +92,16 @@ class CommandLine {
     run->add_option("--log-level", run_.log_level, "least level that is logged")
         ->check(CLI::IsMember({"debug", "info", "warning", "off"}));
     run->callback([this] { command_ = [this] { return RunCommand(run_); }; });
+  }
+
+  void AddView() {
+    CLI::App* const view = app_.add_subcommand("view", "show a record in a browser");
+    view->add_option("FILE", view_.file, "record (.mcap)")->required();
+    view->add_option("--port", view_.port, "to serve it on; 0: any that is free")
+        ->check(CLI::Range(0, 65535))
+        ->capture_default_str();
+    view->add_option("--address", view_.address, "to serve it on")->capture_default_str();
+    view->callback([this] { command_ = [this] { return ViewCommand(view_); }; });
   }
 
   void AddOthers() {
@@ -192,6 +210,7 @@ class CommandLine {
   CLI::App app_{"OCA: online collision avoidance of robot arms, from a diagram file", "simulator"};
   std::function<int()> command_;
   RunArguments run_;
+  ViewArguments view_;
   std::vector<std::string> check_files_;
   GraphArguments graph_;
   std::string described_;

@@ -7,7 +7,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 jobs=$(nproc)
 
-tools/setup.sh release
+EXTRA_PACKAGES="chromium fonts-dejavu-core" tools/setup.sh release
 ctest --preset release -j "$jobs"
 
 hostile=(yaml_reader_test expression_test document_test loader_test models_robot_test models_geometry_test)
@@ -16,6 +16,14 @@ for test in "${hostile[@]}"; do
   echo "$test under sanitizers"
   "$(find build/debug/tests -type f -name "$test")" --gtest_brief=1
 done
+
+if command -v chromium > /dev/null && [ -f build/release/tools/viewer/viewer.html ]; then
+  echo "The page in a real browser"
+  OCA_VIEWER=build/release/tools/viewer/viewer.html \
+    node tools/viewer/test/run.mjs build/release/tools/simulator
+else
+  echo "The page is not tested: no chromium, or no Node to build it."
+fi
 
 if command -v npm > /dev/null; then
   echo "Records, by readers of others"

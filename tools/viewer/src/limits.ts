@@ -35,7 +35,7 @@ function declared(recording: Recording, specs: PlotSpec[]): Declared[] {
   const bound = Number(recording.about("max_joint_velocity", "oca.parameters"));
   const delta = specs.find((spec) => spec.role === "delta")?.signals[0];
   if (!(bound > 0) || !delta || recording.about("limit_deltas", "oca.parameters") === "false") return [];
-  return [{ system: delta.split("/")[1]!, type: "DeltaLimiter", signal: delta, bound, kind: "rate" }];
+  return [{ system: "DeltaLimiter", type: "DeltaLimiter", signal: delta, bound, kind: "rate" }];
 }
 
 export function limitsOf(recording: Recording, specs: PlotSpec[]): Limited[] {
@@ -55,7 +55,7 @@ export function limitsOf(recording: Recording, specs: PlotSpec[]): Limited[] {
     if (spec.role === "distance" && spec.limit !== undefined) {
       columns.names.forEach((name, i) => {
         const spans = spansOf(columns.times, (row) => (columns.values[i]![row] ?? Infinity) < spec.limit!);
-        if (spans.length > 0) found.push(entry(recording, "field", name, `pushed, nearer than ${spec.limit} m`, spans));
+        if (spans.length > 0) found.push(entry(recording, "RepulsiveField", name, `pushed, nearer than ${spec.limit} m`, spans));
       });
     }
     if (spec.role === "constraints") {

@@ -20,13 +20,28 @@ const kMetrics: [key: string, name: string, unit: string][] = [
 export function reportOf(recording: Recording): RunReport {
   const own = recording.last("/metrics") as RunReport | undefined;
   if (own?.metrics) return own;
-  if (own && "min_distance" in own) return { metrics: own as Record<string, unknown> };
+  if (own && "min_distance" in own) return { metrics: own as Record<string, unknown>, ...aboutRun(recording) };
   for (const topic of recording.topics.values()) {
     if (!topic.name.endsWith("/metrics") || topic.length === 0) continue;
     const last = topic.message(topic.length - 1) as Record<string, unknown>;
     return { metrics: (last["value"] ?? last) as Record<string, unknown> };
   }
   return {};
+}
+
+/** What metadata `oca` says of the run: how long it was, what was expected of it. */
+function aboutRun(recording: Recording): RunReport {
+  const report: RunReport = {}, duration = Number(recording.about("duration"));
+  if (duration > 0) report.duration = duration;
+  const failure = recording.about("failure");
+  if (failure) report.failure = failure;
+  try {
+    const list: unknown = JSON.parse(recording.about("expectations") ?? "[]");
+    if (Array.isArray(list)) report.expectations = list as Expectation[];
+  } catch {
+    recording.warnings.push("The record's expectations are no JSON.");
+  }
+  return report;
 }
 
 /** Words and a sign, so that nobody needs the colour. */

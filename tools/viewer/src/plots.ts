@@ -55,12 +55,14 @@ export class Plots {
 
   private addChart(spec: PlotSpec): void {
     const columns = columnsFor(spec, this.recording);
+    const prefix = commonPrefix(columns.names);
     const unit = columns.unit ? ` / ${columns.unit}` : "";
     const colour = (name: string) => () => this.page.colour(name);
     const axis = { stroke: colour("--text-dim"), grid: { stroke: colour("--grid"), width: 1 },
                    ticks: { stroke: colour("--grid"), width: 1 }, font: "11px system-ui, sans-serif" };
     const figure = element("figure", "plot");
     figure.append(element("figcaption", "", `${spec.title}${unit}`));
+    if (prefix) figure.firstElementChild!.append(element("small", "", `${prefix}…`));
     this.parent.append(figure);
     const chart = new uPlot({
       width: Math.max(240, this.parent.clientWidth - 24), height: kHeight, padding: [8, 34, 0, 0],
@@ -71,7 +73,7 @@ export class Plots {
       series: [
         { label: "t", value: (_, value) => (value === null ? "" : `${value.toFixed(2)} s`) },
         ...columns.names.map((name, i) => ({
-          label: name || spec.title, stroke: kColours[i % kColours.length]!, width: 1.6,
+          label: name.slice(prefix.length) || spec.title, stroke: kColours[i % kColours.length]!, width: 1.6,
           dash: kDashes[i % kDashes.length]!, points: { show: false },
           value: (_: uPlot, value: number | null) => (value === null ? "–" : short(value)),
         })),
@@ -112,6 +114,14 @@ export function short(value: number): string {
   const size = Math.abs(value);
   if (size !== 0 && (size >= 1e5 || size < 1e-3)) return value.toExponential(1);
   return value.toFixed(size >= 100 ? 1 : 3);
+}
+
+/** What all names begin with, up to an underscore: there is no room to say it seven times. */
+function commonPrefix(names: string[]): string {
+  const first = names[0] ?? "";
+  let end = names.length > 1 ? first.lastIndexOf("_") + 1 : 0;
+  while (end > 0 && !names.every((name) => name.startsWith(first.slice(0, end)))) end = first.lastIndexOf("_", end - 2) + 1;
+  return names.every((name) => name.length > end) ? first.slice(0, end) : "";
 }
 
 function rangeOf(spec: PlotSpec, low: number | null, high: number | null): [number, number] {

@@ -9,6 +9,9 @@ import { element, type Page } from "./page";
 import { segments, solid } from "./primitives";
 import type { Recording } from "./recording";
 
+/** px; keeps the names of obstacles clear of the nearest distance */
+const kUnder = 26;
+
 interface Shown { entity: SceneEntity; object: THREE.Object3D }
 
 /** The world at one instant: robots, obstacles, and what pushes them. z is up, lengths in m. */
@@ -167,7 +170,7 @@ export class SceneView {
   }
 
   private addLabel(id: string): void {
-    const label = element("span", "label obstacle", id);
+    const label = element("span", "label obstacle", id.replace(/^obstacle\//, ""));
     this.labels.append(label);
     this.obstacleLabels.set(id, label);
   }
@@ -182,7 +185,7 @@ export class SceneView {
   private placeLabels(): void {
     for (const [id, label] of this.obstacleLabels) {
       const object = this.shown.get(id)!.object;
-      placeLabel(label, object.getWorldPosition(new THREE.Vector3()), this.camera, this.canvas);
+      placeLabel(label, object.getWorldPosition(new THREE.Vector3()), this.camera, this.canvas, kUnder);
     }
     this.overlays.placeLabels(this.camera, this.canvas);
   }
@@ -191,7 +194,11 @@ export class SceneView {
   private frameAll(): void {
     this.world.updateMatrixWorld(true);
     const box = new THREE.Box3();
-    for (const { object } of this.shown.values()) box.expandByObject(object);
+    const moving = this.movingFrames();
+    for (const { entity, object } of this.shown.values()) {
+      if (moving.has(entity.frame_id) || entity.frame_id.startsWith("obstacle/")) box.expandByObject(object);
+    }
+    if (box.isEmpty()) for (const { object } of this.shown.values()) box.expandByObject(object);
     const trails = this.recording.topics.get("/scene/trails");
     if (trails && trails.length > 0) {
       for (const entity of (trails.message(trails.length - 1) as SceneUpdate).entities ?? []) {
@@ -208,6 +215,19 @@ export class SceneView {
     this.controls.target.copy(sphere.center);
     this.camera.position.copy(sphere.center).addScaledVector(new THREE.Vector3(0.78, -0.5, 0.38).normalize(), Math.min(distance, 12));
     this.controls.update();
+  }
+
+  /** Frames that are elsewhere at the start, in the middle or at the end. */
+  private movingFrames(): Set<string> {
+    const moving = new Set<string>(), topic = this.recording.topics.get("/tf");
+    if (!topic || topic.length === 0) return moving;
+    const first = new Map((topic.message(0) as FrameTransforms).transforms.map((one) => [one.child_frame_id, JSON.stringify(one.translation) + JSON.stringify(one.rotation)]));
+    for (const index of [topic.length >> 1, topic.length - 1]) {
+      for (const one of (topic.message(index) as FrameTransforms).transforms) {
+        if (first.get(one.child_frame_id) !== JSON.stringify(one.translation) + JSON.stringify(one.rotation)) moving.add(one.child_frame_id);
+      }
+    }
+    return moving;
   }
 
   private addLights(): void {

@@ -99,7 +99,7 @@ export async function testLive({ test, browser, simulator, errorsOf }) {
   const { url, stop } = await serve(simulator, ["run", kDiagram, "--live=0", "--log-level", "off"]);
   await test("npm's Foxglove client follows a run and changes it", async () => {
     const { client, next } = connect(url);
-    const [channels] = await Promise.all([next("advertise"), next("serverInfo")]);
+    const [channels] = await Promise.all([next("advertise", (list) => list.length > 0), next("serverInfo")]);
     const topics = new Map(channels.map((channel) => [channel.topic, channel]));
     for (const topic of ["/tf", "/scene/robots", "/scene/obstacles", "/scene/forces", "/plant/position"]) assert.ok(topics.has(topic), topic);
     const subscription = client.subscribe(topics.get("/tf").id);

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "diagrams/live/adopt_state.h"
+
+#include <fmt/format.h>
+
+#include <cstring>
+
+#include "framework/error.h"
+#include "framework/plan.h"
+
+namespace oca::live {
+namespace {
+
+bool Alike(const Plan::StateEntry& a, const Plan::StateEntry& b) {
+  return a.type == b.type && a.continuous == b.continuous && a.slot.size == b.slot.size &&
+         a.info->name == b.info->name;
+}
+
+void CheckAlike(const Plan& previous, const Plan& next) {
+  bool alike = previous.paths == next.paths && previous.states.size() == next.states.size();
+  for (std::size_t i = 0; alike && i < next.states.size(); ++i) {
+    alike = Alike(previous.states[i], next.states[i]);
+  }
+  if (alike) return;
+  throw ConfigError(
+      "live: change of parameters; got other systems or states than before; expected the same, so "
+      "that the run can go on");
+}
+
+}  // namespace
+
+void AdoptStates(const Diagram& previous, const Context& from, const Diagram& next, Context& to) {
+  const Plan& old_plan = previous.plan();
+  const Plan& plan = next.plan();
+  CheckAlike(old_plan, plan);
+  for (std::size_t i = 0; i < plan.states.size(); ++i) {
+    const Plan::StateEntry& entry = plan.states[i];
+    std::byte* const at = plan.arena(to) + entry.slot.offset;
+    const std::byte* const old = old_plan.arena(from) + old_plan.states[i].slot.offset;
+    if (entry.type == &kVectorType) {
+      std::memcpy(at, old, entry.slot.size * sizeof(double));
+    } else {
+      entry.type->assign(at, old);
+    }
+    plan.MarkChanged(to, entry.source);
+  }
+}
+
+}  // namespace oca::live

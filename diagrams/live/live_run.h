@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagrams/document.h"
+#include "diagrams/live/live_server.h"
+#include "diagrams/loader.h"
+#include "framework/log.h"
+
+namespace oca::live {
+
+struct LiveRunOptions {
+  std::filesystem::path file;
+  std::vector<diagrams::Override> overrides;
+  std::optional<double> duration;  ///< s; without one the run goes on until it is interrupted
+  double realtime_factor{1.0};     ///< simulated seconds a second
+  std::string version;             ///< of the program
+  Log* log{nullptr};
+  /// Asked after every step.
+  std::function<bool()> interrupted;
+  /// Told why a change was refused.
+  std::function<void(const std::string& why)> refused;
+};
+
+struct LiveRunResult {
+  double duration;  ///< s, that was simulated
+  int changes;      ///< of parameters, that took effect
+  std::string failure;
+};
+
+/// What a user may change in a diagram while it runs: the numbers and switches of its section
+/// `parameters` by name, and the position (m, world) of each obstacle that stands still as
+/// `obstacles.ID.position`.
+std::vector<LiveParameter> LiveParametersOf(const diagrams::LoadedDiagram& loaded);
+/// The override that a change of such a parameter means.
+/// throws ConfigError if there is no such parameter.
+diagrams::Override OverrideOf(const diagrams::LoadedDiagram& loaded, const LiveParameter& change);
+
+/// Runs a diagram in step with the wall clock for whoever looks at `server`. A change of a
+/// parameter makes the diagram anew, on a thread of its own, and the run goes on with it from the
+/// state it has at the next tick after that. One that the diagram refuses is undone.
+/// throws ConfigError if the file cannot be loaded.
+LiveRunResult RunLive(const LiveRunOptions& options, LiveServer& server);
+
+}  // namespace oca::live

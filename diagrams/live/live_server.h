@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "diagrams/record/record_sink.h"
+
+namespace oca::live {
+
+/// A value that a user may change while the run goes on.
+struct LiveParameter {
+  using Value = std::variant<bool, double, std::string, std::vector<double>>;
+  std::string name;
+  Value value;
+};
+
+struct LiveOptions {
+  std::string address{"127.0.0.1"};  ///< to listen on; the loopback, unless somebody asks
+  int port{8765};                    ///< 0: any that is free
+  std::string page;                  ///< HTML, served at `/`
+  std::string record;                ///< MCAP, served at `/record.mcap` unless empty
+  std::size_t queue_bytes{std::size_t{4} << 20};  ///< of messages that wait for one client
+  int max_clients{64};                            ///< connections at a time
+};
+
+struct LiveStatistics {
+  int clients{0};              ///< WebSocket clients now
+  std::uint64_t sent{0};       ///< messages to all clients
+  std::uint64_t dropped{0};    ///< messages that a slow client, or all of them, did not get
+  std::uint64_t refused{0};    ///< connections beyond max_clients
+  std::uint64_t malformed{0};  ///< client messages that made no sense
+};
+
+/// Shows a run while it goes on: the page over HTTP and the messages over foxglove.websocket.v1, on
+/// one port, from a thread of its own.
+///
+/// Write never waits: what a slow client cannot take is dropped, counted, and told to it. Messages
+/// on /scene/robots and /scene/obstacles are kept for clients that come later.
+/// source https://github.com/foxglove/ws-protocol/blob/main/docs/spec.md, version 1
+class LiveServer final : public record::RecordSink {
+ public:
+  /// throws ConfigError if the address or the port is bad or taken.
+  explicit LiveServer(LiveOptions options);
+  ~LiveServer() override;
+  LiveServer(const LiveServer&) = delete;
+  LiveServer& operator=(const LiveServer&) = delete;
+
+  int port() const;
+
+  /// A second Begin with the same channels goes on with the same session.
+  void Begin(const std::vector<record::RecordChannel>& channels) override;
+  void Write(int channel, std::uint64_t time, std::string_view json) override;
+  void AddMetadata(const record::McapMetadata& metadata) override;
+
+  /// What clients see of the parameters from now on; only these names can be set. Any thread.
+  void SetParameters(std::vector<LiveParameter> parameters);
+  /// What clients set since the last call, the last value of each name. Does not wait for the
+  /// network. Any thread.
+  std::vector<LiveParameter> TakeChanges();
+  /// Any thread.
+  LiveStatistics statistics() const;
+
+ private:
+  class Server;
+  std::unique_ptr<Server> server_;
+};
+
+}  // namespace oca::live

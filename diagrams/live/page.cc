@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "diagrams/live/page.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+#include "framework/error.h"
+
+namespace oca::live {
+namespace {
+
+constexpr std::string_view kPlace = "<!--oca:source-->";
+
+std::vector<std::filesystem::path> Candidates() {
+  std::vector<std::filesystem::path> paths;
+  if (const char* const named = std::getenv("OCA_VIEWER")) paths.emplace_back(named);
+  std::error_code error;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (!error) {
+    const auto folder = program.parent_path();
+    paths.push_back(folder / "viewer/viewer.html");
+    paths.push_back(folder.parent_path() / "share/oca/viewer.html");
+  }
+  return paths;
+}
+
+std::string Base64(std::string_view bytes) {
+  constexpr std::string_view kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      text += i + k <= bytes.size() ? kDigits[group >> (18 - 6 * k) & 63] : '=';
+    }
+  }
+  return text;
+}
+
+std::string Fill(const std::string& page, const std::string& source) {
+  const std::size_t place = page.find(kPlace);
+  if (place == std::string::npos) {
+    throw ConfigError(
+        fmt::format("viewer page: place for the source; got none; expected {}", kPlace));
+  }
+  std::string filled;
+  filled.reserve(page.size() + source.size());
+  filled.append(page, 0, place).append(source).append(page, place + kPlace.size());
+  return filled;
+}
+
+}  // namespace
+
+std::string LoadPage() {
+  std::string tried;
+  for (const auto& path : Candidates()) {
+    std::ifstream file(path, std::ios::binary);
+    if (file) return {std::istreambuf_iterator<char>(file), {}};
+    tried += (tried.empty() ? "" : ", ") + path.string();
+  }
+  throw ConfigError(
+      fmt::format("viewer page: file; got none of {}; expected the page that `npm ci && npm run "
+                  "build` in tools/viewer makes (needs Debian's nodejs and npm; tools/setup.sh "
+                  "does it), then build again",
+                  tried));
+}
+
+std::string PageWithRecord(const std::string& page, std::string_view mcap) {
+  return Fill(page, "<script id=\"oca-record\" type=\"application/octet-stream;base64\">" +
+                        Base64(mcap) + "</script>");
+}
+
+std::string PageWithSource(const std::string& page, const std::string& source) {
+  return Fill(page, "<meta name=\"oca-source\" content=\"" + source + "\">");
+}
+
+}  // namespace oca::live

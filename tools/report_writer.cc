@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/report_writer.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "diagrams/live/page.h"
+#include "framework/error.h"
+
+namespace oca::tools {
+namespace {
+
+/// Before the run, so that nobody waits for a report that cannot be written.
+std::string Writable(const std::string& file) {
+  if (!std::ofstream(file, std::ios::binary | std::ios::app)) {
+    throw ConfigError(fmt::format(
+        "--report: file; got {}, which cannot be written; expected one that can", file));
+  }
+  return file;
+}
+
+}  // namespace
+
+ReportWriter::ReportWriter(const std::string& file, const diagrams::LoadedDiagram& loaded,
+                           const std::vector<diagrams::Override>& overrides, Log* log)
+    : file_(Writable(file)),
+      page_(live::LoadPage()),
+      sink_(bytes_, record::Compression::kZstd),
+      recorder_(loaded, {.version = OCA_VERSION, .overrides = overrides, .start_epoch = 0},
+                {&sink_}, log) {}
+
+void ReportWriter::Finish() {
+  std::ofstream stream(file_, std::ios::binary | std::ios::trunc);
+  stream << live::PageWithRecord(page_, bytes_.view());
+  stream.close();
+  if (!stream) {
+    throw ConfigError(fmt::format(
+        "--report: file; got {}, which could not be written to the end; expected room", file_));
+  }
+}
+
+}  // namespace oca::tools
