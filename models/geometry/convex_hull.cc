@@ -130,7 +130,7 @@ class Quickhull {
     first_.resize(hull_.face_slots(), -1);
     for (const int p : points) {
       for (const int face : hull_.created()) {
-        if (hull_.Height(face, p) <= 0) continue;
+        if (!hull_.Sees(p, face)) continue;
         next_[p] = std::exchange(first_[face], p);
         break;
       }

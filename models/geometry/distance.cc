@@ -29,10 +29,6 @@ SignedDistance Invalid() {
   return {kNaN, nan, nan, nan, DistanceStatus::kInvalid};
 }
 
-bool IsCurved(const CorePair& pair) {
-  return pair.a.core() == Collider::Core::kCylinder || pair.b.core() == Collider::Core::kCylinder;
-}
-
 DistanceStatus StatusOf(const CorePair& pair, const CoreDistance& found) {
   return found.gap <= kExactGap * pair.Extent() ? DistanceStatus::kExact
                                                 : DistanceStatus::kApproximate;
@@ -44,7 +40,11 @@ void ProveSeparation(const CorePair& pair, CoreDistance* found) {
   CoreDistance plane = internal::PolytopeDepth(pair, -found->normal);
   plane.gap = std::max(found->distance - plane.distance, 0.0);
   if (plane.gap <= kExactGap * pair.Extent()) {
-    *found = plane;
+    if (pair.IsRound()) {
+      *found = plane;
+    } else {
+      found->gap = plane.gap;  // the points of polyhedra are right to more digits than the plane
+    }
     return;
   }
   const CorePair::Difference start = pair.Support(-plane.normal);
@@ -61,8 +61,12 @@ void ProveSeparation(const CorePair& pair, CoreDistance* found) {
 
 // Cores that overlap, or are closer than a difference vector can tell.
 DistanceStatus Overlap(const CorePair& pair, CoreDistance* found) {
-  const Vector3d hint = IsCurved(pair) ? internal::BulletExit(pair) : Vector3d(Vector3d::Zero());
-  *found = internal::PolytopeDepth(pair, hint);
+  *found = internal::PolytopeDepth(pair, Vector3d::Zero());
+  if (!(found->gap <= kExactGap * pair.Extent())) {
+    // A ring of equally short exits uses the polytope up; Bullet's answer may be the better start.
+    const CoreDistance again = internal::PolytopeDepth(pair, internal::BulletExit(pair));
+    if (!(again.gap >= found->gap)) *found = again;
+  }
   if (found->distance > 10.0 * internal::kTouch * pair.Extent()) {
     // A plane between the cores: GJK was misled by a flat simplex and now knows better.
     if (internal::Gjk(pair, std::numeric_limits<double>::infinity(), true, nullptr, found) ==

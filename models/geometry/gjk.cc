@@ -39,18 +39,11 @@ void Remember(const Simplex& simplex, PairCache* cache) {
   }
 }
 
-CoreDistance Result(const CorePair& pair, const Simplex& simplex, double length, double lower) {
-  return {length, simplex.PointA(), pair.X_AB * simplex.PointB(), simplex.v() / length,
-          std::max(length - lower, 0.0)};
-}
-
-// Flat faces end the search exactly; round ones only ever come closer.
-double Proof(const CorePair& pair) {
-  const auto round = [](const Collider& collider) {
-    return collider.core() >= Collider::Core::kCylinder &&
-           collider.core() <= Collider::Core::kEllipsoid;
-  };
-  return round(pair.a) || round(pair.b) ? kRoundProof : kFlatProof;
+// `across` is the direction of the best lower bound: close to touch the last v may have none left.
+CoreDistance Result(const CorePair& pair, const Simplex& simplex, double length, double lower,
+                    const Vector3d& across) {
+  return {std::max(length, lower), simplex.PointA(), pair.X_AB * simplex.PointB(),
+          lower > 0.0 ? across : Vector3d(simplex.v() / length), std::max(length - lower, 0.0)};
 }
 
 }  // namespace
@@ -58,21 +51,27 @@ double Proof(const CorePair& pair) {
 GjkStatus Gjk(const CorePair& pair, double max_distance, bool separated, PairCache* cache,
               CoreDistance* result) {
   const double size = pair.Extent();
-  const double proof = Proof(pair) * size;
+  // Flat faces end the search exactly; round ones only ever come closer.
+  const double proof = (pair.IsRound() ? kRoundProof : kFlatProof) * size;
   Simplex simplex;
   Start(pair, cache, &simplex);
   double length = simplex.v().norm();
   double lower = 0.0;
+  Vector3d across = Vector3d::Zero();
   bool outside = separated;
   int idle = 0;
   for (int step = 0; step < kMaxSteps; ++step) {
     if (length <= kTouch * size) break;
     const CorePair::Difference support = pair.Support(-simplex.v());
     const double bound = simplex.v().dot(support.w) / length;
-    if (bound > lower) lower = bound, outside = true;
+    if (bound > lower) {
+      lower = bound;
+      across = simplex.v() / length;
+      outside = true;
+    }
     if (bound > max_distance) {
       Remember(simplex, cache);
-      *result = Result(pair, simplex, length, bound);
+      *result = Result(pair, simplex, length, bound, simplex.v() / length);
       result->distance = bound;
       return GjkStatus::kBeyond;
     }
@@ -98,7 +97,7 @@ GjkStatus Gjk(const CorePair& pair, double max_distance, bool separated, PairCac
     return GjkStatus::kTouching;
   }
   Remember(simplex, cache);
-  *result = Result(pair, simplex, length, lower);
+  *result = Result(pair, simplex, length, lower, across);
   return GjkStatus::kSeparated;
 }
 

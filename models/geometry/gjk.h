@@ -18,7 +18,7 @@ inline constexpr double kTouch = 1e-10;
 /// Proof that ends the search: upper less lower bound, relative to the size of the pair; of
 /// polyhedra, and with a round side.
 inline constexpr double kFlatProof = 1e-14;
-inline constexpr double kRoundProof = 1e-10;
+inline constexpr double kRoundProof = 1e-12;
 
 /// Distance of two separated cores. Starts from the simplex in `cache` (may be null) and leaves its
 /// own there.

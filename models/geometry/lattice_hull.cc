@@ -21,6 +21,16 @@ Int128 Dot(const std::array<Int128, 3>& n, const LatticePoint& from, const Latti
   return n[0] * (to.x - from.x) + n[1] * (to.y - from.y) + n[2] * (to.z - from.z);
 }
 
+// Both need at most 42 bits: nothing is rounded.
+Eigen::Vector3d Rounded(const LatticePoint& from, const LatticePoint& to) {
+  return {static_cast<double>(to.x - from.x), static_cast<double>(to.y - from.y),
+          static_cast<double>(to.z - from.z)};
+}
+
+// A height n . d is a sum of six products; with the largest components U, V, D of the edges and of
+// d, rounding of the normal and of the sum stay below 64 half units in the last place of U V D.
+constexpr double kDoubt = 64.0 * 0x1p-53;
+
 }  // namespace
 
 Lattice::Lattice(const Eigen::Vector3d& centre, double extent) : centre_(centre) {
@@ -70,7 +80,10 @@ int LatticeHull::NewFace(int a, int b, int c) {
     index = free_.back();
     free_.pop_back();
   }
-  faces_[index] = {.vertex = {a, b, c}, .normal = Normal(points_[a], points_[b], points_[c])};
+  const Eigen::Vector3d u = Rounded(points_[a], points_[b]), v = Rounded(points_[a], points_[c]);
+  faces_[index] = {.vertex = {a, b, c},
+                   .normal = u.cross(v),
+                   .doubt = kDoubt * u.cwiseAbs().maxCoeff() * v.cwiseAbs().maxCoeff()};
   created_.push_back(index);
   return index;
 }
@@ -91,8 +104,29 @@ bool LatticeHull::Start(int a, int b, int c, int d) {
 }
 
 Int128 LatticeHull::Height(int face, int point) const {
+  const auto& [a, b, c] = faces_[face].vertex;
+  return Dot(Normal(points_[a], points_[b], points_[c]), points_[a], points_[point]);
+}
+
+bool LatticeHull::Sees(int point, int face) const {
   const Face& f = faces_[face];
-  return Dot(f.normal, points_[f.vertex[0]], points_[point]);
+  const Eigen::Vector3d d = Rounded(points_[f.vertex[0]], points_[point]);
+  const double height = f.normal.dot(d);
+  const double doubt = f.doubt * d.cwiseAbs().maxCoeff();
+  if (height > doubt) return true;
+  if (height < -doubt) return false;
+  return Height(face, point) > 0;
+}
+
+Eigen::Vector3d LatticeHull::UnitNormal(int face) const {
+  const Face& f = faces_[face];
+  const double length = f.normal.norm();
+  if (length > 0x1p33 * f.doubt) return f.normal / length;
+  const auto& [a, b, c] = f.vertex;
+  const auto exact = Normal(points_[a], points_[b], points_[c]);
+  return Eigen::Vector3d(static_cast<double>(exact[0]), static_cast<double>(exact[1]),
+                         static_cast<double>(exact[2]))
+      .normalized();
 }
 
 // The seen faces are connected, so a walk from one of them finds all.
@@ -101,7 +135,7 @@ void LatticeHull::CollectSeen(int point, int face) {
   faces_[face].seen = true;
   for (std::size_t i = 0; i < removed_.size(); ++i) {
     for (const int next : faces_[removed_[i]].neighbour) {
-      if (faces_[next].seen || Height(next, point) <= 0) continue;
+      if (faces_[next].seen || !Sees(point, next)) continue;
       faces_[next].seen = true;
       removed_.push_back(next);
     }
@@ -109,7 +143,7 @@ void LatticeHull::CollectSeen(int point, int face) {
 }
 
 void LatticeHull::Grow(int point, int face) {
-  assert(Height(face, point) > 0);
+  assert(Sees(point, face));
   free_.insert(free_.end(), removed_.begin(), removed_.end());
   removed_.clear();
   created_.clear();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <memory_resource>
@@ -45,7 +45,8 @@ class LatticeHull {
   struct Face {
     std::array<int, 3> vertex{};     // counter-clockwise, seen from outside
     std::array<int, 3> neighbour{};  // [i] across the edge vertex[i], vertex[i + 1]
-    std::array<Int128, 3> normal{};  // outward, not unit
+    Eigen::Vector3d normal;          // outward, not unit, rounded
+    double doubt{0.0};               // a rounded height is at most this times the distance off
     bool alive{true};
     bool seen{false};
   };
@@ -58,6 +59,11 @@ class LatticeHull {
   bool Start(int a, int b, int c, int d);
   /// Height of a stored point above a face, times the length of its normal; > 0 is outside.
   Int128 Height(int face, int point) const;
+  /// The sign of that: whether the point lies outside. Looks at the exact height if rounding could
+  /// tell otherwise.
+  bool Sees(int point, int face) const;
+  /// Outward, of length 1, right to the last digits also for a sliver.
+  Eigen::Vector3d UnitNormal(int face) const;
   /// Extends the polyhedron to a point that lies strictly outside `face`.
   void Grow(int point, int face);
 

@@ -43,6 +43,9 @@ class Polytope {
   int LowestFace() const;
   bool Full() const { return hull_.points() >= kMaxVertices; }
   void Straighten(Plane* plane) const;
+  void Descend(Plane* plane) const;
+  void Sharpen(const std::array<int, 3>& face, Plane* plane) const;
+  bool Try(const Vector3d& normal, Plane* plane) const;
   Vector3d Weights(const std::array<int, 3>& face, const Vector3d& normal) const;
   std::array<int, 3> FaceBelow(const Vector3d& normal, double highest) const;
   CoreDistance Result(const std::array<int, 3>& face, const Plane& plane, double gap) const;
@@ -51,7 +54,8 @@ class Polytope {
   Lattice lattice_;
   LatticeHull hull_;
   std::array<CorePair::Difference, kMaxVertices> source_;
-  std::array<Plane, 4 * kMaxVertices> planes_;
+  std::array<Vector3d, 4 * kMaxVertices> normal_;
+  std::array<double, 4 * kMaxVertices> offset_;  // infinite where there is no face
 };
 
 int Polytope::Add(const Vector3d& direction) {
@@ -94,30 +98,23 @@ bool Polytope::Start() {
 }
 
 void Polytope::RefreshPlanes() {
+  for (const int i : hull_.removed()) offset_[i] = std::numeric_limits<double>::infinity();
   for (const int i : hull_.created()) {
-    const LatticeHull::Face& face = hull_.face(i);
-    const Vector3d normal =
-        Vector3d(static_cast<double>(face.normal[0]), static_cast<double>(face.normal[1]),
-                 static_cast<double>(face.normal[2]))
-            .normalized();
-    planes_[i] = {normal, normal.dot(lattice_.Point(hull_.point(face.vertex[0])))};
+    normal_[i] = hull_.UnitNormal(i);
+    offset_[i] = normal_[i].dot(lattice_.Point(hull_.point(hull_.face(i).vertex[0])));
   }
 }
 
 int Polytope::LowestFace() const {
-  int lowest = -1;
-  for (int i = 0; i < hull_.face_slots(); ++i) {
-    if (!hull_.face(i).alive) continue;
-    if (lowest < 0 || planes_[i].offset < planes_[lowest].offset) lowest = i;
-  }
-  return lowest;
+  return static_cast<int>(std::min_element(offset_.begin(), offset_.begin() + hull_.face_slots()) -
+                          offset_.begin());
 }
 
 void Polytope::Reach(const Vector3d& direction) {
   if (direction.isZero(0.0) || Full()) return;
   const int point = Add(direction);
   for (int i = 0; i < hull_.face_slots(); ++i) {
-    if (!hull_.face(i).alive || hull_.Height(i, point) <= 0) continue;
+    if (!hull_.face(i).alive || !hull_.Sees(point, i)) continue;
     hull_.Grow(point, i);
     RefreshPlanes();
     return;
@@ -129,20 +126,29 @@ CoreDistance Polytope::Search() {
   Plane best{Vector3d::UnitX(), std::numeric_limits<double>::infinity()};
   while (true) {
     const int lowest = LowestFace();
-    const Plane& plane = planes_[lowest];
+    const Plane plane{normal_[lowest], offset_[lowest]};
     const int point = Full() ? -1 : Add(plane.normal);
     const Vector3d w = point < 0 ? pair_.Support(plane.normal).w : source_[point].w;
     const double reach = plane.normal.dot(w);
     if (reach < best.offset) best = {plane.normal, reach};
-    if (point < 0 || best.offset - plane.offset <= enough || hull_.Height(lowest, point) <= 0) {
+    if (point < 0 || best.offset - plane.offset <= enough || !hull_.Sees(point, lowest)) {
       Straighten(&best);
+      if (best.offset - plane.offset > enough) Descend(&best);
       // The lattice may put the face a step above the plane that bounds A - B.
-      return Result(FaceBelow(best.normal, best.offset + enough), best,
-                    std::max(best.offset - plane.offset, 0.0));
+      const std::array<int, 3> face = FaceBelow(best.normal, best.offset + enough);
+      if (!pair_.IsRound()) Sharpen(face, &best);
+      return Result(face, best, std::max(best.offset - plane.offset, 0.0));
     }
     hull_.Grow(point, lowest);
     RefreshPlanes();
   }
+}
+
+bool Polytope::Try(const Vector3d& normal, Plane* plane) const {
+  const double reach = normal.dot(pair_.Support(normal).w);
+  if (!(reach < plane->offset)) return false;
+  *plane = {normal, reach};
+  return true;
 }
 
 // A ring of equally near exits (a cylinder whose axis meets an edge) ends in a full polytope and a
@@ -150,11 +156,30 @@ CoreDistance Polytope::Search() {
 void Polytope::Straighten(Plane* plane) const {
   for (const Vector3d& axis : {Vector3d(Vector3d::UnitZ()), Vector3d(pair_.X_AB.linear().col(2))}) {
     const Vector3d across = plane->normal - plane->normal.dot(axis) * axis;
-    if (across.squaredNorm() < 0.5) continue;
-    const Vector3d normal = across.normalized();
-    const double reach = normal.dot(pair_.Support(normal).w);
-    if (reach < plane->offset) *plane = {normal, reach};
+    if (across.squaredNorm() >= 0.5) Try(across.normalized(), plane);
   }
+}
+
+// What is left to gain where the polytope is used up: turns the normal by smaller and smaller
+// angles as long as the exit becomes shorter.
+void Polytope::Descend(Plane* plane) const {
+  constexpr double kCoarsest = 0.02, kFinest = 1e-8;  // rad
+  for (double angle = kCoarsest; angle > kFinest;) {
+    const Vector3d u = plane->normal.unitOrthogonal(), v = plane->normal.cross(u);
+    bool better = false;
+    for (const Vector3d& side : {u, v, Vector3d(-u), Vector3d(-v)}) {
+      better |= Try((plane->normal + angle * side).normalized(), plane);
+    }
+    if (!better) angle *= 0.5;
+  }
+}
+
+// The normal of the face that its points have off the lattice: it has the digits of the input.
+void Polytope::Sharpen(const std::array<int, 3>& face, Plane* plane) const {
+  const Vector3d& w = source_[face[0]].w;
+  const Vector3d across = (source_[face[1]].w - w).cross(source_[face[2]].w - w);
+  const double length = across.norm();
+  if (length > 0.0 && across.dot(plane->normal) > 0.9 * length) Try(across / length, plane);
 }
 
 // Barycentric coordinates of the point where a ray from the origin meets the plane of a face.
@@ -169,7 +194,7 @@ std::array<int, 3> Polytope::FaceBelow(const Vector3d& normal, double highest) c
   int below = -1;
   double most = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < hull_.face_slots(); ++i) {
-    if (!hull_.face(i).alive || planes_[i].offset > highest) continue;
+    if (!hull_.face(i).alive || offset_[i] > highest) continue;
     const double inside = Weights(hull_.face(i).vertex, normal).minCoeff();
     if (inside > most) most = inside, below = i;
   }

@@ -58,7 +58,8 @@ TEST(DistanceFclTest, SeparatedPairsOfAllKindsAgree) {
   RandomBodies random(41);
   std::vector<double> errors;
   for (int i = 0; i < 20'000; ++i) {
-    const auto a = random.Body(random.Integer(5)), b = random.Body(random.Integer(5));
+    const auto a = random.Body(random.Integer(RandomBodies::kKinds)),
+               b = random.Body(random.Integer(RandomBodies::kKinds));
     const Isometry3d X_WA = random.Pose(0.8), X_WB = random.Pose(0.8);
     const auto ours = Distance(*a, X_WA, *b, X_WB);
     if (ours.distance < 1e-3) continue;

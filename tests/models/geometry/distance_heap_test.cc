@@ -37,7 +37,8 @@ TEST(DistanceHeapTest, NoQueryAllocates) {
   RandomBodies random(31);
   long queries = 0, overlaps = 0;
   for (int i = 0; i < 3'000; ++i) {
-    const auto a = random.Body(random.Integer(5)), b = random.Body(random.Integer(5));
+    const auto a = random.Body(random.Integer(RandomBodies::kKinds)),
+               b = random.Body(random.Integer(RandomBodies::kKinds));
     const bool grid = i % 2 == 0;
     const auto X_WA = grid ? random.GridPose() : random.Pose(0.3);
     const auto X_WB = grid ? random.GridPose() : random.Pose(0.3);

@@ -16,7 +16,8 @@ using Eigen::Vector3d;
 TEST(DistanceInvarianceTest, MovingTheWorldMovesPointsAndNormal) {
   RandomBodies random(21);
   for (int i = 0; i < 5'000; ++i) {
-    const auto a = random.Body(random.Integer(5)), b = random.Body(random.Integer(5));
+    const auto a = random.Body(random.Integer(RandomBodies::kKinds)),
+               b = random.Body(random.Integer(RandomBodies::kKinds));
     const Isometry3d X_WA = random.Pose(0.4), X_WB = random.Pose(0.4), X_VW = random.Pose(2.0);
     const auto here = Distance(*a, X_WA, *b, X_WB);
     const auto there = Distance(*a, X_VW * X_WA, *b, X_VW * X_WB);
@@ -30,7 +31,8 @@ TEST(DistanceInvarianceTest, MovingTheWorldMovesPointsAndNormal) {
 TEST(DistanceInvarianceTest, SwappingTheBodiesFlipsTheNormal) {
   RandomBodies random(22);
   for (int i = 0; i < 5'000; ++i) {
-    const auto a = random.Body(random.Integer(5)), b = random.Body(random.Integer(5));
+    const auto a = random.Body(random.Integer(RandomBodies::kKinds)),
+               b = random.Body(random.Integer(RandomBodies::kKinds));
     const Isometry3d X_WA = random.Pose(0.4), X_WB = random.Pose(0.4);
     const auto ab = Distance(*a, X_WA, *b, X_WB);
     const auto ba = Distance(*b, X_WB, *a, X_WA);
@@ -48,7 +50,8 @@ TEST(DistanceInvarianceTest, DistanceNeverChangesByMoreThanTheMotion) {
   RandomBodies random(23);
   int signs = 0;
   for (int pair = 0; pair < 100; ++pair) {
-    const auto a = random.Body(random.Integer(5)), b = random.Body(random.Integer(5));
+    const auto a = random.Body(random.Integer(RandomBodies::kKinds)),
+               b = random.Body(random.Integer(RandomBodies::kKinds));
     const Isometry3d X_WB = random.Pose(0.05), X_WA = random.Pose(0.05);
     const Vector3d along = random.Direction(), axis = random.Direction();
     constexpr double kStep = 2e-3, kTurn = 2e-3;
@@ -71,7 +74,8 @@ TEST(DistanceInvarianceTest, DistanceNeverChangesByMoreThanTheMotion) {
 TEST(DistanceInvarianceTest, AWarmCacheChangesNothingButTime) {
   RandomBodies random(24);
   for (int pair = 0; pair < 200; ++pair) {
-    const auto a = random.Body(random.Integer(5)), b = random.Body(random.Integer(5));
+    const auto a = random.Body(random.Integer(RandomBodies::kKinds)),
+               b = random.Body(random.Integer(RandomBodies::kKinds));
     const Isometry3d X_WB = random.Pose(0.1), X_WA = random.Pose(0.1);
     const Vector3d along = random.Direction(), axis = random.Direction();
     PairCache cache;
@@ -89,7 +93,8 @@ TEST(DistanceInvarianceTest, AWarmCacheChangesNothingButTime) {
 TEST(DistanceInvarianceTest, ACacheSurvivesAJump) {
   RandomBodies random(25);
   for (int pair = 0; pair < 200; ++pair) {
-    const auto a = random.Body(random.Integer(5)), b = random.Body(random.Integer(5));
+    const auto a = random.Body(random.Integer(RandomBodies::kKinds)),
+               b = random.Body(random.Integer(RandomBodies::kKinds));
     PairCache cache;
     for (int i = 0; i < 20; ++i) {
       const Isometry3d X_WA = random.Pose(0.5), X_WB = random.Pose(0.5);
@@ -105,7 +110,8 @@ TEST(DistanceInvarianceTest, TheLimitDividesNearFromFar) {
   RandomBodies random(26);
   int beyond = 0, near = 0;
   for (int i = 0; i < 10'000; ++i) {
-    const auto a = random.Body(random.Integer(5)), b = random.Body(random.Integer(5));
+    const auto a = random.Body(random.Integer(RandomBodies::kKinds)),
+               b = random.Body(random.Integer(RandomBodies::kKinds));
     const Isometry3d X_WA = random.Pose(0.6), X_WB = random.Pose(0.6);
     const double limit = 0.1;
     const double full = Distance(*a, X_WA, *b, X_WB).distance;

@@ -94,7 +94,8 @@ TEST_P(DistanceProofTest, AnyPairInAnyPose) {
   RandomBodies random(11, scale);
   Tally tally;
   for (int i = 0; i < 10'000; ++i) {
-    const auto a = random.Body(random.Integer(5)), b = random.Body(random.Integer(5));
+    const auto a = random.Body(random.Integer(RandomBodies::kKinds)),
+               b = random.Body(random.Integer(RandomBodies::kKinds));
     Judge(*a, random.Pose(0.3), *b, random.Pose(0.3), scale, &random, &tally);
   }
   ExpectProved(tally, 1e-9);
@@ -105,7 +106,8 @@ TEST_P(DistanceProofTest, FacesEdgesAndAxesThatCoincide) {
   RandomBodies random(12, scale);
   Tally tally;
   for (int i = 0; i < 10'000; ++i) {
-    const auto a = random.Body(random.Integer(5)), b = random.Body(random.Integer(5));
+    const auto a = random.Body(random.Integer(RandomBodies::kKinds)),
+               b = random.Body(random.Integer(RandomBodies::kKinds));
     Judge(*a, random.GridPose(), *b, random.GridPose(), scale, &random, &tally);
   }
   ExpectProved(tally, 1e-7);
@@ -119,7 +121,8 @@ TEST_P(DistanceProofTest, ChosenGapsAcrossTouch) {
   Tally tally;
   double placed = 0.0;
   for (int i = 0; i < 10'000; ++i) {
-    const auto a = random.Body(random.Integer(5)), b = random.Body(random.Integer(5));
+    const auto a = random.Body(random.Integer(RandomBodies::kKinds)),
+               b = random.Body(random.Integer(RandomBodies::kKinds));
     Isometry3d X_WA = random.Pose(0.3);
     const Isometry3d X_WB = random.Pose(0.3);
     const auto first = Distance(*a, X_WA, *b, X_WB);
@@ -137,7 +140,7 @@ TEST_P(DistanceProofTest, ChosenGapsAcrossTouch) {
   EXPECT_LE(placed, 1e-8);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scales, DistanceProofTest, testing::Values(1e-3, 1.0, 1e3));
+INSTANTIATE_TEST_SUITE_P(Scales, DistanceProofTest, testing::Values(1e-6, 1e-3, 1.0, 1e3));
 
 TEST(DistanceProofTest, AWrongAnswerWouldBeNoticed) {
   const auto box = MakeCollider(Box{Eigen::Vector3d::Ones()}, "box");
