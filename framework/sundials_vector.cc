@@ -58,7 +58,7 @@ void Transform(N_Vector x, N_Vector z, const F& f) {
 
 void Scale(double c, N_Vector x, N_Vector z) {
   if (c == 1.0) {
-    if (x != z) std::memcpy(Data(z), Data(x), sizeof(double) * Length(z));
+    if (x != z) std::copy_n(Data(x), Length(z), Data(z));  // also of no numbers
     return;
   }
   const double* u = Data(x);
