@@ -54,7 +54,7 @@ TEST(RunRecorderTest, NamesJointsAndUnits) {
   };
   EXPECT_EQ(schema("/plant/position")["properties"]["lwr4_joint_2"]["x-unit"], "rad");
   EXPECT_EQ(schema("/plant/velocity")["properties"]["lwr4_joint_2"]["x-unit"], "rad/s");
-  EXPECT_EQ(schema("/limiter/limited_delta")["properties"]["lwr4_joint_1"]["x-unit"], "rad");
+  EXPECT_EQ(schema("/overlay/applied_delta")["properties"]["lwr4_joint_1"]["x-unit"], "rad");
 }
 
 TEST(RunRecorderTest, ShowsEveryLinkAndObstacleAsAFrame) {
@@ -128,7 +128,7 @@ systems:
   obstacles:
     type: ObstacleSource
     obstacles:
-      - {id: ball, shape: {type: sphere, radius: 0.1}, appear: 1, disappear: 2}
+      - {id: ball, shape: {type: sphere, radius: 0.1}, pose: {xyz: [1, 0, 0]}, appear: 1, disappear: 2}
   ramp: {type: RampSource, slope: 1}
 record: {signals: {"ramp.value": 10}, scene: 10}
 )");

@@ -6,22 +6,27 @@
 #include <thread>
 
 #include "framework/diagram.h"
-#include "systems/ramp_source.h"
+#include "framework/port_access.h"
+#include "systems/gain.h"
 
 namespace oca::record {
 namespace {
 
-/// A ramp of slope 1: its value is the time.
+/// A gain of 1: its output is what it is told.
 class SampleQueueTest : public testing::Test {
  protected:
-  static std::unique_ptr<Diagram> MakeRamp() {
-    auto params = systems::RampSource::Example();
-    params.slope = {1.0};
-    return MakeDiagramOf(std::make_unique<systems::RampSource>(params));
+  static std::unique_ptr<Diagram> MakeGain() {
+    auto params = systems::Gain::Example();
+    params.gain = {1.0};
+    return MakeDiagramOf(std::make_unique<systems::Gain>(params), {{"in", 1}});
   }
-  std::unique_ptr<Diagram> diagram_{MakeRamp()};
+  void SetTime(double time) {
+    context_.SetTime(time);
+    diagram_->GetInput<Vector>("in").Fix(context_, Eigen::VectorXd::Constant(1, time));
+  }
+  std::unique_ptr<Diagram> diagram_{MakeGain()};
   Context context_{diagram_->MakeContext()};
-  OutputHandle value_{diagram_->FindOutput("value")};
+  OutputHandle value_{diagram_->FindOutput("out")};
 
   static double First(const SampleQueue::Sample& sample) {
     return *static_cast<const double*>(sample.values[0]);
@@ -30,21 +35,24 @@ class SampleQueueTest : public testing::Test {
 
 TEST_F(SampleQueueTest, GivesSamplesAndTextsInTheOrderTheyCameIn) {
   SampleQueue queue({{{value_}, 4}, {{value_}, 4}}, context_);
-  context_.SetTime(1.0);
+  SetTime(1.0);
   EXPECT_TRUE(queue.Store(1, context_));
   EXPECT_TRUE(queue.StoreText(2, 1.5, "hello"));
-  context_.SetTime(2.0);
+  SetTime(2.0);
   EXPECT_TRUE(queue.Store(0, context_));
   std::string order;
   const auto note = [&](const SampleQueue::Sample& sample) {
     order += sample.group < 0 ? std::string(sample.text) : std::to_string(sample.group);
-    if (sample.group >= 0) EXPECT_EQ(First(sample), sample.time);
+    if (sample.group >= 0) {
+      EXPECT_EQ(First(sample), sample.time);
+    }
   };
   while (queue.Take(note)) continue;
   EXPECT_EQ(order, "1hello0");
 }
 
 TEST_F(SampleQueueTest, CountsWhatFindsNoRoom) {
+  SetTime(0.0);
   SampleQueue queue({{{value_}, 2}}, context_);
   EXPECT_TRUE(queue.Store(0, context_));
   EXPECT_TRUE(queue.HasRoom(0));
@@ -79,7 +87,7 @@ TEST_F(SampleQueueTest, LosesNothingBetweenTwoThreads) {
     }
   });
   for (int i = 0; i < kSamples; ++i) {
-    context_.SetTime(i);
+    SetTime(i);
     while (!queue.HasRoom(0)) std::this_thread::yield();
     queue.Store(0, context_);
   }
