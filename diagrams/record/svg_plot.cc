@@ -142,22 +142,29 @@ class PanelWriter {
     return pattern.empty() ? stroke : stroke + " stroke-dasharray=\"" + pattern + "\"";
   }
 
-  /// Points that lie within a fifth of a pixel of the last one add nothing.
+  /// Far outside, pixels would lose their meaning.
+  double Row(double y) const { return std::clamp(Y(y), top_ - 1e4, top_ + 1e4); }
+
+  /// Points too near the last one to be seen apart, or within a level stretch, add nothing.
   void WriteCurve(const PlotCurve& curve) {
+    constexpr double kSeen = 0.5;  // px
     fmt::format_to(std::back_inserter(out_),
                    "<path fill=\"none\" stroke-linejoin=\"round\" {} d=\"", Stroke(curve));
     bool pen_up = true;
     double last_x = 0.0, last_y = 0.0;
-    for (std::size_t i = 0; i < std::min(curve.x.size(), curve.y.size()); ++i) {
+    const std::size_t size = std::min(curve.x.size(), curve.y.size());
+    for (std::size_t i = 0; i < size; ++i) {
       if (!std::isfinite(curve.x[i]) || !std::isfinite(curve.y[i])) {
         pen_up = true;
         continue;
       }
-      // Far outside, pixels would lose their meaning.
       const double x = X(curve.x[i]);
-      const double y = std::clamp(Y(curve.y[i]), top_ - 1e4, top_ + 1e4);
-      const bool last = i + 1 == curve.x.size();
-      if (!pen_up && !last && std::fabs(x - last_x) < 0.2 && std::fabs(y - last_y) < 0.2) continue;
+      const double y = Row(curve.y[i]);
+      if (!pen_up && i + 1 < size && std::fabs(y - last_y) < kSeen) {
+        const bool level =
+            std::fabs(y - last_y) < 0.05 && std::fabs(Row(curve.y[i + 1]) - y) < 0.05;
+        if (level || x - last_x < kSeen) continue;
+      }
       fmt::format_to(std::back_inserter(out_), "{}{:.1f} {:.1f}", pen_up ? "M" : "L", x, y);
       pen_up = false;
       last_x = x;

@@ -37,6 +37,17 @@ TEST(SvgPlotTest, LiftsThePenOverWhatIsNotFinite) {
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
 }
 
+TEST(SvgPlotTest, DrawsALevelStretchByItsEndsAndKeepsASpike) {
+  PlotPanel panel{"", "", "", {{"", {}, {}}}};
+  for (int i = 0; i <= 1000; ++i) {
+    panel.curves[0].x.push_back(i);
+    panel.curves[0].y.push_back(i == 500 ? 1.0 : 0.0);
+  }
+  const std::string svg = SvgPlot({panel});
+  const std::string path = svg.substr(svg.find("<path"));
+  EXPECT_EQ(std::count(path.begin(), path.begin() + path.find("/>"), 'L'), 4);
+}
+
 TEST(SvgPlotTest, FurtherRunsAreDashed) {
   PlotPanel panel{"", "", "", {{"one", {0, 1}, {0, 1}, 0, 0}}};
   EXPECT_THAT(SvgPlot({panel}), Not(HasSubstr("stroke-dasharray")));
