@@ -38,6 +38,10 @@ DistanceStatus StatusOf(const CorePair& pair, const CoreDistance& found) {
 // gives a start from which GJK takes another way.
 void ProveSeparation(const CorePair& pair, CoreDistance* found) {
   CoreDistance plane = internal::PolytopeDepth(pair, -found->normal);
+  if (plane.distance <= 0.0 && plane.gap <= kExactGap * pair.Extent()) {  // an overlap after all
+    *found = plane;
+    return;
+  }
   plane.gap = std::max(found->distance - plane.distance, 0.0);
   if (plane.gap <= kExactGap * pair.Extent()) {
     if (pair.IsRound()) {

@@ -13,7 +13,9 @@ using Eigen::Vector3d;
 
 constexpr int kMaxSteps = 128;
 constexpr int kMaxIdleSteps = 4;
-constexpr double kRounding = 1e-15;  // of a difference of support points, of the size of the pair
+constexpr double kDirection = 4e-15;  // rounding of v, of the size, times the size over |v|
+constexpr double kBlunt = 1e-9;       // of the size: a bound that costs a direction nothing
+constexpr double kRounding = 1e-15;   // of a difference of support points, of the size of the pair
 
 // The bodies may have moved such that a remembered triangle is worth little; it is a start still.
 void Start(const CorePair& pair, const PairCache* cache, Simplex* simplex) {
@@ -64,11 +66,11 @@ GjkStatus Gjk(const CorePair& pair, double max_distance, bool separated, PairCac
     if (length <= kTouch * size) break;
     const CorePair::Difference support = pair.Support(-simplex.v());
     const double bound = simplex.v().dot(support.w) / length;
-    if (bound > lower) {
-      lower = bound;
-      across = simplex.v() / length;
-      outside = true;
-    }
+    // The direction of a short v is rounded; only of round bodies does it come to mean nothing.
+    const double doubt = proof + (pair.IsRound() ? std::min(kBlunt * size, 1e-6 * length)
+                                                 : kDirection * size * size / length);
+    if (bound > 0.0 && bound > lower - doubt) across = simplex.v() / length;
+    if (bound > lower) lower = bound, outside = true;
     if (bound > max_distance) {
       Remember(simplex, cache);
       *result = Result(pair, simplex, length, bound, simplex.v() / length);

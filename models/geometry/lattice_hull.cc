@@ -34,9 +34,7 @@ constexpr double kDoubt = 64.0 * 0x1p-53;
 }  // namespace
 
 Lattice::Lattice(const Eigen::Vector3d& centre, double extent) : centre_(centre) {
-  int exponent = 0;
-  std::frexp(extent, &exponent);
-  step_ = std::ldexp(1.0, exponent - kBits);
+  step_ = std::ldexp(1.001 * extent, -kBits);  // a little room for rounding
 }
 
 LatticePoint Lattice::Round(const Eigen::Vector3d& p) const {

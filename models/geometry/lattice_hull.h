@@ -19,7 +19,7 @@ struct LatticePoint {
   friend auto operator<=>(const LatticePoint&, const LatticePoint&) = default;
 };
 
-/// Maps points within `extent` m of `centre` to the lattice; its step is below 2e-12 `extent`.
+/// Maps points within `extent` m of `centre` to the lattice; its step is 1e-12 `extent`.
 class Lattice {
  public:
   Lattice(const Eigen::Vector3d& centre, double extent);
