@@ -9,6 +9,7 @@
 #include "models/geometry/closed_forms.h"
 #include "models/geometry/gjk.h"
 #include "models/geometry/nearest_part.h"
+#include "models/geometry/point_forms.h"
 #include "models/geometry/polytope_depth.h"
 
 namespace oca::models {
@@ -153,6 +154,11 @@ SignedDistance OfConvex(const Collider& a, const Isometry3d& X_WA, const Collide
                         const Isometry3d& X_WB, double max_distance, PairCache* cache) {
   if (a.core() == Collider::Core::kPoint) {
     return OfSpheres(a.radius(), X_WA.translation(), b.radius(), X_WB.translation());
+  }
+  if (b.core() == Collider::Core::kPoint && a.core() != Collider::Core::kHull) {
+    const Vector3d p = X_WA.linear().transpose() * (X_WB.translation() - X_WA.translation());
+    const internal::Outside found = internal::OutsideOf(a, p);
+    return ToWorld(X_WA, a.radius(), b.radius(), {found.distance, found.nearest, p, -found.normal});
   }
   CorePair pair{a, b, Isometry3d()};
   SetRelative(X_WA, X_WB, &pair.X_AB);
