@@ -78,6 +78,11 @@ std::shared_ptr<const models::RobotModel> PrimitiveArm() {
       models::LoadUrdf(OCA_SOURCE_DIR "/models/robots/lwr4/lwr4.urdf", OnPedestal()));
 }
 
+std::shared_ptr<const models::RobotModel> OwnMeshArm() {
+  return std::make_shared<const models::RobotModel>(
+      models::LoadUrdf(OCA_SOURCE_DIR "/models/robots/lwr4/lwr4_meshes.urdf", OnPedestal()));
+}
+
 std::shared_ptr<const models::RobotModel> MeshArm() {
   const std::filesystem::path file = OCA_SOURCE_DIR "/../shared/data/robots/kuka_lwr/kuka.urdf";
   if (!std::filesystem::exists(file)) return nullptr;

@@ -18,6 +18,9 @@ std::shared_ptr<const models::RobotModel> PrimitiveArm();
 /// beside the source folder.
 std::shared_ptr<const models::RobotModel> MeshArm();
 
+/// The same arm with the meshes of OCA's own model.
+std::shared_ptr<const models::RobotModel> OwnMeshArm();
+
 /// Configurations along a swing of joints 1 and 3, 10 ms apart.
 std::vector<Eigen::VectorXd> PathConfigurations(int count);
 /// Configurations anywhere within the joints' limits.

@@ -35,12 +35,7 @@ diagrams::LoadedDiagram LoadLoop(int obstacle_count, bool meshes) {
   std::vector<diagrams::Override> overrides{
       {"parameters.sensing_distance", fmt::format("{}", kMaxDistance)},
       {"systems.obstacles.obstacles", ToYaml(MakeObstacles(*PrimitiveArm(), obstacle_count))}};
-  if (meshes) {
-    overrides.push_back(
-        {"models.arm",
-         "{urdf: " OCA_SOURCE_DIR
-         "/../shared/data/robots/kuka_lwr/kuka.urdf, base_pose: {xyz: [0, 0, 0.85]}}"});
-  }
+  if (meshes) overrides.push_back({"models.arm.urdf", "package://lwr4/lwr4_meshes.urdf"});
   return diagrams::LoadDiagram(OCA_SOURCE_DIR "/diagrams/static_test.yaml", overrides);
 }
 
@@ -152,7 +147,7 @@ class PlainChain {
 };
 
 void PlainTick(benchmark::State& state, int obstacle_count, bool meshes, bool cull) {
-  PlainChain chain(meshes ? MeshArm() : PrimitiveArm(), obstacle_count, cull);
+  PlainChain chain(meshes ? OwnMeshArm() : PrimitiveArm(), obstacle_count, cull);
   const auto path = PathConfigurations(kLoop);
   std::size_t i = 0;
   const AllocationCounter allocations(state);
@@ -164,9 +159,7 @@ void PlainTick(benchmark::State& state, int obstacle_count, bool meshes, bool cu
 
 void Register() {
   using benchmark::RegisterBenchmark;
-  const bool have_meshes = MeshArm() != nullptr;
   for (const bool meshes : {false, true}) {
-    if (meshes && !have_meshes) continue;
     for (const int n : {1, 10, 100, 1000}) {
       const std::string kind = fmt::format("{}/{}", n, meshes ? "meshes" : "primitives");
       const std::string tick = "control/tick/" + kind;
