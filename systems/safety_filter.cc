@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "framework/error.h"
@@ -13,6 +14,8 @@
 
 namespace oca::systems {
 namespace {
+
+constexpr double kFading = 10.0;  // s, of the way that a joint was led
 
 /// A gain above 1 / period would ask for more than all of h within one period.
 void RequireGain(const char* where, double gain, const Period& period) {
@@ -29,6 +32,7 @@ SafetyFilter::Params Checked(const SafetyFilter::Params& params) {
   RequireAbove("deceleration", params.deceleration, 0.0);
   RequireGain("position_gain", params.position_gain, params.period);
   RequireAbove("weights", params.weights, 0.0);
+  RequireAtLeast("progress_weight", params.progress_weight, 0.0);
   RequireAbove("slack_penalty", params.slack_penalty, 0.0);
   RequireGain("recovery_gain", params.recovery_gain, params.period);
   RequireAtLeast("recovery_speed", params.recovery_speed, 0.0);
@@ -66,6 +70,11 @@ void SafetyFilter::Params::Describe(Fields<Params>& fields) {
            "price of a joint's deviation, one number or one a joint")
       .Above(0.0);
   fields
+      .Add("progress_weight", &Params::progress_weight, "",
+           "how much dearer a joint is that has a way to go: 0 not at all, 10 evades with the "
+           "others")
+      .AtLeast(0.0);
+  fields
       .Add("slack_penalty", &Params::slack_penalty, "rad^2/(m s)",
            "price of a distance that is not kept; too low a one gives way early")
       .Above(0.0);
@@ -90,6 +99,7 @@ SafetyFilter::SafetyFilter(const Params& params, const ModelSet& models)
       model_(MovableModel(models, params.model)),
       c_(DeclareDiscreteState("c", PositionSpec(*model_), 0.0)),
       u_(DeclareDiscreteState("u", RateSpec(*model_), 0.0)),
+      l_(DeclareDiscreteState("l", PositionSpec(*model_), 0.0)),
       activity_(DeclareDiscreteState("activity", FilterActivity{})),
       proximities(DeclareInput<ProximitySet>("proximities")),
       links(DeclareInput<LinkPoses>("links")),
@@ -100,7 +110,7 @@ SafetyFilter::SafetyFilter(const Params& params, const ModelSet& models)
       measured_position(DeclareInput<Vector>("measured_position", PositionSpec(*model_))),
       command(DeclareOptionalInput<Vector>("command", PositionSpec(*model_))),
       solution(DeclareOutput<FilterSolution, &SafetyFilter::CalcSolution>(
-          "solution", {}, proximities, links, position, velocity, acceleration, command, c_, u_,
+          "solution", {}, proximities, links, position, velocity, acceleration, command, c_, u_, l_,
           activity_)),
       delta(DeclareOutput<Vector, &SafetyFilter::CalcDelta>("delta", PositionSpec(*model_),
                                                             position, c_, u_)),
@@ -111,20 +121,24 @@ SafetyFilter::SafetyFilter(const Params& params, const ModelSet& models)
                                   weights.values().size(), model_->num_positions()));
   }
   DeclareInitialization<&SafetyFilter::Start>(Writes(c_), measured_position);
-  DeclareUpdate<&SafetyFilter::Update>(Every{params_.period}, Writes(c_, u_, activity_), solution,
-                                       command);
+  DeclareUpdate<&SafetyFilter::Update>(Every{params_.period}, Writes(c_, u_, l_, activity_),
+                                       solution, command, velocity);
 }
 
 void SafetyFilter::Start(VectorView measured, MutableVectorView c) const { c = measured; }
 
-void SafetyFilter::Update(const FilterSolution& result, OptionalVector sent, MutableVectorView c,
-                          MutableVectorView u, FilterActivity& last) const {
+void SafetyFilter::Update(const FilterSolution& result, OptionalVector sent, OptionalVector rate,
+                          MutableVectorView c, MutableVectorView u, MutableVectorView l,
+                          FilterActivity& last) const {
   if (sent) {
     c = *sent;
   } else {
     c += u * params_.period.seconds();
   }
   u = result.velocity;
+  const double dt = params_.period.seconds();
+  l *= std::max(1.0 - dt / kFading, 0.0);
+  if (rate) l += dt * rate->cwiseAbs();
   last = result.activity;
 }
 
@@ -135,8 +149,8 @@ void SafetyFilter::CalcDelta(VectorView request, VectorView c, VectorView u,
 
 void SafetyFilter::CalcSolution(const ProximitySet& set, const LinkPoses& poses, VectorView request,
                                 OptionalVector rate, OptionalVector rate_rate, OptionalVector sent,
-                                VectorView c, VectorView u, const FilterActivity& last,
-                                FilterSolution& result) const {
+                                VectorView c, VectorView u, VectorView l,
+                                const FilterActivity& last, FilterSolution& result) const {
   if (!result.workspace) {
     result.workspace.emplace(model_->num_positions(), params_.most_rows);
     result.velocity.resize(model_->num_positions());
@@ -152,7 +166,7 @@ void SafetyFilter::CalcSolution(const ProximitySet& set, const LinkPoses& poses,
   result.activity = {};
   const auto X_WL = PosesInOrder(*model_, poses, work.reordered);
   FillBox(result);
-  FillWish(request, rate, rate_rate, result);
+  FillWish(request, rate, rate_rate, l, result);
   FillRows(set, X_WL, result);
   FillGuess(set, last, result);
   work.solver.Solve(work.qp, work.solution);

@@ -48,16 +48,21 @@ struct FilterSolution {
 /// The joint velocity nearest to the requested one that keeps the arm clear: a control barrier
 /// function as a quadratic program, once a period.
 ///
-///     u = argmin 1/2 sum_j weights_j (u_j - r_j)^2 + slack_penalty sum_i s_i
+///     u = argmin 1/2 sum_j w_j (u_j - r_j)^2 + slack_penalty sum_i s_i
 ///     a_i^T u >= n_i^T v_i - approach(h_i) - s_i,  s_i >= 0,   one row a proximity
 ///     u_j in the velocities from which joint j can stop within all its limits
 ///
 ///     r = velocity + acceleration period / 2 + position_gain (position - c), braked for arrival
+///     w_j = weights_j (1 + progress_weight l_j / (max_k l_k + 0.05))
 ///     a_i = n_i^T (J at point_on_link), less that of the other link within one arm
 ///     h_i = distance_i - safe_distance,   v_i the obstacle's velocity at its point
 ///     approach = approach_gain h                             form linear
 ///                LargestStoppableVelocity(h, deceleration)   form braking
 ///                0                                           h < 0
+///
+/// l_j is the way in rad that the request led joint j lately, a sum of |velocity| period that fades
+/// within 10 s. With a progress_weight the joints that are to get somewhere are dear, so that the
+/// others evade and the arm does not stop in front of what it could pass.
 ///
 /// Where h < 0 a second row asks for h to grow by min(-recovery_gain h, recovery_speed), at the
 /// price recovery_penalty: a wish that may be denied, so that a slow retreat is never forbidden.
@@ -81,6 +86,7 @@ struct FilterSolution {
 ///       solution  FilterSolution      what the filter would do at this instant
 /// state c         n  u
 ///       u         n  u/s
+///       l         n  u
 ///       activity  FilterActivity
 /// throws ConfigError if there is no such model, a gain or a penalty is out of its bounds, or
 ///        approach_gain or recovery_gain exceeds 1 / period; while running if a proximity or a pose
@@ -108,6 +114,7 @@ class SafetyFilter final : public System {
     double deceleration{2.0};
     double position_gain{5.0};
     PerComponent weights{1.0};
+    double progress_weight{0.0};
     double slack_penalty{1e4};
     double recovery_gain{5.0};
     double recovery_speed{0.5};
@@ -137,12 +144,13 @@ class SafetyFilter final : public System {
   const std::shared_ptr<const models::RobotModel> model_;
   const DiscreteState<Vector> c_;
   const DiscreteState<Vector> u_;
+  const DiscreteState<Vector> l_;
   const DiscreteState<FilterActivity> activity_;
 
   double Approach(double headroom) const;
   int FindLink(models::Name name) const;
   void FillBox(FilterSolution& result) const;
-  void FillWish(VectorView request, OptionalVector rate, OptionalVector rate_rate,
+  void FillWish(VectorView request, OptionalVector rate, OptionalVector rate_rate, VectorView l,
                 FilterSolution& result) const;
   void FillRows(const ProximitySet& set, Poses X_WL, FilterSolution& result) const;
   void AddRow(const FilterRow& source, double bound, FilterSolution& result) const;
@@ -152,10 +160,11 @@ class SafetyFilter final : public System {
   void Start(VectorView measured, MutableVectorView c) const;
   void CalcSolution(const ProximitySet& set, const LinkPoses& poses, VectorView request,
                     OptionalVector rate, OptionalVector rate_rate, OptionalVector sent,
-                    VectorView c, VectorView u, const FilterActivity& last,
+                    VectorView c, VectorView u, VectorView l, const FilterActivity& last,
                     FilterSolution& result) const;
-  void Update(const FilterSolution& result, OptionalVector sent, MutableVectorView c,
-              MutableVectorView u, FilterActivity& last) const;
+  void Update(const FilterSolution& result, OptionalVector sent, OptionalVector rate,
+              MutableVectorView c, MutableVectorView u, MutableVectorView l,
+              FilterActivity& last) const;
   void CalcDelta(VectorView request, VectorView c, VectorView u, MutableVectorView out) const;
 
  public:

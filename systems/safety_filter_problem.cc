@@ -16,6 +16,8 @@ namespace {
 
 // Share of the acceleration limit that the return to the request brakes with.
 constexpr double kArrivalShare = 0.5;
+// A way that is as good as none (rad, m).
+constexpr double kNoWay = 0.05;
 // Bounds a velocity that nothing else does, so that the problem is finite (rad/s, m/s).
 constexpr double kFastest = 1e3;
 
@@ -59,13 +61,12 @@ void SafetyFilter::FillBox(FilterSolution& result) const {
     range = models::StoppableVelocities(limits, motion, dt);
     work.qp.lower[j] = range.lower;
     work.qp.upper[j] = range.upper;
-    work.qp.weights[j] = params_.weights[j];
     if (range.yields != models::MotionLimit::kNone) ++result.activity.yields;
   }
 }
 
 void SafetyFilter::FillWish(VectorView request, OptionalVector rate, OptionalVector rate_rate,
-                            FilterSolution& result) const {
+                            VectorView l, FilterSolution& result) const {
   FilterSolution::Workspace& work = *result.workspace;
   const double dt = params_.period.seconds();
   for (Eigen::Index j = 0; j < request.size(); ++j) {
@@ -76,6 +77,11 @@ void SafetyFilter::FillWish(VectorView request, OptionalVector rate, OptionalVec
     if (rate) wish += (*rate)[j];
     if (rate_rate) wish += 0.5 * dt * (*rate_rate)[j];
     work.qp.wish[j] = wish;
+  }
+  const double most = l.maxCoeff() + kNoWay;
+  for (Eigen::Index j = 0; j < request.size(); ++j) {
+    const double share = l[j] / most;
+    work.qp.weights[j] = params_.weights[j] * (1.0 + params_.progress_weight * share);
   }
 }
 

@@ -104,6 +104,39 @@ TEST(SafetyFilterTest, ProjectsTheRequestOntoTheRowByHand) {
   EXPECT_EQ(activity.slack, 0.0);
 }
 
+TEST(SafetyFilterTest, EvadesWithTheJointThatHasNowhereToGo) {
+  // The request has led joint 1 only, for half a second.
+  const auto speed_of_joint_1 = [](double progress_weight) {
+    SafetyFilter::Params params = Hundred();
+    params.progress_weight = progress_weight;
+    DiagramBuilder builder;
+    const auto& filter = builder.Add<SafetyFilter>("filter", params, TestModels("planar2"));
+    for (const auto& input : filter.inputs()) {
+      if (input.name == "acceleration") continue;
+      builder.ExportInput(input.name, filter.FindInput(input.name));
+    }
+    const auto diagram = builder.Build();
+    Simulator simulator(*diagram);
+    Context& context = simulator.context();
+    const auto model = TestModels("planar2").Get("");
+    LinkPoses poses;
+    NameLinks(*model, poses);
+    models::ForwardKinematics(*model, Eigen::Vector2d::Zero(), poses.poses);
+    filter.links.Fix(context, poses);
+    filter.proximities.Fix(context, ProximitySet{});
+    filter.measured_position.Fix(context, Eigen::Vector2d::Zero());
+    filter.position.Fix(context, Eigen::Vector2d::Zero());
+    diagram->GetInput<Vector>("command").Fix(context, Eigen::Vector2d::Zero());
+    diagram->GetInput<Vector>("velocity").Fix(context, Eigen::Vector2d(1, 0));
+    simulator.AdvanceTo(50.5 * kDt);
+    filter.proximities.Fix(context, BesideTheTip(0.05, 0.0));
+    return filter.solution.Eval(context).velocity[0];
+  };
+  // (1, 0) onto (0.9, 0.4) . u = 0, with equal weights and with 11 : 1 or nearly so.
+  EXPECT_NEAR(speed_of_joint_1(0.0), 1 - 0.81 / 0.97, 1e-12);
+  EXPECT_NEAR(speed_of_joint_1(10.0), 1 - 0.81 / 11 / (0.81 / 11 + 0.16), 0.03);
+}
+
 TEST(SafetyFilterTest, LetsTheArmMoveAwayAsFastAsItLikes) {
   const Eigen::VectorXd u = Answer(Hundred(), {-1, 0}, BesideTheTip(0.0501, 0.0));
   EXPECT_NEAR((u - Eigen::Vector2d(-1, 0)).norm(), 0.0, 1e-12);
@@ -202,6 +235,7 @@ TEST(SafetyFilterTest, RefusesGainsThatAPeriodCannotCarry) {
   EXPECT_THROW(make([](auto& p) { p.deceleration = 0.0; }), ConfigError);
   EXPECT_THROW(make([](auto& p) { p.slack_penalty = 0.0; }), ConfigError);
   EXPECT_THROW(make([](auto& p) { p.recovery_penalty = -1.0; }), ConfigError);
+  EXPECT_THROW(make([](auto& p) { p.progress_weight = -1.0; }), ConfigError);
   EXPECT_THROW(make([](auto& p) { p.recovery_speed = -1.0; }), ConfigError);
   EXPECT_THROW(make([](auto& p) { p.most_rows = 0; }), ConfigError);
   EXPECT_THROW(make([](auto& p) { p.period = Period(); }), ConfigError);
