@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <memory_resource>
@@ -161,16 +162,22 @@ void Polytope::Straighten(Plane* plane) const {
 }
 
 // What is left to gain where the polytope is used up: turns the normal by smaller and smaller
-// angles as long as the exit becomes shorter.
+// angles, every time about other axes, for the exits may lie in a narrow valley. A ring of equal
+// exits has no end, hence the number of turns.
 void Polytope::Descend(Plane* plane) const {
   constexpr double kCoarsest = 0.02, kFinest = 1e-8;  // rad
-  for (double angle = kCoarsest; angle > kFinest;) {
-    const Vector3d u = plane->normal.unitOrthogonal(), v = plane->normal.cross(u);
-    bool better = false;
+  constexpr double kShrink = 0.8, kNextAxis = 2.4;    // rad, about the golden section of a turn
+  constexpr int kMostTurns = 400;
+  double angle = kCoarsest;
+  for (int turn = 0; turn < kMostTurns && angle > kFinest; ++turn) {
+    const Vector3d e = plane->normal.unitOrthogonal(), f = plane->normal.cross(e);
+    const double c = std::cos(kNextAxis * turn), s = std::sin(kNextAxis * turn);
+    const Vector3d u = c * e + s * f, v = c * f - s * e;
+    const double before = plane->offset;
     for (const Vector3d& side : {u, v, Vector3d(-u), Vector3d(-v)}) {
-      better |= Try((plane->normal + angle * side).normalized(), plane);
+      Try((plane->normal + angle * side).normalized(), plane);
     }
-    if (!better) angle *= 0.5;
+    if (before - plane->offset < 1e-3 * angle * angle * pair_.Extent()) angle *= kShrink;
   }
 }
 
