@@ -76,7 +76,7 @@ std::vector<Isometry3d> Walk(const models::Collider& a, const models::Collider& 
   std::uniform_real_distribution<double> gap(least, most);
   std::vector<Isometry3d> poses;
   Isometry3d X = Isometry3d::Identity();
-  Vector3d v, omega;
+  Vector3d v = Vector3d::Zero(), omega = Vector3d::Zero();
   while (static_cast<int>(poses.size()) < kSteps) {
     if (poses.size() % 32 == 0) {  // another place, then a smooth way through it
       X = RandomPose(&random);
