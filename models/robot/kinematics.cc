@@ -199,8 +199,31 @@ void StackedJacobian(const RobotModel& model, std::span<const Eigen::Isometry3d>
                      Eigen::Ref<Eigen::MatrixXd> J) {
   assert(std::ssize(X_WL) == model.num_links());
   assert(J.rows() == 6 * model.num_bodies() && J.cols() == model.num_positions());
+  // A body turns as its parent body does, and moves as the parent would at its origin: the parent's
+  // block, shifted there, and the own joint's column.
   for (int b = 0; b < model.num_bodies(); ++b) {
-    FillLinkJacobian(model, X_WL, model.bodies()[b], J.middleRows<6>(6 * b));
+    const int link = model.bodies()[b];
+    const KinematicStep& step = model.steps()[link - 1];
+    const int parent = model.body_index(step.parent_link);
+    if (parent < 0) {
+      J.middleRows<6>(6 * b).setZero();
+    } else {
+      const Eigen::Vector3d p =
+          X_WL[link].translation() - X_WL[model.bodies()[parent]].translation();
+      for (Eigen::Index c = 0; c < J.cols(); ++c) {
+        const double* const above = J.data() + c * J.outerStride() + 6 * parent;
+        const double x = above[3], y = above[4], z = above[5];
+        double* const here = J.data() + c * J.outerStride() + 6 * b;
+        here[0] = above[0] + (y * p[2] - z * p[1]);
+        here[1] = above[1] + (z * p[0] - x * p[2]);
+        here[2] = above[2] + (x * p[1] - y * p[0]);
+        here[3] = x;
+        here[4] = y;
+        here[5] = z;
+      }
+    }
+    const int half = step.type == JointType::kPrismatic ? 0 : 3;
+    J.block<3, 1>(6 * b + half, step.column) += step.multiplier * (X_WL[link].linear() * step.axis);
   }
 }
 
