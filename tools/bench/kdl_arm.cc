@@ -3,17 +3,12 @@
 
 #include <stdexcept>
 
+#include "tests/kdl_convert.h"
+
 namespace oca::bench {
 namespace {
 
-KDL::Vector ToKdl(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
-KDL::Frame ToKdl(const Eigen::Isometry3d& X) {
-  const Eigen::Matrix3d R = X.linear();
-  return {KDL::Rotation(R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1), R(1, 2), R(2, 0), R(2, 1),
-                        R(2, 2)),
-          ToKdl(X.translation())};
-}
+using test::ToKdl;
 
 Eigen::Isometry3d ToEigen(const KDL::Frame& frame) {
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
