@@ -196,9 +196,10 @@ Vector3d Polytope::Weights(const std::array<int, 3>& face, const Vector3d& norma
   return areas.sum() > 0.0 ? Vector3d(areas / areas.sum()) : Vector3d(Vector3d::Constant(-1.0));
 }
 
-// The face that the ray from the origin meets. Several may lie in one plane, hence `highest`.
+// The face that the ray from the origin meets. Several may lie in one plane, hence `highest`; none
+// lies there if the lattice rounds them all above it, and then it is the lowest.
 std::array<int, 3> Polytope::FaceBelow(const Vector3d& normal, double highest) const {
-  int below = -1;
+  int below = LowestFace();
   double most = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < hull_.face_slots(); ++i) {
     if (!hull_.face(i).alive || offset_[i] > highest) continue;
