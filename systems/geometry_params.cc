@@ -9,6 +9,7 @@
 #include "framework/error.h"
 #include "models/error.h"
 #include "models/geometry/mesh.h"
+#include "models/geometry/point_cloud.h"
 #include "systems/rotation.h"
 
 namespace oca::systems {
@@ -20,7 +21,8 @@ void CheckFinite(bool finite, const std::string& where) {
 
 // Which sizes each type has, in the order of ShapeType.
 struct Sizes {
-  bool radius{false}, length{false}, size{false}, radii{false}, file{false}, parts{false};
+  bool radius{false}, length{false}, size{false}, radii{false}, file{false}, parts{false},
+      grid{false};
 };
 constexpr std::array<Sizes, kShapeTypeNames.size()> kSizes{{{.radius = true},
                                                             {.size = true},
@@ -30,7 +32,9 @@ constexpr std::array<Sizes, kShapeTypeNames.size()> kSizes{{{.radius = true},
                                                             {.radius = true, .length = true},
                                                             {.radii = true},
                                                             {},
-                                                            {.parts = true}}};
+                                                            {.parts = true},
+                                                            {.radius = true, .file = true},
+                                                            {.file = true, .grid = true}}};
 
 void CheckPresence(bool present, bool wanted, const char* key, ShapeType type,
                    const std::string& where) {
@@ -69,6 +73,8 @@ models::Shape MakeSolid(const SolidParams& shape) {
     case ShapeType::kHalfSpace:
       return models::HalfSpace{};
     case ShapeType::kCompound:
+    case ShapeType::kCloud:
+    case ShapeType::kHeightmap:
       break;
   }
   return models::Compound{};
@@ -76,6 +82,13 @@ models::Shape MakeSolid(const SolidParams& shape) {
 
 models::Shape MakeShape(const ShapeParams& shape, const std::string& where) {
   CheckSizes(shape, !shape.parts.empty(), where);
+  const bool grid = kSizes[static_cast<int>(shape.type)].grid;
+  CheckPresence(shape.cell.has_value(), grid, "cell", shape.type, where);
+  CheckPresence(shape.scale.has_value(), grid, "scale", shape.type, where);
+  if (shape.type == ShapeType::kCloud) {
+    return models::MakeCloud(models::LoadPointCloud(*shape.file), *shape.radius);
+  }
+  if (grid) return models::LoadHeightmap(*shape.file, *shape.cell, *shape.scale);
   if (shape.type != ShapeType::kCompound) return MakeSolid(shape);
   models::Compound compound;
   for (std::size_t i = 0; i < shape.parts.size(); ++i) {
@@ -100,7 +113,10 @@ void DescribeSolid(const char* types, Fields<P>& fields) {
   using Triple = std::optional<Eigen::Vector3d>;
   using File = std::optional<std::string>;
   fields.template Add<ShapeType>("type", &P::type, "", types).Required();
-  fields.template Add<Number>("radius", &P::radius, "m", "of a sphere, cylinder, capsule or cone")
+  fields
+      .template Add<Number>(
+          "radius", &P::radius, "m",
+          "of a sphere, cylinder, capsule or cone, or of the ball about each point of a cloud")
       .Above(0.0);
   fields
       .template Add<Number>("length", &P::length, "m",
@@ -109,7 +125,8 @@ void DescribeSolid(const char* types, Fields<P>& fields) {
   fields.template Add<Triple>("size", &P::size, "m", "full edge lengths of a box").Above(0.0);
   fields.template Add<Triple>("radii", &P::radii, "m", "semi-axes of an ellipsoid").Above(0.0);
   fields.template Add<File>("file", &P::file, "",
-                            "mesh (STL, OBJ, Collada); its convex hull counts");
+                            "mesh (STL, OBJ, Collada), whose convex hull counts, cloud (CSV, XYZ, "
+                            "PLY, PCD) or heightmap (PGM, CSV)");
 }
 
 SolidParams SolidParamsOf(const models::Shape& shape) {
@@ -187,9 +204,12 @@ void PartParams::Describe(Fields<PartParams>& fields) {
 void ShapeParams::Describe(Fields<ShapeParams>& fields) {
   DescribeSolid(
       "sphere, box, cylinder, capsule, mesh, cone (apex up), ellipsoid, half_space (all below the "
-      "xy plane) or compound",
+      "xy plane), compound, cloud or heightmap",
       fields);
   fields.Add("parts", &ShapeParams::parts, "", "convex bodies that make a compound");
+  fields.Add("cell", &ShapeParams::cell, "m", "width of a heightmap's cell").Above(0.0);
+  fields.Add("scale", &ShapeParams::scale, "m", "height of a heightmap's full grey, or of 1 in CSV")
+      .Above(0.0);
 }
 
 std::shared_ptr<const ObstacleBody> MakeObstacleBody(const std::string& id,

@@ -38,10 +38,13 @@ enum class ShapeType {
   kCone,
   kEllipsoid,
   kHalfSpace,
-  kCompound
+  kCompound,
+  kCloud,
+  kHeightmap
 };
-inline constexpr std::array kShapeTypeNames{"sphere", "box",       "cylinder",   "capsule", "mesh",
-                                            "cone",   "ellipsoid", "half_space", "compound"};
+inline constexpr std::array kShapeTypeNames{"sphere",   "box",   "cylinder",  "capsule",
+                                            "mesh",     "cone",  "ellipsoid", "half_space",
+                                            "compound", "cloud", "heightmap"};
 inline std::span<const char* const> EnumNames(ShapeType) { return kShapeTypeNames; }
 
 /// A convex shape as files and JSON give it: a type, and just those sizes that the type has.
@@ -62,19 +65,23 @@ struct PartParams {
   static void Describe(Fields<PartParams>& fields);
 };
 
-/// Any shape; a compound has parts and no sizes.
+/// Any shape; a compound has parts and no sizes. A cloud or heightmap becomes a compound of balls
+/// or boxes.
 struct ShapeParams : SolidParams {
   std::vector<PartParams> parts{};
+  std::optional<double> cell{};
+  std::optional<double> scale{};
   static void Describe(Fields<ShapeParams>& fields);
 };
 
-/// Prepares an obstacle for distance queries; reads the mesh if it is one.
-/// throws ConfigError naming `where` for a missing, surplus or bad size, or a bad mesh
+/// Prepares an obstacle for distance queries; reads the file if it has one.
+/// throws ConfigError naming `where` for a missing, surplus or bad size, or a bad file
 std::shared_ptr<const ObstacleBody> MakeObstacleBody(const std::string& id,
                                                      const ShapeParams& shape,
                                                      const std::string& where);
 
-/// The inverse: the parameters that an obstacle was made from.
+/// The inverse: the parameters that an obstacle was made from; of a cloud or heightmap, those of
+/// the compound that it became.
 ShapeParams ShapeParamsOf(const ObstacleBody& body);
 
 }  // namespace oca::systems

@@ -4,10 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <limits>
 
 #include "framework/error.h"
 #include "tests/system_bench.h"
+#include "tests/temporary_folder.h"
 
 namespace oca::systems {
 namespace {
@@ -56,6 +58,49 @@ TEST(ObstacleSourceTest, HoldsTheBoxOfTheStaticTest) {
   EXPECT_EQ(std::get<models::Box>(set.obstacles[0].body->collider->shape()).size,
             Vector3d(0.2, 0.2, 0.2));
   EXPECT_EQ(set.obstacles[0].linear, Vector3d::Zero());
+}
+
+TEST(ObstacleSourceTest, PutsABallAroundEachPointOfACloud) {
+  const test::TemporaryFolder folder;
+  const std::string file = (folder.path() / "cloud.csv").string();
+  std::ofstream(file) << "0, 0, 1\n0, 2, 0\n";
+  ObstacleSource::ObstacleParams cloud = Ball("cloud", Vector3d::Zero());
+  cloud.shape.type = ShapeType::kCloud;
+  cloud.shape.file = file;
+  SystemBench<ObstacleSource> bench(ObstacleSource::Params{.obstacles = {cloud}});
+  const ObstacleSet& set = bench->obstacles.Eval(bench.context());
+  const auto& parts = std::get<models::Compound>(set.obstacles.at(0).body->collider->shape()).parts;
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_EQ(parts[1].X_SP.translation(), Vector3d(0.0, 2.0, 0.0));
+  EXPECT_EQ(std::get<models::Sphere>(parts[1].shape).radius, 0.1);
+}
+
+TEST(ObstacleSourceTest, RefusesACloudWithoutRadiusFileOrPoints) {
+  ObstacleSource::ObstacleParams cloud = Ball("cloud", Vector3d::Zero());
+  cloud.shape.type = ShapeType::kCloud;
+  EXPECT_THAT(RefusalOf({.obstacles = {cloud}}), HasSubstr("file: got none"));
+  cloud.shape.file = "missing.csv";
+  EXPECT_THAT(RefusalOf({.obstacles = {cloud}}), HasSubstr("missing.csv"));
+  cloud.shape.radius.reset();
+  EXPECT_THAT(RefusalOf({.obstacles = {cloud}}), HasSubstr("radius: got none"));
+}
+
+TEST(ObstacleSourceTest, RaisesABoxForACellOfAHeightmap) {
+  const test::TemporaryFolder folder;
+  const std::string file = (folder.path() / "heights.csv").string();
+  std::ofstream(file) << "1, 3\n";
+  ObstacleSource::ObstacleParams map = Ball("map", Vector3d::Zero());
+  map.shape.type = ShapeType::kHeightmap;
+  map.shape.radius.reset();
+  map.shape.file = file;
+  map.shape.cell = 0.5;
+  EXPECT_THAT(RefusalOf({.obstacles = {map}}), HasSubstr("scale: got none"));
+  map.shape.scale = 0.1;
+  SystemBench<ObstacleSource> bench(ObstacleSource::Params{.obstacles = {map}});
+  const ObstacleSet& set = bench->obstacles.Eval(bench.context());
+  const auto& parts = std::get<models::Compound>(set.obstacles.at(0).body->collider->shape()).parts;
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_NEAR(std::get<models::Box>(parts[1].shape).size.z(), 0.8, 1e-15);  // 0.3 and a cell
 }
 
 TEST(ObstacleSourceTest, IsEmptyWithoutObstacles) {
