@@ -241,8 +241,7 @@ void BulletDistance::AddObstacles(const LinkCollider& link, const Eigen::Isometr
     Proximity& proximity =
         result.proximities.emplace_back(ToProximity(link.link, obstacle.body->id, found));
     proximity.obstacle_velocity = obstacle.VelocityAt(found.point_b);
-    proximity.obstacle_speed = SpeedBound(obstacle.linear, obstacle.angular, obstacle.X_WO,
-                                          {collider.centre(), collider.bounding_radius()});
+    proximity.obstacle_speed = SpeedBound(obstacle);
   }
 }
 

@@ -18,12 +18,12 @@ namespace oca::systems {
 /// the updates of the instant.
 ///
 /// - min_distance: the least distance of all samples, with its pair and its time
-/// - certified_min_distance: a proved lower bound of the distance at every time, between the
-/// samples
-///   too: over each step, and for each pair, (before + after - travel) / 2, with what is not listed
-///   at its max_distance. travel bounds how far the link moves, from what the joints of `model`
-///   went, and the obstacle, from its speed. The proof takes for granted that no joint turns round
-///   within a step and no obstacle is faster in it than at either end
+/// - certified_min_distance: a proved lower bound of the distance at every time, also between the
+///   samples: over each step, and for each pair, (before + after - travel) / 2, with what is not
+///   listed at its max_distance. travel bounds how far the link moves, from what the joints of
+///   `model` went, and the obstacle, from the largest speed of its script. The proof takes for
+///   granted that no joint turns round within a step, that obstacles of other sources than
+///   ObstacleSource are not faster in it than at either end, and that none comes and goes in it
 /// - contact_time: sum of the times from samples at distance <= 0 to the next one
 /// - first_contact_time: of the first sample at distance <= 0
 /// - max_abs_delta: largest |delta| of any joint

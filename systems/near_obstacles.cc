@@ -20,12 +20,6 @@ models::Ball BallOf(const Obstacle& obstacle) {
   return {obstacle.X_WO * collider.centre(), collider.bounding_radius()};
 }
 
-double SpeedOf(const Obstacle& obstacle) {
-  const models::Collider& collider = *obstacle.body->collider;
-  return SpeedBound(obstacle.linear, obstacle.angular, obstacle.X_WO,
-                    {collider.centre(), collider.bounding_radius()});
-}
-
 }  // namespace
 
 double SpeedBound(const Eigen::Vector3d& linear, const Eigen::Vector3d& angular,
@@ -35,13 +29,20 @@ double SpeedBound(const Eigen::Vector3d& linear, const Eigen::Vector3d& angular,
   return (linear + angular.cross(X_WB.linear() * ball.centre)).norm() + turning * ball.radius;
 }
 
+double SpeedBound(const Obstacle& obstacle) {
+  const models::Collider& collider = *obstacle.body->collider;
+  return std::max(obstacle.body->fastest,
+                  SpeedBound(obstacle.linear, obstacle.angular, obstacle.X_WO,
+                             {collider.centre(), collider.bounding_radius()}));
+}
+
 void ObstacleScene::Follow(const ObstacleSet& set) {
   const auto& obstacles = set.obstacles;
   if (set.layout != 0 && set.layout == layout_) {
     fastest_ = 0.0;
     for (const int i : set.moving) {
       const Obstacle& obstacle = obstacles[static_cast<std::size_t>(i)];
-      fastest_ = std::max(fastest_, SpeedOf(obstacle));
+      fastest_ = std::max(fastest_, SpeedBound(obstacle));
       Move(i, obstacle);
     }
     return;
@@ -51,7 +52,7 @@ void ObstacleScene::Follow(const ObstacleSet& set) {
   fastest_ = 0.0;
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
     const Obstacle& obstacle = obstacles[i];
-    fastest_ = std::max(fastest_, SpeedOf(obstacle));
+    fastest_ = std::max(fastest_, SpeedBound(obstacle));
     if (obstacle.X_WO.matrix() != kept_[i].X_WO.matrix()) Move(static_cast<int>(i), obstacle);
   }
 }

@@ -64,6 +64,8 @@ class NearObstacles {
 /// moves with the given twist; m/s.
 double SpeedBound(const Eigen::Vector3d& linear, const Eigen::Vector3d& angular,
                   const Eigen::Isometry3d& X_WB, const models::Ball& ball);
+/// The same of an obstacle: at any time if its body knows, otherwise now.
+double SpeedBound(const Obstacle& obstacle);
 
 }  // namespace oca::systems
 

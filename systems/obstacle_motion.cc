@@ -102,12 +102,13 @@ Motion MakeLinear(const MotionParams& params, const Isometry3d& X_0, const std::
         fmt::format("{}.stop: got {} s; expected more than start, {} s", where, stop, start));
   }
   const Quaterniond R_0(X_0.linear());
-  return [=, p_0 = Vector3d(X_0.translation())](double time) -> MotionState {
+  const auto state = [=, p_0 = Vector3d(X_0.translation())](double time) -> MotionState {
     const double elapsed = std::clamp(time, start, stop) - start;
     const bool moves = time >= start && time < stop;
     return {PoseOf(p_0 + velocity * elapsed, Turned(angular * elapsed) * R_0),
             moves ? velocity : Vector3d::Zero(), moves ? angular : Vector3d::Zero()};
   };
+  return {state, velocity.norm(), angular.norm()};
 }
 
 Motion MakeSinusoidal(const MotionParams& params, const Isometry3d& X_0, const std::string& where) {
@@ -119,13 +120,14 @@ Motion MakeSinusoidal(const MotionParams& params, const Isometry3d& X_0, const s
     throw ConfigError(fmt::format("{}.frequency: got {} Hz; expected > 0", where, frequency));
   }
   const double rate = 2.0 * std::numbers::pi * frequency;
-  return [=](double time) -> MotionState {
-    MotionState state;
-    state.X_FO = X_0;
-    state.X_FO.translation() += amplitude * std::sin(rate * time + phase);
-    state.linear = amplitude * (rate * std::cos(rate * time + phase));
-    return state;
+  const auto state = [=](double time) -> MotionState {
+    MotionState now;
+    now.X_FO = X_0;
+    now.X_FO.translation() += amplitude * std::sin(rate * time + phase);
+    now.linear = amplitude * (rate * std::cos(rate * time + phase));
+    return now;
   };
+  return {state, rate * amplitude.norm(), 0.0};
 }
 
 Motion MakeCircular(const MotionParams& params, const Isometry3d& X_0, const std::string& where) {
@@ -141,11 +143,12 @@ Motion MakeCircular(const MotionParams& params, const Isometry3d& X_0, const std
   const Vector3d angular = given[0] * params.axis->normalized();
   const Quaterniond R_0(X_0.linear());
   const Vector3d arm = X_0.translation() - center;
-  return [=](double time) -> MotionState {
+  const auto state = [=](double time) -> MotionState {
     const Quaterniond turn = Turned(angular * time);
     const Vector3d arm_now = turn * arm;
     return {PoseOf(center + arm_now, turn * R_0), angular.cross(arm_now), angular};
   };
+  return {state, angular.cross(arm).norm(), angular.norm()};
 }
 
 /// A straight piece of a path, from one waypoint on.
@@ -192,7 +195,13 @@ std::vector<Piece> MakePieces(const std::vector<WaypointParams>& waypoints,
 
 Motion MakePath(const std::vector<WaypointParams>& waypoints, const Isometry3d& X_0,
                 const std::string& where) {
-  return [pieces = MakePieces(waypoints, Quaterniond(X_0.linear()), where)](double time) {
+  const auto pieces = MakePieces(waypoints, Quaterniond(X_0.linear()), where);
+  double fastest = 0.0, turning = 0.0;
+  for (const Piece& piece : pieces) {
+    fastest = std::max(fastest, piece.velocity.norm());
+    turning = std::max(turning, piece.angular.norm());
+  }
+  const auto state = [pieces](double time) {
     const auto after =
         std::upper_bound(pieces.begin(), pieces.end(), time,
                          [](double t, const Piece& piece) { return t < piece.time; });
@@ -205,6 +214,7 @@ Motion MakePath(const std::vector<WaypointParams>& waypoints, const Isometry3d& 
                               Turned(piece.angular * elapsed) * piece.rotation),
                        piece.velocity, piece.angular};
   };
+  return {state, fastest, turning};
 }
 
 }  // namespace
@@ -255,7 +265,10 @@ Motion MakeMotion(const MotionParams& params, const Isometry3d& X_0, const std::
       keys.Check({"file"});
       return MakePath(ReadWaypoints(*params.file), X_0, *params.file);
   }
-  return [X_0](double) -> MotionState { return {X_0, Vector3d::Zero(), Vector3d::Zero()}; };
+  return {[X_0](double) -> MotionState {
+            return {X_0, Vector3d::Zero(), Vector3d::Zero()};
+          },
+          0.0, 0.0};
 }
 
 }  // namespace oca::systems

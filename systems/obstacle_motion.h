@@ -52,7 +52,13 @@ struct MotionState {
 
 /// A scripted motion: the state at a time in s, of which the velocities are the derivative of the
 /// pose, at corners the one to the right. Calls do not allocate.
-using Motion = std::function<MotionState(double time)>;
+struct Motion {
+  std::function<MotionState(double time)> state;
+  double fastest{0.0};  ///< |linear| is never larger, m/s
+  double turning{0.0};  ///< |angular| is never larger, rad/s
+
+  MotionState operator()(double time) const { return state(time); }
+};
 
 /// A motion that starts from the pose X_0 = (p_0, R_0) in the frame:
 ///

@@ -58,6 +58,17 @@ void Place(Obstacle& obstacle, const Eigen::Isometry3d& X_WF, const MotionState&
   obstacle.angular = X_WF.linear() * state.angular;
 }
 
+// The body, and how fast any of its points ever gets.
+std::shared_ptr<const ObstacleBody> WithSpeed(const ObstacleBody& body, const Motion& motion) {
+  const auto fast = std::make_shared<ObstacleBody>(body);
+  fast->fastest = motion.fastest;
+  if (motion.turning > 0.0) {  // what has no end does not turn
+    fast->fastest +=
+        motion.turning * (body.collider->centre().norm() + body.collider->bounding_radius());
+  }
+  return fast;
+}
+
 Eigen::Isometry3d StartPose(const ObstacleSource::ObstacleParams& params,
                             const std::string& where) {
   const bool positions_elsewhere = HasOwnPositions(params.motion);
@@ -142,6 +153,7 @@ ObstacleSource::Entry ObstacleSource::MakeEntry(const ObstacleParams& params,
               !params.motion || params.motion->type == MotionType::kStatic};
   entry.motion = MakeMotion(params.motion.value_or(MotionParams{}),
                             StartPose(params, where + ".pose"), where + ".motion");
+  entry.body = WithSpeed(*entry.body, entry.motion);
   if (!(entry.appear < entry.disappear)) {
     throw ConfigError(fmt::format("{}.disappear: got {} s; expected more than appear, {} s", where,
                                   entry.disappear, entry.appear));

@@ -24,6 +24,8 @@ struct ObstacleBody {
   models::Name id;
   std::shared_ptr<const models::Collider> collider;
   std::string file;  ///< of a mesh, as the user wrote it
+  /// No point of it is ever faster, m/s; 0 if nothing is known beyond its present velocity.
+  double fastest{0.0};
 };
 
 /// An obstacle at one instant. `linear` and `angular` velocity (m/s, rad/s) are those of its

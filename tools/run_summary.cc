@@ -21,13 +21,22 @@ std::string Line(const char* label, const std::string& text) {
   return fmt::format("  {:<13}{}\n", label, text);
 }
 
+/// What is known of the times between the samples.
+std::string Certificate(const ordered_json& metrics) {
+  const auto& certified = metrics.value("certified_min_distance", ordered_json());
+  if (!certified.is_number()) return "; between the samples nothing is known";
+  if (certified.get<double>() <= 0.0) return "; between the samples a contact is not ruled out";
+  return fmt::format("; {:.3f} m or more at every time", certified.get<double>());
+}
+
 std::string ClearanceLine(const ordered_json& metrics, bool colour) {
   const auto& distance = metrics.value("min_distance", ordered_json());
   if (!distance.is_number()) {
     const bool looked = metrics.value("contact_time", ordered_json()).is_number();
     return looked ? Line("clearance", Good("clear", colour) +
                                           ": nothing came within reach of the "
-                                          "distance measurement")
+                                          "distance measurement" +
+                                          Certificate(metrics))
                   : "";
   }
   const auto& pair = metrics["min_distance_pair"];
@@ -38,14 +47,8 @@ std::string ClearanceLine(const ordered_json& metrics, bool colour) {
   }
   const double nearest = distance.get<double>();
   if (nearest > 0.0) {
-    const auto& certified = metrics.value("certified_min_distance", ordered_json());
-    if (certified.is_number() && certified.get<double>() <= 0.0) {
-      where += "; between the samples a contact is not ruled out";
-    } else if (certified.is_number()) {
-      where += fmt::format("; {:.3f} m or more at every time", certified.get<double>());
-    }
-    return Line("clearance",
-                Good("clear", colour) + fmt::format(": nearest {:.3f} m", nearest) + where);
+    return Line("clearance", Good("clear", colour) + fmt::format(": nearest {:.3f} m", nearest) +
+                                 where + Certificate(metrics));
   }
   return Line("clearance",
               Bad("CONTACT", colour) + fmt::format(": {:.3f} m deep", -nearest) + where +

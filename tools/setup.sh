@@ -8,7 +8,9 @@ preset=${1:-release}
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=true
 [ $# -gt 0 ] && shift
 
-mapfile -t packages < <(grep -v '^#' tools/packages.txt; printf '%s\n' ${EXTRA_PACKAGES:-})
+read -ra extra <<< "${EXTRA_PACKAGES:-}"
+mapfile -t packages < <(grep -v '^#' tools/packages.txt)
+packages+=("${extra[@]}")
 missing=()
 for package in "${packages[@]}"; do
   dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
