@@ -76,16 +76,14 @@ double MotionTally::LeastInStep(const MotionSample& sample, double step) {
         std::max(before ? before->obstacle_speed : fastest_, proximity.obstacle_speed);
     const double travel =
         TravelOf(model, proximity.link) + TravelOf(model, proximity.own_link) + step * speed;
-    // Without a `before` the obstacle came near, or there was none.
-    least =
-        std::min(least, before ? LeastDistanceBetween(before->distance, proximity.distance, travel)
-                               : std::min(reach_, proximity.distance - travel));
+    least = std::min(least, LeastDistanceBetween(before ? before->distance : reach_,
+                                                 proximity.distance, travel));
   }
   for (const Pair& pair : pairs_) {
     if (pair.found) continue;
     const double travel = TravelOf(model, pair.link) + TravelOf(model, pair.own_link) +
                           step * std::max(pair.obstacle_speed, now.fastest);
-    least = std::min({least, now.max_distance, pair.distance - travel});
+    least = std::min(least, LeastDistanceBetween(pair.distance, now.max_distance, travel));
   }
   return least;
 }

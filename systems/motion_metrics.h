@@ -23,7 +23,8 @@ namespace oca::systems {
 ///   listed at its max_distance. travel bounds how far the link moves, from what the joints of
 ///   `model` went, and the obstacle, from the largest speed of its script. The proof takes for
 ///   granted that no joint turns round within a step, that obstacles of other sources than
-///   ObstacleSource are not faster in it than at either end, and that none comes and goes in it
+///   ObstacleSource are not faster in it than at either end, and that obstacles appear and vanish
+///   at samples only
 /// - contact_time: sum of the times from samples at distance <= 0 to the next one
 /// - first_contact_time: of the first sample at distance <= 0
 /// - max_abs_delta: largest |delta| of any joint

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -104,6 +105,22 @@ TEST(ObstacleMotionTest, HasTheRateOfItsPoseAsTwist) {
   }
   ExpectTwistIsTheRateOfThePose(Make(Waypoints()), 3.5);
   ExpectTwistIsTheRateOfThePose(Make(Waypoints()), 0.5);
+}
+
+TEST(ObstacleMotionTest, KnowsTheLargestSpeedsOfItsScript) {
+  for (const MotionParams& params : {Linear(), Sinusoidal(), Circular(), Waypoints()}) {
+    const Motion motion = Make(params);
+    double fastest = 0.0, turning = 0.0;
+    for (int i = -20000; i < 20000; ++i) {
+      const MotionState state = motion(1e-3 * i);
+      fastest = std::max(fastest, state.linear.norm());
+      turning = std::max(turning, state.angular.norm());
+    }
+    EXPECT_LE(fastest, motion.fastest * (1.0 + 1e-12));
+    EXPECT_GE(fastest, motion.fastest * (1.0 - 1e-4));
+    EXPECT_NEAR(turning, motion.turning, 1e-12);
+  }
+  EXPECT_EQ(Make(MotionParams{}).fastest, 0.0);
 }
 
 TEST(ObstacleMotionTest, LinearMovesBetweenStartAndStopOnly) {

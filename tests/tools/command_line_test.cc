@@ -240,6 +240,14 @@ TEST_F(CommandLineTest, OverridesWinOverTheFile) {
   EXPECT_FALSE(result["expectations"][0]["ok"].get<bool>());
 }
 
+TEST_F(CommandLineTest, AnObstacleThatFliesPastBetweenTwoSamplesIsNotCalledClear) {
+  const Ran ran =
+      run("$S run diagrams/dynamic_test.yaml -s parameters.obstacle_speed=400 "
+          "-s parameters.obstacle_start=0.502 -s parameters.obstacle_stop=0.508");
+  EXPECT_THAT(ran.out, HasSubstr("a contact is not ruled out"));
+  EXPECT_THAT(run("$S run diagrams/dynamic_test.yaml").out, HasSubstr("m or more at every time"));
+}
+
 TEST_F(CommandLineTest, CheckSaysALineAFile) {
   const Ran ran = run("$S check diagrams/static_test.yaml " + Small() + " missing.yaml");
   EXPECT_EQ(ran.status, 2);
