@@ -11,9 +11,14 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 quick=false
 [ "${1:-}" = --quick ] && quick=true && shift
+if [[ "${1:-}" == -* || $# -gt 1 ]]; then
+  sed -n 's/^# \?//p' "$0" | sed -n 3,9p >&2
+  [ "${1:-}" = --help ] && exit 0
+  exit 64
+fi
 filter=${1:-.}
 
-tools/setup.sh bench oca_bench
+EXTRA_PACKAGES=$($quick || echo valgrind) tools/setup.sh bench oca_bench
 cmake --preset release -DOCA_BENCHMARKS=ON >/dev/null
 tools/setup.sh release oca_bench
 
