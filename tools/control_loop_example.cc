@@ -34,13 +34,23 @@ void Request(double t, Eigen::VectorXd& q) {
       30.0 * pi / 180, 0.0;
 }
 
-/// What a robot does about a failure is its own affair; here it holds still.
-bool Fine(const Status& status) {
-  if (!status.ok()) std::fprintf(stderr, "holding still: %s\n", status.message());
-  return status.ok();
-}
+/// What a robot does about a failure is its own affair; here it holds still, and says why once.
+class Guard {
+ public:
+  bool Fine(const Status& status) {
+    if (!status.ok() && failures_++ == 0) {
+      std::fprintf(stderr, "holding still: %s\n", status.message());
+    }
+    return status.ok();
+  }
+  long failures() const { return failures_; }
 
-void Run(const char* file, double seconds) {
+ private:
+  long failures_{0};
+};
+
+/// Exit status: 0 if every tick went well.
+int Run(const char* file, double seconds) {
   // Load once. The limiter and its like work at the loop's rate.
   const auto avoidance = oca::diagrams::LoadPart(
       file, {"kinematics", "distance", "field", "wrenches", "mapping", "relaxation", "limiter"},
@@ -59,7 +69,8 @@ void Run(const char* file, double seconds) {
 
   oca::ControlLoop loop(diagram, oca::Period(1, 1000));
   loop.Watch(delta);
-  if (!Fine(loop.Set(measured, q)) || !Fine(loop.Set(obstacles, scene))) return;
+  Guard guard;
+  if (!guard.Fine(loop.Set(measured, q)) || !guard.Fine(loop.Set(obstacles, scene))) return 1;
   loop.Initialize();
 
   // From here on: no exception, no heap.
@@ -72,7 +83,8 @@ void Run(const char* file, double seconds) {
     std::this_thread::sleep_until(start + std::chrono::microseconds(1000 * k));
     const auto woken = Clock::now();
     scene.obstacles[0].X_WO.translation().z() = 1.0 + 0.02 * std::sin(t);
-    if (Fine(loop.Set(measured, q)) && Fine(loop.Set(obstacles, scene)) && Fine(loop.Tick())) {
+    if (guard.Fine(loop.Set(measured, q)) && guard.Fine(loop.Set(obstacles, scene)) &&
+        guard.Fine(loop.Tick())) {
       Request(t, request);
       q = request + loop.Get(delta);  // the command; the joints follow it
     }
@@ -83,14 +95,24 @@ void Run(const char* file, double seconds) {
   }
   std::printf("%ld ticks of 1 ms; %.1f us each, the longest %.1f us; largest delta %.3f rad\n",
               ticks, 1e6 * total / static_cast<double>(std::max(ticks, 1L)), 1e6 * worst, largest);
+  if (guard.failures() == 0) return 0;
+  std::fprintf(stderr, "held still %ld times\n", guard.failures());
+  return 1;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  char* end = nullptr;
+  const double seconds = argc > 2 ? std::strtod(argv[2], &end) : 12.0;
+  const bool usable = argc < 3 || (end != argv[2] && *end == '\0');
+  if (argc > 3 || (argc > 1 && argv[1][0] == '-') || !usable ||
+      !(seconds >= 0.0 && seconds <= 1e6)) {
+    std::fprintf(stderr, "usage: control_loop_example [FILE [SECONDS]]; SECONDS from 0 to 1e6\n");
+    return 64;
+  }
   try {
-    Run(argc > 1 ? argv[1] : "diagrams/static_test.yaml", argc > 2 ? std::atof(argv[2]) : 12.0);
-    return 0;
+    return Run(argc > 1 ? argv[1] : "diagrams/static_test.yaml", seconds);
   } catch (const std::exception& error) {  // only while setting up
     std::fprintf(stderr, "%s\n", error.what());
     return 2;
