@@ -146,7 +146,7 @@ TEST_F(CommandLineTest, MisusedWordsEndWithSixtyFourAndASuggestion) {
 }
 
 TEST_F(CommandLineTest, AnInterruptEndsWithOneHundredAndThirtyAndCompleteRecords) {
-  const Ran ran = run("timeout --preserve-status -s INT 1 $S run " + Small() +
+  const Ran ran = run("timeout --foreground --preserve-status -s INT 1 $S run " + Small() +
                       " -t 1e6 --json --csv " + run.folder().path().string() + "/csv");
   EXPECT_EQ(ran.status, 130);
   const json result = json::parse(ran.out);
