@@ -98,11 +98,13 @@ TEST(MotionMetricsTest, HasNoValueWithoutASource) {
   Bench bench({});
   std::string text;
   Signal<MotionMetricsValue>::WriteJson(bench.At(1.0), text);
-  EXPECT_EQ(text, R"({"min_distance":null,"min_distance_pair":null,"min_distance_time":null,)"
-                  R"("certified_min_distance":null,"contact_time":null,"first_contact_time":null,"max_abs_delta":null,)"
-                  R"("final_error":null,"delta_sign_changes_per_second":null,)"
-                  R"("total_variation_ratio":null,"max_joint_speed":null,)"
-                  R"("max_joint_acceleration":null})");
+  EXPECT_EQ(
+      text,
+      R"({"min_distance":null,"min_distance_pair":null,"min_distance_time":null,)"
+      R"("certified_min_distance":null,"contact_time":null,"first_contact_time":null,"max_abs_delta":null,)"
+      R"("final_error":null,"delta_sign_changes_per_second":null,)"
+      R"("total_variation_ratio":null,"max_joint_speed":null,)"
+      R"("max_joint_acceleration":null})");
 }
 
 TEST(MotionMetricsTest, FindsTheLeastDistanceItsPairAndItsTime) {
