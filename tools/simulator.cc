@@ -17,6 +17,18 @@
 namespace oca::tools {
 namespace {
 
+/// Digits only: a conversion to an unsigned number would wrap what is negative.
+CLI::Validator WholeNumber(std::size_t most_digits) {
+  return CLI::Validator(
+      [most_digits](std::string& text) -> std::string {
+        const bool digits = text.find_first_not_of("0123456789") == std::string::npos;
+        if (digits && !text.empty() && text.size() <= most_digits) return "";
+        return fmt::format("got '{}'; expected a whole number of at most {} digits", text,
+                           most_digits);
+      },
+      "");
+}
+
 /// The command line: one subcommand, whose arguments are bound to the structs of commands.h.
 class CommandLine {
  public:
@@ -72,8 +84,7 @@ class CommandLine {
     run->add_option("-s,--set", run_.overrides, "PATH=VALUE: override a value of the file")
         ->allow_extra_args(false);
     run->add_option("-t,--duration", run_.duration, "seconds to simulate, instead of the file's");
-    run->add_option("--seed", run_.seed, "seed of everything random")
-        ->check(CLI::NonNegativeNumber);
+    run->add_option("--seed", run_.seed, "seed of everything random")->check(WholeNumber(19));
     run->add_option("--csv", run_.csv_folder, "folder to write the recorded signals to");
     run->add_option("--record", run_.record, "MCAP file to record the run into");
     run->add_option("--record-compression", run_.record_compression, "none, lz4 or zstd")
@@ -147,8 +158,11 @@ class CommandLine {
     check->add_option("--write-srdf", collisions_.write_srdf,
                       "file to write the pairs to; what else it holds is kept");
     check->add_option("--samples", collisions_.samples, "random positions to look at")
+        ->check(WholeNumber(8))
         ->capture_default_str();
-    check->add_option("--seed", collisions_.seed, "of the random positions")->capture_default_str();
+    check->add_option("--seed", collisions_.seed, "of the random positions")
+        ->check(WholeNumber(19))
+        ->capture_default_str();
     check
         ->add_option("--margin", collisions_.margin,
                      "m; a pair that comes nearer counts as one that may collide")

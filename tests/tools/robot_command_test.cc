@@ -61,6 +61,12 @@ TEST_F(RobotCommandTest, JsonHoldsAllPairs) {
 
 TEST_F(RobotCommandTest, RefusesWhatItCannotDo) {
   EXPECT_EQ(run("$S robot check-collisions package://lwr4/lwr4.urdf --samples 0").status, 2);
+  for (const char* words : {"--seed -1", "--samples 1000000000", "--samples 1e3"}) {
+    const Ran refused =
+        run(std::string("$S robot check-collisions package://lwr4/lwr4.urdf ") + words);
+    EXPECT_EQ(refused.status, 64) << words;
+    EXPECT_THAT(refused.err, HasSubstr("expected a whole number")) << words;
+  }
   EXPECT_EQ(run(check_ + "--margin -1").status, 2);
   EXPECT_EQ(run("$S robot check-collisions missing.urdf").status, 2);
   EXPECT_EQ(run(check_ + "--write-srdf /nowhere/at/all.srdf").status, 2);
