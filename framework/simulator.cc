@@ -363,6 +363,7 @@ void Simulator::Integrate(double to) {
       ++statistics_.crossings;
     }
   } catch (...) {
+    statistics_.integrator = integrator_->statistics();  // what was spent in vain counts
     plan.SetTimeAndState(context_, from, saved_state_.data());
     ForgetPending(System::Stage::kReset);
     restart_ = true;
