@@ -28,3 +28,5 @@ list(APPEND sources
   robot/xml_reader.cc)
 list(APPEND headers robot/travel_bound.h)
 list(APPEND sources robot/travel_bound.cc)
+list(APPEND headers robot/link_colliders.h)
+list(APPEND sources robot/link_colliders.cc)

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "models/planning/clearance.h"
+#include "models/robot/travel_bound.h"
+
+namespace oca::models {
+
+/// Proves that a robot stays clear of bodies at rest on a straight motion of its joints.
+///
+/// From a position at which every pair is `d` apart the joints may go on until a bound of the
+/// links' travel has used up `d - clearance`; there the distances are taken anew. So what is found
+/// clear is clear everywhere, not at samples only.
+/// source conservative advancement: Mirtich 1996; the bound: TravelBound
+class CertifiedMotion {
+ public:
+  /// Every pair has to stay more than `margin` (m) apart. The clearance must outlive this.
+  CertifiedMotion(Clearance& clearance, double margin);
+
+  /// Whether the position itself is clear.
+  bool Clear(const Eigen::Ref<const Eigen::VectorXd>& q);
+  /// Whether the motion from q_0 to q_1 is.
+  bool Clear(const Eigen::Ref<const Eigen::VectorXd>& q_0,
+             const Eigen::Ref<const Eigen::VectorXd>& q_1);
+  /// The share of the motion from q_0 to q_1, from its start, that is proved clear; 0 to 1.
+  double ClearShare(const Eigen::Ref<const Eigen::VectorXd>& q_0,
+                    const Eigen::Ref<const Eigen::VectorXd>& q_1);
+
+ private:
+  /// How far the joints may go on along `path` (one entry a position), as a share of it.
+  double FreeShare();
+
+  Clearance& clearance_;
+  const double margin_;
+  const TravelBound bound_;
+  Eigen::VectorXd q_, path_;
+  std::vector<double> distances_, own_distances_, travel_;
+};
+
+}  // namespace oca::models

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "models/planning/clearance.h"
+
+namespace oca::models {
+
+struct RrtOptions {
+  std::uint64_t seed{0};
+  double margin{0.01};   ///< m; everything stays farther apart than this
+  int most_nodes{5000};  ///< of both trees together
+  double step{0.5};      ///< rad; longest edge
+  int shortcuts{200};    ///< attempts to shorten what was found; 0: as it is
+};
+
+/// A path of straight joint motions from `start` to `goal` on which the robot stays clear of the
+/// bodies of `clearance`, both ends included; nothing if a tree of `most_nodes` has found none.
+///
+/// Two trees grow from the ends, each towards random positions within the joint limits (a joint
+/// without limits: within half a turn of both ends) and then as far as it can towards the other's
+/// new node. Every edge is proved clear by CertifiedMotion, so that the answer holds between the
+/// points too. The same arguments give the same path. Allocates.
+/// source Kuffner, LaValle, RRT-Connect: An Efficient Approach to Single-Query Path Planning, 2000
+std::optional<std::vector<Eigen::VectorXd>> RrtConnect(Clearance& clearance,
+                                                       const Eigen::VectorXd& start,
+                                                       const Eigen::VectorXd& goal,
+                                                       const RrtOptions& options = {});
+
+/// Replaces pieces between random points of a path by straight motions where those are clear.
+void Shorten(Clearance& clearance, const RrtOptions& options, std::vector<Eigen::VectorXd>& path);
+
+}  // namespace oca::models
