@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "models/robot/inverse_kinematics.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <span>
+
+#include "models/error.h"
+#include "models/planning/clearance.h"
+#include "models/robot/attach_objects.h"
+#include "models/robot/kinematics.h"
+#include "models/robot/pose_error.h"
+#include "models/robot/urdf.h"
+#include "random_robot.h"
+
+namespace oca::models::test {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double kPi = std::numbers::pi;
+
+RobotModel Arm(const std::string& name) {
+  return LoadUrdf(ProductFile("robots/" + name + "/" + name + ".urdf"));
+}
+
+Eigen::Isometry3d TipPose(const RobotModel& model, const Eigen::VectorXd& q) {
+  return LinkPoses(model, q)[TipLink(model)];
+}
+
+PostureSolution SolveTip(const RobotModel& model, const Eigen::Isometry3d& X_WG,
+                         const Eigen::VectorXd& start,
+                         const InverseKinematicsSettings& settings = {}) {
+  return SolveInverseKinematics(model, TipLink(model), X_WG, start, settings);
+}
+
+void ExpectWithinLimits(const RobotModel& model, const Eigen::VectorXd& q) {
+  EXPECT_TRUE((q.array() >= model.lower_limits().array()).all()) << q.transpose();
+  EXPECT_TRUE((q.array() <= model.upper_limits().array()).all()) << q.transpose();
+}
+
+Eigen::VectorXd PostureWithin(const RobotModel& model, Random& random) {
+  Eigen::VectorXd q(model.num_positions());
+  for (Eigen::Index j = 0; j < q.size(); ++j) {
+    q[j] = Uniform(random, model.lower_limits()[j], model.upper_limits()[j]);
+  }
+  return q;
+}
+
+Eigen::VectorXd Bent() {
+  return (Eigen::VectorXd(7) << 0.3, 0.8, -0.2, -1.2, 0.4, 0.9, -0.5).finished();
+}
+
+TEST(PoseErrorTest, IsZeroAtTheGoalAndTheTurnElsewhere) {
+  Random random(1);
+  const Eigen::Isometry3d X_WG = RandomPose(random);
+  EXPECT_LT(PoseError(X_WG, X_WG).norm(), 1e-15);
+  for (const double angle : {1e-9, 0.1, 3.0, kPi - 1e-7}) {
+    Eigen::Isometry3d X_WL = X_WG;
+    const Eigen::Vector3d axis = RandomUnitVector(random);
+    X_WL.linear() = Eigen::AngleAxisd(angle, axis) * X_WG.linear();
+    X_WL.translation() += Eigen::Vector3d(1.0, 2.0, 3.0);
+    const Vector6 error = PoseError(X_WL, X_WG);
+    EXPECT_LT((error.head<3>() - Eigen::Vector3d(1.0, 2.0, 3.0)).norm(), 1e-14);
+    EXPECT_LT((error.tail<3>() - angle * axis).norm(), 1e-8 * angle + 1e-15) << angle;
+  }
+}
+
+TEST(PoseErrorTest, HasTheDerivativeThatDifferencesShow) {
+  Random random(2);
+  constexpr double kStep = 1e-6;
+  for (int trial = 0; trial < 20; ++trial) {
+    const RobotModel model = RandomRobot(random, 7, trial % 2 == 0);
+    const int link = model.num_links() - 1;
+    const Eigen::VectorXd q = RandomPositions(model, random);
+    const auto X_WL = LinkPoses(model, q);
+    Eigen::Isometry3d X_WG = RandomPose(random);
+    if (trial < 4) X_WG = X_WL[link];  // at the goal itself
+    Eigen::MatrixXd J(6, q.size());
+    PoseErrorJacobian(model, X_WL, link, X_WG, J);
+    for (Eigen::Index j = 0; j < q.size(); ++j) {
+      const Eigen::VectorXd step = kStep * Eigen::VectorXd::Unit(q.size(), j);
+      const Vector6 difference = PoseError(LinkPoses(model, q + step)[link], X_WG) -
+                                 PoseError(LinkPoses(model, q - step)[link], X_WG);
+      if (difference.norm() > 1.0) continue;  // over the half turn, where the error jumps
+      EXPECT_LT((difference / (2.0 * kStep) - J.col(j)).norm(), 1e-6 * (1.0 + J.col(j).norm()));
+    }
+  }
+}
+
+class ArmTest : public testing::TestWithParam<const char*> {};
+
+TEST_P(ArmTest, ReachesWhatItReachedBefore) {
+  const RobotModel model = Arm(GetParam());
+  Random random(3);
+  const Eigen::VectorXd start = Eigen::VectorXd::Constant(model.num_positions(), 0.3);
+  int reached = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const Eigen::Isometry3d X_WG = TipPose(model, PostureWithin(model, random));
+    const PostureSolution found = SolveTip(model, X_WG, start);
+    ExpectWithinLimits(model, found.q);
+    const Vector6 error = PoseError(TipPose(model, found.q), X_WG);
+    EXPECT_NEAR(found.position_error, error.head<3>().norm(), 1e-12);
+    EXPECT_NEAR(found.rotation_error, error.tail<3>().norm(), 1e-12);
+    EXPECT_NEAR(found.change, (found.q - start).norm(), 1e-12);
+    EXPECT_EQ(found.reached, found.position_error <= 1e-6 && found.rotation_error <= 1e-6);
+    if (found.reached) ++reached;
+  }
+  EXPECT_GE(reached, 297);
+}
+
+TEST_P(ArmTest, ReachesPosesAtItsLimits) {
+  const RobotModel model = Arm(GetParam());
+  Random random(4);
+  for (int trial = 0; trial < 50; ++trial) {
+    Eigen::VectorXd q = PostureWithin(model, random);
+    for (Eigen::Index j = trial % 2; j < q.size(); j += 2) {
+      q[j] = trial % 3 == 0 ? model.lower_limits()[j] : model.upper_limits()[j];
+    }
+    const PostureSolution found =
+        SolveTip(model, TipPose(model, q), Eigen::VectorXd::Zero(q.size()));
+    EXPECT_TRUE(found.reached) << trial;
+    ExpectWithinLimits(model, found.q);
+  }
+}
+
+TEST_P(ArmTest, ReachesTheStretchedArm) {
+  const RobotModel model = Arm(GetParam());
+  const Eigen::VectorXd stretched = Eigen::VectorXd::Zero(model.num_positions());
+  const Eigen::VectorXd start = Eigen::VectorXd::Constant(model.num_positions(), 0.5);
+  EXPECT_TRUE(SolveTip(model, TipPose(model, stretched), start).reached);
+}
+
+TEST_P(ArmTest, StaysWhereItIsAtTheGoal) {
+  const RobotModel model = Arm(GetParam());
+  Random random(5);
+  const Eigen::VectorXd q = PostureWithin(model, random);
+  const PostureSolution found = SolveTip(model, TipPose(model, q), q);
+  EXPECT_TRUE(found.reached);
+  EXPECT_EQ(found.starts, 1);
+  EXPECT_LT(found.change, 1e-9);
+}
+
+TEST_P(ArmTest, GivesTheSameAnswerTwiceAndAnotherForAnotherSeed) {
+  const RobotModel model = Arm(GetParam());
+  Random random(6);
+  const Eigen::VectorXd start = PostureWithin(model, random);
+  const Eigen::Isometry3d X_WG = TipPose(model, PostureWithin(model, random));
+  Eigen::Isometry3d X_WF = X_WG;  // out of reach, so that all starts are tried
+  X_WF.translation() *= 10.0;
+  InverseKinematicsSettings settings;
+  for (const Eigen::Isometry3d& goal : {X_WG, X_WF}) {
+    const Eigen::VectorXd q = SolveTip(model, goal, start, settings).q;
+    EXPECT_EQ(SolveTip(model, goal, start, settings).q, q);
+  }
+  const Eigen::VectorXd q = SolveTip(model, X_WF, start, settings).q;
+  settings.seed = 1;
+  EXPECT_NE(SolveTip(model, X_WF, start, settings).q, q);
+}
+
+TEST_P(ArmTest, TellsHowFarAGoalIsOutOfReach) {
+  const RobotModel model = Arm(GetParam());
+  const Eigen::VectorXd start = Eigen::VectorXd::Constant(model.num_positions(), 0.3);
+  Eigen::Isometry3d X_WG = TipPose(model, start);
+  X_WG.translation() = Eigen::Vector3d(0.0, 0.0, 50.0);
+  const PostureSolution found = SolveTip(model, X_WG, start);
+  EXPECT_FALSE(found.reached);
+  EXPECT_EQ(found.starts, 200);
+  ExpectWithinLimits(model, found.q);
+  EXPECT_GT(found.position_error, 48.0);
+  EXPECT_LT(found.position_error, 50.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Arms, ArmTest, testing::Values("lwr4", "iiwa14", "ur5e"),
+                         [](const auto& instance) { return std::string(instance.param); });
+
+TEST(InverseKinematicsTest, TheToleranceDecidesFromBothSides) {
+  const RobotModel model = Arm("planar2");
+  Eigen::Isometry3d X_WG = TipPose(model, Eigen::Vector2d(0.4, 0.8));
+  X_WG.linear() = X_WG.linear() * Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitX());
+  InverseKinematicsSettings settings;  // the arm cannot leave its plane
+  settings.rotation_tolerance = 0.0101;
+  EXPECT_TRUE(SolveTip(model, X_WG, Eigen::Vector2d(0.1, 0.1), settings).reached);
+  settings.rotation_tolerance = 0.0099;
+  const PostureSolution found = SolveTip(model, X_WG, Eigen::Vector2d(0.1, 0.1), settings);
+  EXPECT_FALSE(found.reached);
+  EXPECT_NEAR(found.rotation_error, 0.01, 1e-6);
+}
+
+TEST(InverseKinematicsTest, TakesThePostureNearestToTheStart) {
+  const RobotModel model = Arm("lwr4");
+  const Eigen::Isometry3d X_WG = TipPose(model, Bent());
+  const Eigen::VectorXd start =
+      Bent() + (Eigen::VectorXd(7) << 0.2, -0.1, 0.3, 0.1, -0.3, 0.1, 0.2).finished();
+  const PostureSolution found = SolveTip(model, X_WG, start);
+  ASSERT_TRUE(found.reached);
+  EXPECT_LT(found.change, (Bent() - start).norm());
+  // Nearest: the way to the start is across the one motion that keeps the tip.
+  const int tip = TipLink(model);
+  Eigen::MatrixXd J(6, 7);
+  LinkJacobian(model, LinkPoses(model, found.q), tip, J);
+  const Eigen::VectorXd still = J.fullPivLu().kernel().col(0).normalized();
+  EXPECT_LT(std::fabs(still.dot(start - found.q)), 1e-4);
+}
+
+TEST(InverseKinematicsTest, MoreSolutionsAreNoFartherFromTheStart) {
+  const RobotModel model = Arm("ur5e");
+  Random random(8);
+  double change_of_one = 0.0;
+  double change_of_many = 0.0;
+  for (int trial = 0; trial < 30; ++trial) {
+    const Eigen::VectorXd start = 0.5 * PostureWithin(model, random);
+    const Eigen::Isometry3d X_WG = TipPose(model, PostureWithin(model, random));
+    InverseKinematicsSettings settings;
+    const PostureSolution one = SolveTip(model, X_WG, start, settings);
+    settings.solutions = 16;
+    const PostureSolution many = SolveTip(model, X_WG, start, settings);
+    ASSERT_TRUE(one.reached && many.reached);
+    EXPECT_LE(many.change, one.change);
+    // No joint is a whole turn farther from the start than it could be.
+    EXPECT_LE((many.q - start).cwiseAbs().maxCoeff(), kPi + 1e-9);
+    change_of_one += one.change;
+    change_of_many += many.change;
+  }
+  EXPECT_LT(change_of_many, 0.95 * change_of_one);
+}
+
+TEST(InverseKinematicsTest, LeavesJointsThatDoNotCarryTheLink) {
+  const RobotModel model = Arm("lwr4_dual");
+  Random random(9);
+  const Eigen::VectorXd start = PostureWithin(model, random);
+  const int link = model.FindLink("right_lwr4_flange");
+  const Eigen::Isometry3d X_WG = LinkPoses(model, PostureWithin(model, random))[link];
+  const PostureSolution found = SolveInverseKinematics(model, link, X_WG, start);
+  ASSERT_TRUE(found.reached);
+  EXPECT_EQ(found.q.head<7>(), start.head<7>());
+}
+
+TEST(InverseKinematicsTest, KeepsAwayFromAnObstacleIfItCan) {
+  const auto model = std::make_shared<const RobotModel>(Arm("lwr4"));
+  const int tip = TipLink(*model);
+  const auto X_WL = LinkPoses(*model, Bent());
+  // A ball beside the elbow, which the redundant joint can turn away.
+  const Eigen::Vector3d elbow = X_WL[model->FindLink("lwr4_link_4")].translation();
+  PlacedBody ball{MakeCollider(Sphere{0.05}, "ball"), Eigen::Isometry3d::Identity()};
+  ball.X_WO.translation() = elbow + Eigen::Vector3d(0.0, 0.16, 0.0);
+  Clearance surroundings(model, false, {ball});
+  surroundings.MoveTo(Bent());
+  ASSERT_LT(surroundings.Nearest().distance, 0.05);
+  InverseKinematicsSettings settings;
+  settings.clearance = 0.1;
+  const PostureSolution found =
+      SolveInverseKinematics(*model, tip, X_WL[tip], Bent(), settings, &surroundings);
+  ASSERT_TRUE(found.reached);
+  surroundings.MoveTo(found.q);
+  EXPECT_GE(surroundings.Nearest().distance, 0.1 - 1e-4);
+  EXPECT_NEAR(found.clearance, std::min(surroundings.Nearest().distance, 0.1), 1e-12);
+  // No more than it must: the obstacle is what keeps it from the start.
+  EXPECT_LT(surroundings.Nearest().distance, 0.11);
+}
+
+TEST(InverseKinematicsTest, ThePoseCountsMoreThanTheClearance) {
+  const auto model = std::make_shared<const RobotModel>(Arm("lwr4"));
+  const int tip = TipLink(*model);
+  const auto X_WL = LinkPoses(*model, Bent());
+  const PlacedBody ball{MakeCollider(Sphere{0.05}, "ball"), X_WL[tip]};
+  Clearance surroundings(model, false, {ball});
+  InverseKinematicsSettings settings;
+  settings.clearance = 0.1;
+  const PostureSolution found =
+      SolveInverseKinematics(*model, tip, X_WL[tip], Bent(), settings, &surroundings);
+  EXPECT_TRUE(found.reached);
+  EXPECT_LT(found.clearance, 0.0);
+}
+
+TEST(InverseKinematicsTest, RefusesWhatIsNotANumberOrNotPositive) {
+  const RobotModel model = Arm("lwr4");
+  const Eigen::Isometry3d X_WG = TipPose(model, Bent());
+  EXPECT_THROW(SolveTip(model, X_WG, Eigen::VectorXd::Zero(6)), ModelError);
+  Eigen::VectorXd start = Bent();
+  start[2] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(SolveTip(model, X_WG, start), ModelError);
+  Eigen::Isometry3d lost = X_WG;
+  lost.translation().x() = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(SolveTip(model, lost, Bent()), ModelError);
+  InverseKinematicsSettings settings;
+  settings.starts = 0;
+  EXPECT_THROW(SolveTip(model, X_WG, Bent(), settings), ModelError);
+  settings = {};
+  settings.clearance = -0.1;
+  EXPECT_THROW(SolveTip(model, X_WG, Bent(), settings), ModelError);
+  settings = {};
+  settings.position_tolerance = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(SolveTip(model, X_WG, Bent(), settings), ModelError);
+}
+
+TEST(TipLinkTest, IsTheOneThatCarriesNoOther) {
+  const RobotModel model = Arm("lwr4");
+  EXPECT_EQ(model.links()[TipLink(model)].name.text(), "lwr4_flange");
+  const AttachedObject box{"box", "lwr4_link_7", Eigen::Isometry3d::Identity(), Sphere{0.1}, {}};
+  const RobotModel gripping = AttachObjects(model, std::span(&box, 1));
+  EXPECT_EQ(gripping.links()[TipLink(gripping)].name.text(), "lwr4_flange");
+  try {
+    TipLink(Arm("lwr4_dual"));
+    FAIL() << "accepted";
+  } catch (const ModelError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("left_lwr4_flange, right_lwr4_flange"));
+  }
+}
+
+}  // namespace
+}  // namespace oca::models::test
