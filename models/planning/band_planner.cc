@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "models/planning/band_planner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "models/planning/rrt_connect.h"
+#include "models/random.h"
+
+namespace oca::models {
+namespace {
+
+using Eigen::VectorXd;
+
+// Intervals of a band, s.
+constexpr double kFine = 0.1;  // of the first kFineSpan while something moves
+constexpr double kFineSpan = 1.6;
+constexpr double kGrowth = 1.3;
+constexpr double kCoarse = 0.4;
+constexpr int kFewest = 8;
+
+constexpr double kMuchCheaper = 0.7;
+constexpr double kAtRest = 1e-9;
+
+/// 0 before 0, 1 after 1, with two derivatives that vanish at both.
+double SmoothStep(double s) {
+  s = std::clamp(s, 0.0, 1.0);
+  return s * s * s * (10.0 + s * (6.0 * s - 15.0));
+}
+
+/// 1 between first and last, falling to 0 within `ramp` on either side.
+double Window(double time, double first, double last, double ramp) {
+  return SmoothStep((time - first + ramp) / ramp) * SmoothStep((last + ramp - time) / ramp);
+}
+
+}  // namespace
+
+BandPlanner::BandPlanner(std::shared_ptr<const RobotModel> model,
+                         const BandPlannerSettings& settings, bool self_collision)
+    : settings_(settings),
+      band_(model, settings.band, self_collision),
+      standing_(std::make_unique<Clearance>(model, self_collision)) {}
+
+double BandPlanner::HorizonOf(const BandTask& task) const {
+  double horizon =
+      std::max(task.request_end + settings_.tail - task.start, settings_.least_horizon);
+  for (Eigen::Index j = 0; j < task.deviation[0].size(); ++j) {
+    const double speed = settings_.band.limit_share * model().velocity_limits()[j];
+    horizon = std::max(horizon, 2.5 * std::fabs(task.deviation[0][j]) / speed);
+  }
+  return std::min(horizon, settings_.most_horizon);
+}
+
+std::vector<double> BandPlanner::TimesOf(const BandTask& task) const {
+  const double horizon = HorizonOf(task);
+  std::vector<double> times{task.start};
+  const bool moving = std::any_of(task.bodies.begin(), task.bodies.end(),
+                                  [](const BandBody& body) { return !body.stands; });
+  double step = kFine;
+  while (moving && times.back() - task.start + step < horizon && step < kCoarse) {
+    times.push_back(times.back() + step);
+    if (times.back() - task.start > kFineSpan) step *= kGrowth;
+  }
+  const double rest = task.start + horizon - times.back();
+  const int count = std::max(moving ? 1 : kFewest, static_cast<int>(std::ceil(rest / kCoarse)));
+  const double from = times.back();
+  for (int i = 1; i <= count; ++i) times.push_back(from + i * rest / count);
+  return times;
+}
+
+void BandPlanner::Prepare(const BandTask& task) {
+  zero_ = BandCurve(task.deviation[0].size(), TimesOf(task));
+  zero_.StartWith(task.deviation[0], task.deviation[1], task.deviation[2]);
+  band_.Prepare(zero_, task.request, task.bodies, true);
+  VectorXd goal(zero_.size());
+  task.request(zero_.end(), 0, goal);
+  end_fixed_ = band_.Distance(goal, zero_.end()) >= settings_.band.clear_distance;
+  if (!end_fixed_) band_.Prepare(zero_, task.request, task.bodies, false);
+}
+
+BandCurve BandPlanner::Shaped(const BandTask& task,
+                              const std::function<VectorXd(double)>& shape) const {
+  BandCurve curve = zero_;
+  VectorXd request(curve.size());
+  curve.Follow([&](double time) -> VectorXd {
+    task.request(time, 0, request);
+    const VectorXd q =
+        (request + shape(time)).cwiseMax(model().lower_limits()).cwiseMin(model().upper_limits());
+    return q - request;
+  });
+  if (end_fixed_) curve.controls().rightCols(3).setZero();
+  return curve;
+}
+
+BandPlan BandPlanner::Finish(const BandTask& /*task*/, BandStart kind, BandCurve curve,
+                             int iterations) {
+  BandPlan plan{.curve = std::move(curve), .start = kind};
+  plan.cost = band_.Relax(plan.curve, iterations);
+  plan.check = band_.Check(plan.curve);
+  return plan;
+}
+
+void BandPlanner::Keep(BandPlan plan, BandPlan& best) const {
+  const bool better = plan.check.clear() != best.check.clear() ? plan.check.clear()
+                      : plan.check.clear()                     ? plan.cost < best.cost
+                                           : plan.check.violation < 0.95 * best.check.violation;
+  if (better) best = std::move(plan);
+}
+
+BandPlan BandPlanner::Plan(const BandTask& task, const BandCurve* last) {
+  const long before = band_.evaluations();
+  Prepare(task);
+  const bool at_rest = task.deviation[0].cwiseAbs().maxCoeff() < kAtRest &&
+                       task.deviation[1].cwiseAbs().maxCoeff() < kAtRest;
+  BandPlan straight{.curve = zero_, .check = band_.Check(zero_), .start = BandStart::kRequest};
+  const bool nothing_near = straight.check.min_distance >= settings_.band.margin;
+  BandPlan best;
+  if (at_rest && (nothing_near || (last == nullptr && straight.check.clear()))) {
+    best = std::move(straight);
+  } else {
+    const BandCheck trouble = straight.check;
+    BandCurve warm = zero_;
+    if (last != nullptr && !last->empty()) {
+      VectorXd x(zero_.size());
+      warm = Shaped(task, [&](double time) -> VectorXd {
+        last->Evaluate(time, 0, x);
+        return x;
+      });
+    }
+    best = Finish(task, BandStart::kLast, std::move(warm), settings_.iterations);
+    if (trouble.clear() || !best.check.clear()) {
+      BandPlan back = Finish(task, BandStart::kRequest, zero_, settings_.iterations);
+      if (!best.check.clear() || back.cost < kMuchCheaper * best.cost) {
+        Keep(std::move(back), best);
+      }
+    }
+    if (!best.check.clear() && task.explore) {
+      Explore(task, trouble.clear() ? best.check : trouble, best);
+    }
+  }
+  best.evaluations = band_.evaluations() - before;
+  return best;
+}
+
+void BandPlanner::Explore(const BandTask& task, const BandCheck& trouble, BandPlan& best) {
+  std::vector<Start> starts;
+  AddPauses(task, trouble, starts);
+  AddDetours(task, trouble, starts);
+  for (Start& start : starts) start.cost = band_.Cost(start.curve);
+  std::stable_sort(starts.begin(), starts.end(),
+                   [](const Start& a, const Start& b) { return a.cost < b.cost; });
+  const auto count = std::min(starts.size(), static_cast<std::size_t>(settings_.relaxed_starts));
+  for (std::size_t i = 0; i < count; ++i) {
+    Keep(Finish(task, starts[i].kind, std::move(starts[i].curve), settings_.start_iterations),
+         best);
+  }
+  if (!best.check.clear()) TryPaths(task, best);
+}
+
+void BandPlanner::AddPauses(const BandTask& task, const BandCheck& trouble,
+                            std::vector<Start>& starts) const {
+  VectorXd here(zero_.size());
+  task.request(task.start, 0, here);
+  here += task.deviation[0];
+  VectorXd request(zero_.size());
+  for (const double more : {0.3, 1.0, 2.0}) {
+    const double until = trouble.last + more;
+    if (until > zero_.end() - 0.5) break;
+    const auto shape = [&](double time) -> VectorXd {
+      task.request(time, 0, request);
+      return (here - request) * SmoothStep((zero_.end() - time) / (zero_.end() - until));
+    };
+    starts.push_back({BandStart::kPause, Shaped(task, shape), 0.0});
+  }
+}
+
+void BandPlanner::AddDetours(const BandTask& task, const BandCheck& trouble,
+                             std::vector<Start>& starts) const {
+  const Eigen::Index n = zero_.size();
+  const double room = std::max(0.3, 0.5 * (zero_.end() - trouble.last));
+  const auto add = [&](BandStart kind, const VectorXd& out, double ramp) {
+    const auto shape = [&](double time) -> VectorXd {
+      return out * Window(time, trouble.first, trouble.last, std::min(ramp, room));
+    };
+    starts.push_back({kind, Shaped(task, shape), 0.0});
+  };
+  VectorXd out = VectorXd::Zero(n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    for (const double size : {0.5, -0.5, 1.2, -1.2}) {
+      out.setZero();
+      out[j] = size;
+      add(BandStart::kDetour, out, 1.5);
+    }
+  }
+  Random random(Random::Seed(task.seed, "band"));
+  for (int i = 0; i < settings_.random_starts; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j) out[j] = random.Uniform(-1.0, 1.0);
+    out *= random.Uniform(0.3, 1.8) / out.cwiseAbs().maxCoeff();
+    add(BandStart::kRandom, out, random.Uniform(0.5, 3.0));
+  }
+}
+
+void BandPlanner::TryPaths(const BandTask& task, BandPlan& best) {
+  std::vector<PlacedBody> placed;
+  for (const BandBody& body : task.bodies) {
+    if (body.stands) placed.push_back({body.collider, body.pose(task.start)});
+  }
+  if (placed.empty()) return;
+  standing_->SetBodies(std::move(placed));
+  VectorXd here(zero_.size()), goal(zero_.size()), request(zero_.size());
+  task.request(task.start, 0, here);
+  here += task.deviation[0];
+  task.request(zero_.end(), 0, goal);
+  for (int i = 0; i < settings_.paths; ++i) {
+    std::optional<std::vector<VectorXd>> path;
+    for (const double margin : {1.3 * settings_.band.clear_distance, 0.015}) {
+      path = RrtConnect(*standing_, here, goal,
+                        {.seed = Random::Seed(task.seed, static_cast<std::uint64_t>(i)),
+                         .margin = margin,
+                         .most_nodes = settings_.path_nodes});
+      if (path) break;
+    }
+    if (!path) continue;
+    std::vector<double> lengths{0.0};
+    for (std::size_t k = 1; k < path->size(); ++k) {
+      lengths.push_back(lengths.back() + ((*path)[k] - (*path)[k - 1]).norm());
+    }
+    const double begin = task.start + 0.2;
+    const double end = zero_.end() - std::min(0.5, 0.2 * (zero_.end() - task.start));
+    const auto shape = [&](double time) -> VectorXd {
+      const double at = lengths.back() * SmoothStep((time - begin) / (end - begin));
+      const auto above = std::upper_bound(lengths.begin() + 1, lengths.end() - 1, at);
+      const auto k = static_cast<std::size_t>(above - lengths.begin());
+      const double span = lengths[k] - lengths[k - 1];
+      const double share = span > 0.0 ? (at - lengths[k - 1]) / span : 0.0;
+      task.request(time, 0, request);
+      return (*path)[k - 1] + share * ((*path)[k] - (*path)[k - 1]) - request;
+    };
+    Keep(Finish(task, BandStart::kPath, Shaped(task, shape), 2 * settings_.start_iterations), best);
+  }
+}
+
+}  // namespace oca::models

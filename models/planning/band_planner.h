@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "models/planning/elastic_band.h"
+
+namespace oca::models {
+
+/// Which start won: the request itself, the last band, the last band or the request relaxed, a
+/// pause, a joint that goes out of the way, all of them at random, or a path of RrtConnect.
+enum class BandStart { kRequest, kLast, kPause, kDetour, kRandom, kPath };
+inline constexpr std::array kBandStartNames{"request", "last", "pause", "detour", "random", "path"};
+inline std::span<const char* const> EnumNames(BandStart) { return kBandStartNames; }
+
+struct BandPlannerSettings {
+  BandSettings band{};
+  int iterations{12};         ///< steps on the last band
+  int start_iterations{30};   ///< steps on another start
+  int relaxed_starts{6};      ///< the cheapest of all starts that are worth steps
+  int random_starts{24};      ///< beside those of single joints
+  int paths{2};               ///< of RrtConnect
+  int path_nodes{2000};       ///< each
+  double least_horizon{2.0};  ///< s
+  double most_horizon{30.0};  ///< s
+  double tail{0.5};           ///< s; after the end of the request
+};
+
+/// What a band is planned for.
+struct BandTask {
+  double start{0.0};             ///< s
+  Eigen::VectorXd deviation[3];  /// at the start: position, velocity, acceleration
+  BandRequest request{};
+  double request_end{0.0};  ///< s; from then on it rests
+  std::span<const BandBody> bodies{};
+  std::uint64_t seed{0};
+  bool explore{true};  ///< try other starts if the last band is not clear
+};
+
+struct BandPlan {
+  BandCurve curve{};
+  BandCheck check{};
+  BandStart start{BandStart::kRequest};
+  double cost{0.0};
+  long evaluations{0};  ///< configurations that were looked at
+};
+
+/// Finds bands: keeps the last one where it can be made clear, else tries many starts.
+///
+/// 1. The request, if nothing deviates and it is clear.
+/// 2. The last band, relaxed; or the way straight back, if that is clear and much cheaper.
+/// 3. If that is not clear: pauses before what moves, detours of each joint around the time in
+///    question, random ones, paths of RrtConnect past what stands; the cheapest few are relaxed,
+///    and the cheapest clear one wins. If none is clear: what lacks least.
+///
+/// The work is bounded and the answer a function of the arguments. Allocates.
+class BandPlanner {
+ public:
+  BandPlanner(std::shared_ptr<const RobotModel> model, const BandPlannerSettings& settings,
+              bool self_collision = false);
+
+  const RobotModel& model() const { return band_.model(); }
+  /// `last` may be null.
+  BandPlan Plan(const BandTask& task, const BandCurve* last);
+
+ private:
+  struct Start {
+    BandStart kind;
+    BandCurve curve;
+    double cost;
+  };
+  double HorizonOf(const BandTask& task) const;
+  std::vector<double> TimesOf(const BandTask& task) const;
+  void Prepare(const BandTask& task);
+  BandCurve Shaped(const BandTask& task, const std::function<Eigen::VectorXd(double)>& shape) const;
+  BandPlan Finish(const BandTask& task, BandStart kind, BandCurve curve, int iterations);
+  void Explore(const BandTask& task, const BandCheck& trouble, BandPlan& best);
+  void AddPauses(const BandTask& task, const BandCheck& trouble, std::vector<Start>& starts) const;
+  void AddDetours(const BandTask& task, const BandCheck& trouble, std::vector<Start>& starts) const;
+  void TryPaths(const BandTask& task, BandPlan& best);
+  void Keep(BandPlan plan, BandPlan& best) const;
+
+  const BandPlannerSettings settings_;
+  ElasticBand band_;
+  std::unique_ptr<Clearance> standing_;
+  BandCurve zero_;
+  bool end_fixed_{true};
+};
+
+}  // namespace oca::models

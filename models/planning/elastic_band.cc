@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "models/planning/elastic_band.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace oca::models {
+namespace {
+
+// Between samples of an interval, s: where intervals are short something is about to happen.
+constexpr double kShortInterval = 0.15;
+constexpr double kShortSpacing = 0.05;
+constexpr double kLongSpacing = 0.125;
+
+/// How far `x` is above a limit or below its negative, in shares of it; 0 without a limit.
+double Excess(double x, double limit) {
+  if (!std::isfinite(limit)) return 0.0;
+  return std::copysign(std::max(std::fabs(x) - limit, 0.0) / limit, x);
+}
+
+}  // namespace
+
+ElasticBand::ElasticBand(std::shared_ptr<const RobotModel> model, const BandSettings& settings,
+                         bool self_collision)
+    : model_(std::move(model)), settings_(settings), clearance_(model_, self_collision) {
+  const Eigen::Index n = model_->num_positions();
+  q_.setZero(n);
+  row_.setZero(n);
+  H_.setZero(n, n);
+  for (int d = 0; d < 3; ++d) {
+    g_[d].setZero(n);
+    d_[d].setZero(n);
+  }
+}
+
+void ElasticBand::Place(const Sample& sample, const Eigen::VectorXd& x) {
+  ++evaluations_;
+  q_ = sample.request[0] + x;
+  clearance_.MoveTo(q_);
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (!bodies_[b].stands) {
+      clearance_.MoveBody(static_cast<int>(b), poses_[sample.first_pose + b]);
+    }
+  }
+}
+
+int ElasticBand::Variable(int control) const {
+  if (control < 3) return -1;
+  if (control < num_controls_ - 3) return control - 3;
+  return end_fixed_ ? -1 : num_controls_ - 6;
+}
+
+void ElasticBand::Prepare(const BandCurve& curve, const BandRequest& request,
+                          std::span<const BandBody> bodies, bool end_fixed) {
+  bodies_.assign(bodies.begin(), bodies.end());
+  std::vector<PlacedBody> placed;
+  for (const BandBody& body : bodies_) placed.push_back({body.collider, body.pose(curve.start())});
+  clearance_.SetBodies(std::move(placed));
+  end_fixed_ = end_fixed;
+  num_controls_ = static_cast<int>(curve.controls().cols());
+  num_variables_ = num_controls_ - 6 + (end_fixed ? 0 : 1);
+  AddSamples(curve, request);
+}
+
+void ElasticBand::AddSamples(const BandCurve& curve, const BandRequest& request) {
+  samples_.clear();
+  checks_.clear();
+  poses_.clear();
+  const std::vector<double> times = curve.times();
+  for (std::size_t i = 0; i + 1 < times.size(); ++i) {
+    const double length = times[i + 1] - times[i];
+    const double spacing = length < kShortInterval ? kShortSpacing : kLongSpacing;
+    const int count = std::max(1, static_cast<int>(std::ceil(length / spacing - 1e-6)));
+    const double step = length / count;
+    for (int k = 0; k < count; ++k) {
+      const double start = times[i] + k * step;
+      samples_.push_back(MakeSample(curve, request, start + 0.5 * step, step));
+      checks_.push_back(MakeSample(curve, request, start + 0.5 * step, 0.5 * step));
+      checks_.push_back(MakeSample(curve, request, start + step, 0.5 * step));
+    }
+  }
+}
+
+ElasticBand::Sample ElasticBand::MakeSample(const BandCurve& curve, const BandRequest& request,
+                                            double time, double weight) {
+  Sample sample{time, weight, curve.BasisAt(time), static_cast<int>(poses_.size()), {}};
+  for (int d = 0; d < 3; ++d) {
+    sample.request[d].resize(curve.size());
+    request(time, d, sample.request[d]);
+  }
+  for (const BandBody& body : bodies_) poses_.push_back(body.pose(time));
+  return sample;
+}
+
+void ElasticBand::AddClearance(bool rows) {
+  clearance_.Collect(settings_.margin, pairs_);
+  for (const NearPair& pair : pairs_) {
+    const double lacking = settings_.margin - pair.distance;
+    if (!(lacking > 0.0)) continue;
+    cost_ += settings_.clearance * lacking * lacking;
+    if (!rows) continue;
+    clearance_.Gradient(pair, row_);
+    H_.noalias() += settings_.clearance * row_ * row_.transpose();
+    g_[0].noalias() -= settings_.clearance * lacking * row_;
+  }
+}
+
+void ElasticBand::AddDiagonal(const Sample& sample, const Eigen::VectorXd x[3]) {
+  const double price = settings_.limits;
+  for (Eigen::Index j = 0; j < q_.size(); ++j) {
+    cost_ += settings_.nearness * x[0][j] * x[0][j] + settings_.smoothness * x[2][j] * x[2][j];
+    d_[0][j] += settings_.nearness;
+    g_[0][j] += settings_.nearness * x[0][j];
+    d_[2][j] += settings_.smoothness;
+    g_[2][j] += settings_.smoothness * x[2][j];
+    const double half = 0.5 * (model_->upper_limits()[j] - model_->lower_limits()[j]);
+    const double middle = 0.5 * (model_->upper_limits()[j] + model_->lower_limits()[j]);
+    const double ranges[3] = {half, settings_.limit_share * model_->velocity_limits()[j],
+                              settings_.limit_share * model_->acceleration_limits()[j]};
+    for (int d = 0; d < 3; ++d) {
+      if (!std::isfinite(ranges[d])) continue;
+      const double at = sample.request[d][j] + x[d][j] - (d == 0 ? middle : 0.0);
+      const double excess = Excess(at, ranges[d]);
+      if (excess == 0.0) continue;
+      cost_ += price * excess * excess;
+      d_[d][j] += price / (ranges[d] * ranges[d]);
+      g_[d][j] += price * excess / ranges[d];
+    }
+  }
+}
+
+void ElasticBand::Assemble(const Sample& sample, Normal& normal) const {
+  const Eigen::Index n = q_.size();
+  for (int a = 0; a < 4; ++a) {
+    const int row = Variable(sample.basis.first + a);
+    if (row < 0) continue;
+    double wa[3];
+    for (int d = 0; d < 3; ++d) {
+      wa[d] = sample.weight * sample.basis.weights[d][a];
+      normal.right.segment(row * n, n).noalias() -= wa[d] * g_[d];
+    }
+    for (int b = 0; b < 4; ++b) {
+      const int column = Variable(sample.basis.first + b);
+      if (column < 0 || column > row) continue;
+      Eigen::MatrixXd& block = normal.blocks[4 * row + row - column];
+      block.noalias() += (wa[0] * sample.basis.weights[0][b]) * H_;
+      for (int d = 0; d < 3; ++d) {
+        block.diagonal() += (wa[d] * sample.basis.weights[d][b]) * d_[d];
+      }
+    }
+  }
+}
+
+void ElasticBand::Linearize(const Eigen::MatrixXd& controls, bool rows, Normal& normal) {
+  const Eigen::Index n = q_.size();
+  normal.cost = 0.0;
+  if (rows) {
+    normal.blocks.resize(4 * static_cast<std::size_t>(num_variables_));
+    for (Eigen::MatrixXd& block : normal.blocks) block.setZero(n, n);
+    normal.right.setZero(n * num_variables_);
+  }
+  Eigen::VectorXd x[3] = {Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  for (const Sample& sample : samples_) {
+    for (int d = 0; d < 3; ++d) {
+      x[d].setZero();
+      for (int i = 0; i < 4; ++i) {
+        x[d] += sample.basis.weights[d][i] * controls.col(sample.basis.first + i);
+      }
+      g_[d].setZero();
+      d_[d].setZero();
+    }
+    H_.setZero();
+    cost_ = 0.0;
+    if (!bodies_.empty()) {
+      Place(sample, x[0]);
+      AddClearance(rows);
+    }
+    AddDiagonal(sample, x);
+    normal.cost += sample.weight * cost_;
+    if (rows) Assemble(sample, normal);
+  }
+  if (end_fixed_) return;
+  // A free end is pulled back as if the band stayed there for a second more.
+  const auto end = controls.col(controls.cols() - 1);
+  normal.cost += settings_.nearness * end.squaredNorm();
+  if (!rows) return;
+  normal.blocks[4 * (num_variables_ - 1)].diagonal().array() += settings_.nearness;
+  normal.right.tail(n) -= settings_.nearness * end;
+}
+
+double ElasticBand::Cost(const BandCurve& curve) {
+  Normal normal;
+  Linearize(curve.controls(), false, normal);
+  return normal.cost;
+}
+
+Eigen::VectorXd ElasticBand::HalfGradient(const BandCurve& curve) {
+  Normal normal;
+  Linearize(curve.controls(), true, normal);
+  return -normal.right;
+}
+
+BandCheck ElasticBand::Check(const BandCurve& curve) {
+  BandCheck check{.min_distance = settings_.margin};
+  if (bodies_.empty()) return check;
+  Eigen::VectorXd x(q_.size());
+  for (const Sample& sample : checks_) {
+    curve.Evaluate(sample.time, 0, x);
+    Place(sample, x);
+    const NearPair pair = clearance_.Nearest(settings_.margin);
+    if (pair.distance < check.min_distance) {
+      check.min_distance = pair.distance;
+      check.time = sample.time;
+      check.link = model_->links()[pair.link].name;
+      check.body = pair.body >= 0 ? bodies_[pair.body].name : model_->links()[pair.other_link].name;
+    }
+    if (!(pair.distance < settings_.clear_distance)) continue;
+    if (check.clear()) check.first = sample.time;
+    check.last = sample.time;
+    check.violation += sample.weight * (settings_.clear_distance - pair.distance);
+  }
+  return check;
+}
+
+double ElasticBand::Distance(const Eigen::VectorXd& q, double time) {
+  ++evaluations_;
+  clearance_.MoveTo(q);
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (!bodies_[b].stands) clearance_.MoveBody(static_cast<int>(b), bodies_[b].pose(time));
+  }
+  return std::min(clearance_.Nearest(settings_.margin).distance, settings_.margin);
+}
+
+}  // namespace oca::models

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "models/name.h"
+#include "models/planning/band_curve.h"
+#include "models/planning/clearance.h"
+
+namespace oca::models {
+
+/// A body around the robot, whose pose X_WB is known at every time.
+struct BandBody {
+  Name name;
+  std::shared_ptr<const Collider> collider;
+  std::function<Eigen::Isometry3d(double time)> pose;
+  bool stands;
+};
+
+/// The requested motion: its `derivative` (0, 1, 2) at `time` into `out`.
+using BandRequest =
+    std::function<void(double time, int derivative, Eigen::Ref<Eigen::VectorXd> out)>;
+
+struct BandSettings {
+  double margin{0.1};           ///< m; distances below it cost
+  double clear_distance{0.04};  ///< m; a band that keeps it is clear
+  double clearance{1e4};        ///< 1/m^2; price of a missing margin
+  double smoothness{0.02};      ///< s^4/rad^2; price of an acceleration of the deviation
+  double nearness{0.1};         ///< 1/rad^2; price of a deviation
+  double limits{100.0};         ///< price of the square of what exceeds a limit, a limit being 1
+  double limit_share{0.9};      ///< of the velocity and acceleration limits that a band may use
+};
+
+/// What is true of a band on a grid of times that is finer than that of its optimisation.
+struct BandCheck {
+  double min_distance;    ///< m; or the margin, if all is farther
+  double time{0.0};       ///< s, of the nearest
+  Name link{};            ///< the nearest pair
+  Name body{};            ///< of no meaning if min_distance is the margin
+  double violation{0.0};  ///< m s; integral of what lacks to clear_distance
+  double first{0.0};      ///< s; first and last time at which it is not clear
+  double last{0.0};
+  bool clear() const { return !(violation > 0.0); }
+};
+
+/// A band of configurations along a requested motion, which bodies push away and which pulls itself
+/// back and straight: the deviation x(t), a BandCurve, that minimises
+///
+///     integral of  clearance sum_pairs max(margin - rho, 0)^2 + nearness |x|^2 +
+///                  smoothness |x''|^2 + limits |excess|^2   dt
+///
+/// where rho is the distance of a link and a body at request + x and at that time, and excess what
+/// positions, velocities and accelerations exceed of the joint limits, in shares of them. Solved by
+/// damped Gauss-Newton steps with the analytic rows n^T J of the distances; the normal equations
+/// are banded and solved in blocks. The state at the start is fixed, the end fixed or free.
+/// source Quinlan, Khatib, Elastic bands, ICRA 1993; Ratliff et al., CHOMP, ICRA 2009;
+///        Madsen, Nielsen, Tingleff, Methods for non-linear least squares problems, 2004
+class ElasticBand {
+ public:
+  ElasticBand(std::shared_ptr<const RobotModel> model, const BandSettings& settings,
+              bool self_collision = false);
+
+  const RobotModel& model() const { return *model_; }
+  const BandSettings& settings() const { return settings_; }
+
+  /// Takes what is requested and what stands and moves around, for bands on the grid of `curve`.
+  void Prepare(const BandCurve& curve, const BandRequest& request, std::span<const BandBody> bodies,
+               bool end_fixed);
+  /// The cost of a band of that grid.
+  double Cost(const BandCurve& curve);
+  /// Half the gradient of the cost in the free control points; for tests.
+  Eigen::VectorXd HalfGradient(const BandCurve& curve);
+  /// Improves a band by at most `most` steps; its cost. Never makes it dearer.
+  double Relax(BandCurve& curve, int most);
+  BandCheck Check(const BandCurve& curve);
+  /// The nearest distance of a configuration at a time, up to the margin; after Prepare.
+  double Distance(const Eigen::VectorXd& q, double time);
+
+  long evaluations() const { return evaluations_; }  ///< of configurations, since the start
+
+ private:
+  struct Sample {
+    double time;
+    double weight;  ///< s
+    BandCurve::Basis basis;
+    int first_pose;  ///< of the bodies in poses_
+    Eigen::VectorXd request[3];
+  };
+  /// Lower block band of the normal equations and the right side.
+  struct Normal {
+    double cost{0.0};
+    std::vector<Eigen::MatrixXd> blocks;  ///< row i: blocks (i, i), (i, i - 1), ... (i, i - 3)
+    Eigen::VectorXd right;
+  };
+
+  int Variable(int control) const;
+  void AddSamples(const BandCurve& curve, const BandRequest& request);
+  Sample MakeSample(const BandCurve& curve, const BandRequest& request, double time, double weight);
+  void Linearize(const Eigen::MatrixXd& controls, bool rows, Normal& normal);
+  void AddClearance(bool rows);
+  void AddDiagonal(const Sample& sample, const Eigen::VectorXd x[3]);
+  void Assemble(const Sample& sample, Normal& normal) const;
+  bool Step(const Normal& normal, double damping);
+  /// Brings robot and bodies to where they are at a sample with deviation x.
+  void Place(const Sample& sample, const Eigen::VectorXd& x);
+
+  const std::shared_ptr<const RobotModel> model_;
+  const BandSettings settings_;
+  Clearance clearance_;
+  std::vector<BandBody> bodies_;
+  std::vector<Sample> samples_;
+  std::vector<Sample> checks_;
+  std::vector<Eigen::Isometry3d> poses_;
+  int num_controls_{0};
+  int num_variables_{0};
+  bool end_fixed_{true};
+  long evaluations_{0};
+
+  // Of the sample at hand.
+  std::vector<NearPair> pairs_;
+  Eigen::VectorXd q_;
+  Eigen::VectorXd row_;
+  double cost_{0.0};
+  Eigen::MatrixXd H_;
+  Eigen::VectorXd g_[3];
+  Eigen::VectorXd d_[3];
+  // Of the step.
+  std::vector<Eigen::MatrixXd> factor_;
+  Eigen::VectorXd step_;
+};
+
+}  // namespace oca::models

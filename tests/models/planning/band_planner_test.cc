@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "models/planning/band_planner.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/models/planning/scene.h"
+
+namespace oca::models {
+namespace {
+
+using Eigen::VectorXd;
+
+/// The planar arm of two joints in front of a post, asked to turn by 90 degrees in 4 s.
+class Turn {
+ public:
+  Turn() : model(test::Arm("planar3")) {
+    for (const PlacedBody& post : test::Post()) {
+      bodies.push_back({Name("post"), post.collider, [X = post.X_WO](double) { return X; }, true});
+    }
+    for (VectorXd& x : task.deviation) x.setZero(model->num_positions());
+    task.request = [n = model->num_positions()](double time, int derivative,
+                                                Eigen::Ref<VectorXd> out) {
+      const double s = std::clamp(time / 4.0, 0.0, 1.0);
+      const double shape[3] = {s * s * (3.0 - 2.0 * s), 1.5 * s * (1.0 - s),
+                               0.375 * (1.0 - 2.0 * s)};
+      out = VectorXd::Zero(n);
+      out[0] = (derivative > 0 && (s == 0.0 || s == 1.0) ? 0.0 : shape[derivative]) * 1.5708;
+    };
+    task.request_end = 4.0;
+  }
+  BandPlan Plan() {
+    task.bodies = bodies;
+    BandPlanner planner(model, {});
+    return planner.Plan(task, nullptr);
+  }
+  std::shared_ptr<const RobotModel> model;
+  std::vector<BandBody> bodies;
+  BandTask task;
+};
+
+TEST(BandPlannerTest, LeavesARequestAloneThatIsClear) {
+  Turn turn;
+  turn.bodies.clear();
+  const BandPlan plan = turn.Plan();
+  EXPECT_EQ(plan.start, BandStart::kRequest);
+  EXPECT_TRUE(plan.check.clear());
+  EXPECT_TRUE(plan.curve.controls().isZero(0.0));
+}
+
+TEST(BandPlannerTest, FindsTheWayPastAPostThatTheRequestGoesThrough) {
+  Turn turn;
+  const BandPlan plan = turn.Plan();
+  EXPECT_TRUE(plan.check.clear()) << plan.check.min_distance;
+  EXPECT_TRUE(plan.curve.controls().rightCols(3).isZero(0.0));
+}
+
+TEST(BandPlannerTest, PlansTheSameTwice) {
+  Turn turn;
+  EXPECT_TRUE(turn.Plan().curve.controls() == turn.Plan().curve.controls());
+}
+
+TEST(BandPlannerTest, SaysWhatIsInTheWayWhereThereIsNoWay) {
+  Turn turn;
+  // A wall of posts at the goal.
+  const PlacedBody wall = test::BoxAt({0.4, 4.0, 2.0}, {0.0, 2.2, 0.0});
+  turn.bodies.push_back({Name("wall"), wall.collider, [X = wall.X_WO](double) { return X; }, true});
+  const BandPlan plan = turn.Plan();
+  if (plan.check.clear()) {  // it rests in front of the wall
+    EXPECT_FALSE(plan.curve.controls().rightCols(3).isZero(1e-3));
+  } else {
+    EXPECT_GT(plan.check.violation, 0.0);
+    EXPECT_FALSE(plan.check.body.empty());
+  }
+}
+
+TEST(BandPlannerTest, DucksInTimeAwayFromWhatComes) {
+  LoadOptions options;
+  options.X_WB.translation() = Eigen::Vector3d(0.0, 0.0, 0.85);
+  options.acceleration_limits = VectorXd::Constant(1, 10.0);
+  Turn turn;
+  turn.model = std::make_shared<const RobotModel>(
+      LoadUrdf(OCA_SOURCE_DIR "/models/robots/lwr4/lwr4.urdf", options));
+  VectorXd home(7);
+  home << 0.0, 1.48, 0.0, -0.61, 0.0, 0.52, 0.0;
+  for (VectorXd& x : turn.task.deviation) x.setZero(7);
+  turn.task.request = [home](double, int derivative, Eigen::Ref<VectorXd> out) {
+    out = derivative == 0 ? home : VectorXd::Zero(7);
+  };
+  turn.task.request_end = 0.0;
+  const PlacedBody cube = test::BoxAt({0.2, 0.2, 0.2}, {0.45, 1.6, 1.2});
+  turn.bodies = {{Name("cube"), cube.collider,
+                  [X = cube.X_WO](double time) {
+                    Eigen::Isometry3d moved = X;
+                    moved.translation().y() -= 1.6 * time;
+                    return moved;
+                  },
+                  false}};
+  const BandPlan plan = turn.Plan();
+  EXPECT_TRUE(plan.check.clear()) << plan.check.min_distance;
+  VectorXd x(7);
+  plan.curve.Evaluate(1.0, 0, x);
+  EXPECT_GT(x.cwiseAbs().maxCoeff(), 0.05);
+  plan.curve.Evaluate(plan.curve.end(), 0, x);
+  EXPECT_TRUE(x.isZero(0.0));
+}
+
+}  // namespace
+}  // namespace oca::models

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "models/planning/elastic_band.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "models/random.h"
+#include "tests/models/planning/scene.h"
+
+namespace oca::models {
+namespace {
+
+using Eigen::VectorXd;
+
+/// The report's static test: the LWR 4 turns joint 1 by 157.5 degrees in 10 s.
+class Sweep {
+ public:
+  Sweep() {
+    LoadOptions options;
+    options.X_WB.translation() = Eigen::Vector3d(0.0, 0.0, 0.85);
+    model = std::make_shared<const RobotModel>(
+        LoadUrdf(OCA_SOURCE_DIR "/models/robots/lwr4/lwr4.urdf", options));
+    const PlacedBody box = test::BoxAt({0.2, 0.2, 0.2}, {0.0, 0.6, 1.0});
+    bodies.push_back({Name("box"), box.collider, [X = box.X_WO](double) { return X; }, true});
+    home.resize(7);
+    home << 0.0, 1.48, 0.0, -0.61, 0.0, 0.52, 0.0;
+  }
+  BandRequest request() const {
+    return [this](double time, int derivative, Eigen::Ref<VectorXd> out) {
+      const double s = std::clamp(time / 10.0, 0.0, 1.0);
+      const double shape[3] = {s * s * (3.0 - 2.0 * s), 0.6 * s * (1.0 - s),
+                               0.06 * (1.0 - 2.0 * s)};
+      out = derivative == 0 ? home : VectorXd::Zero(7);
+      out[0] += (derivative > 0 && s == 1.0 ? 0.0 : shape[derivative]) * 2.75;
+    };
+  }
+  BandCurve Curve() const {
+    std::vector<double> times;
+    for (int i = 0; i <= 26; ++i) times.push_back(0.4 * i);
+    return {7, times};
+  }
+  std::shared_ptr<const RobotModel> model;
+  std::vector<BandBody> bodies;
+  VectorXd home;
+};
+
+TEST(ElasticBandTest, TheRequestItselfGoesThroughTheBox) {
+  const Sweep sweep;
+  ElasticBand band(sweep.model, {});
+  const BandCurve curve = sweep.Curve();
+  band.Prepare(curve, sweep.request(), sweep.bodies, true);
+  const BandCheck check = band.Check(curve);
+  EXPECT_LT(check.min_distance, -0.1);
+  EXPECT_FALSE(check.clear());
+  EXPECT_EQ(check.body, Name("box"));
+  EXPECT_LT(check.first, check.time);
+  EXPECT_GT(check.last, check.time);
+}
+
+TEST(ElasticBandTest, ItsGradientIsTheDerivativeOfItsCost) {
+  const Sweep sweep;
+  for (const bool end_fixed : {true, false}) {
+    ElasticBand band(sweep.model, {});
+    BandCurve curve = sweep.Curve();
+    Random random(5);
+    for (Eigen::Index i = 0; i < curve.controls().size(); ++i) {
+      curve.controls().data()[i] = random.Uniform(-0.3, 0.3);
+    }
+    curve.controls().rightCols(3).colwise() = curve.controls().col(20).eval();
+    band.Prepare(curve, sweep.request(), sweep.bodies, end_fixed);
+    const VectorXd half = band.HalfGradient(curve);
+    const int last = static_cast<int>(curve.controls().cols()) - 3;
+    EXPECT_EQ(half.size(), 7 * (last - 3 + (end_fixed ? 0 : 1)));
+    constexpr double kStep = 1e-6;
+    for (int control = 3; control <= (end_fixed ? last - 1 : last); control += 4) {
+      for (int j = 0; j < 7; ++j) {
+        const auto at = [&](double by) {
+          BandCurve moved = curve;
+          if (control == last) {
+            moved.controls().row(j).tail(3).array() += by;
+          } else {
+            moved.controls()(j, control) += by;
+          }
+          return band.Cost(moved);
+        };
+        const double numeric = (at(kStep) - at(-kStep)) / (2.0 * kStep);
+        EXPECT_NEAR(2.0 * half[7 * (control - 3) + j], numeric, 1e-3 * (1.0 + std::fabs(numeric)))
+            << control << " " << j;
+      }
+    }
+  }
+}
+
+TEST(ElasticBandTest, RelaxesPastTheBoxWithinTheLimits) {
+  const Sweep sweep;
+  ElasticBand band(sweep.model, {});
+  BandCurve curve = sweep.Curve();
+  band.Prepare(curve, sweep.request(), sweep.bodies, true);
+  const double before = band.Cost(curve);
+  const double after = band.Relax(curve, 60);
+  EXPECT_LT(after, 0.1 * before);
+  EXPECT_DOUBLE_EQ(after, band.Cost(curve));
+  const BandCheck check = band.Check(curve);
+  EXPECT_TRUE(check.clear()) << check.min_distance;
+  EXPECT_TRUE(curve.controls().leftCols(3).isZero(0.0));
+  EXPECT_TRUE(curve.controls().rightCols(3).isZero(0.0));
+}
+
+TEST(ElasticBandTest, AnswersTheMirroredSceneWithTheMirroredBand) {
+  const Sweep sweep;
+  const auto relax = [&](double side) {
+    std::vector<BandBody> bodies = sweep.bodies;
+    Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+    X.translation() = Eigen::Vector3d(0.3, 0.4 * side, 1.1);
+    bodies[0].pose = [X](double) { return X; };
+    const BandRequest request = [&, side](double time, int derivative, Eigen::Ref<VectorXd> out) {
+      sweep.request()(time, derivative, out);
+      out[0] *= side;
+    };
+    ElasticBand band(sweep.model, {});
+    BandCurve curve = sweep.Curve();
+    band.Prepare(curve, request, bodies, true);
+    band.Relax(curve, 10);
+    return curve.controls();
+  };
+  VectorXd mirror(7);
+  mirror << -1, 1, -1, 1, -1, 1, -1;
+  const Eigen::MatrixXd left = relax(1.0);
+  EXPECT_GT(left.norm(), 0.1);
+  EXPECT_LT((left - mirror.asDiagonal() * relax(-1.0)).norm(), 1e-3 * left.norm());
+}
+
+TEST(ElasticBandTest, WithoutBodiesTheRequestIsBest) {
+  const Sweep sweep;
+  ElasticBand band(sweep.model, {});
+  BandCurve curve = sweep.Curve();
+  curve.Follow([](double) -> VectorXd { return VectorXd::Constant(7, 0.1); });
+  curve.controls().rightCols(3).setZero();
+  curve.controls().leftCols(3).setZero();
+  band.Prepare(curve, sweep.request(), {}, true);
+  band.Relax(curve, 20);
+  EXPECT_LT(curve.controls().cwiseAbs().maxCoeff(), 1e-6);
+}
+
+}  // namespace
+}  // namespace oca::models
