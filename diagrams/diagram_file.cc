@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "diagrams/catalogue.h"
+#include "diagrams/sampling/scenario.h"
 
 namespace oca::diagrams {
 
@@ -92,6 +93,8 @@ const std::vector<Section>& Sections() {
       {"parameters", "knobs of this file, used as ${name}"},
       {"simulator", "duration, integrator, tolerances, seed"},
       {"simulator_tolerances", "tolerances of single systems, by name"},
+      {"sampling",
+       "makes the file a family of scenarios: what the seed draws, and what is accepted"},
       {"packages", "folders that package://NAME/ stands for"},
       {"models", "robots and frames, by name"},
       {"systems", "blocks, by name: type and parameters"},
@@ -164,9 +167,10 @@ std::string DiagramSchema() {
   sections["parameters"] = {{"type", "object"}};
   sections["simulator"] = SchemaOf(ParamTypeOf<SimulatorParams>());
   sections["simulator_tolerances"] = MapOf(SchemaOf(ParamTypeOf<ToleranceParams>()));
+  sections["sampling"] = ordered_json::parse(SamplingSchema());
   sections["packages"] = MapOf(text);
   sections["models"] = MapOf(SchemaOf(ParamTypeOf<ModelParams>()));
-  for (const char* key : {"simulator", "simulator_tolerances", "models"}) {
+  for (const char* key : {"simulator", "simulator_tolerances", "sampling", "models"}) {
     AllowExpressions(sections[key]);
   }
   sections["systems"] = SystemsSchema();

@@ -299,8 +299,8 @@ Override Override::Parse(const std::string& text) {
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
-Value LoadDocument(const fs::path& file, const std::vector<Override>& overrides, Problems& problems,
-                   std::vector<std::string>* choosing) {
+Value LoadFiles(const fs::path& file, const std::vector<Override>& overrides, Problems& problems,
+                std::vector<std::string>* choosing) {
   Includer includer(overrides, problems);
   Value root = includer.Load(file, {});
   if (choosing != nullptr) *choosing = includer.choosing();
@@ -309,8 +309,17 @@ Value LoadDocument(const fs::path& file, const std::vector<Override>& overrides,
                  root.null() ? "is empty; expected a map with systems"
                              : fmt::format("got {}; expected a map with systems", root.Show()));
   }
-  if (!problems.empty()) return root;
+  return root;
+}
+
+void ApplyOverrides(const std::vector<Override>& overrides, Value& root, Problems& problems) {
   for (const Override& change : overrides) Apply(change, root, problems);
+}
+
+Value LoadDocument(const fs::path& file, const std::vector<Override>& overrides, Problems& problems,
+                   std::vector<std::string>* choosing) {
+  Value root = LoadFiles(file, overrides, problems, choosing);
+  if (problems.empty()) ApplyOverrides(overrides, root, problems);
   return root;
 }
 

@@ -27,4 +27,9 @@ struct Override {
 Value LoadDocument(const std::filesystem::path& file, const std::vector<Override>& overrides,
                    Problems& problems, std::vector<std::string>* choosing = nullptr);
 
+/// The two halves of it: the merged files, of which overrides only choose; and the overrides.
+Value LoadFiles(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                Problems& problems, std::vector<std::string>* choosing = nullptr);
+void ApplyOverrides(const std::vector<Override>& overrides, Value& root, Problems& problems);
+
 }  // namespace oca::diagrams

@@ -41,7 +41,10 @@ class Loader {
   }
 
   LoadedDiagram Load(const fs::path& file, const std::vector<Override>& overrides) {
-    const Value document = LoadDocument(file, overrides, problems_, &choosing_);
+    Value document = LoadFiles(file, overrides, problems_, &choosing_);
+    problems_.Throw();
+    Draw(overrides, document);
+    ApplyOverrides(overrides, document, problems_);
     problems_.Throw();
     CheckKeys(document);
     root_ = Resolve(document);
@@ -71,6 +74,17 @@ class Loader {
   }
 
  private:
+  /// Makes one scenario of a file that stands for many. Overrides count before, what the scenario
+  /// depends on, and after, because they may change what was drawn; what they get wrong is said
+  /// then.
+  void Draw(const std::vector<Override>& overrides, Value& document) {
+    if (document.Find("sampling") == nullptr) return;
+    Problems said_later;
+    ApplyOverrides(overrides, document, said_later);
+    loaded_.scenario = DrawScenario(overrides, document, problems_);
+    problems_.Throw();
+  }
+
   void CheckKeys(const Value& document) {
     std::vector<std::string> known;
     for (const Section& section : Sections()) known.emplace_back(section.key);

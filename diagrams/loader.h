@@ -9,6 +9,7 @@
 #include "diagrams/diagram_file.h"
 #include "diagrams/document.h"
 #include "diagrams/output_sections.h"
+#include "diagrams/sampling/scenario.h"
 #include "framework/diagram.h"
 #include "systems/model_set.h"
 
@@ -23,7 +24,8 @@ struct LoadedDiagram {
   };
 
   std::string file;
-  Value document;                     ///< includes merged and overrides applied
+  Value document;                     ///< includes merged, scenario drawn, overrides applied
+  Scenario scenario;                  ///< what was drawn
   Value resolved;                     ///< the same without parameters, ${...} worked out
   std::vector<std::string> warnings;  ///< a line each, with its place
   std::string name;

@@ -108,6 +108,22 @@ class FileRecorder {
   record::RunRecorder recorder_;
 };
 
+/// What the seed drew of a family of scenarios.
+ordered_json ToJson(const diagrams::Scenario& scenario) {
+  ordered_json parameters = ordered_json::object();
+  for (const Value::Entry& entry : scenario.parameters) {
+    double number = 0.0;
+    if (entry.value.integer() != nullptr) {
+      parameters[entry.key] = *entry.value.integer();
+    } else if (entry.value.number(number)) {
+      parameters[entry.key] = number;
+    }
+  }
+  return {{"tries", scenario.tries},
+          {"parameters", parameters},
+          {"drawn_obstacles", scenario.obstacles}};
+}
+
 ordered_json ToJson(const diagrams::LoadedDiagram& loaded, const diagrams::RunResult& result) {
   ordered_json expectations = ordered_json::array();
   for (const diagrams::ExpectationResult& expectation : result.expectations) {
@@ -134,6 +150,7 @@ ordered_json ToJson(const diagrams::LoadedDiagram& loaded, const diagrams::RunRe
                       {"derivative_calls", integrator.derivative_calls},
                       {"restarts", integrator.restarts}}},
                     {"interrupted", result.interrupted}};
+  if (loaded.scenario.tries > 0) json["scenario"] = ToJson(loaded.scenario);
   if (result.paced) {
     json["overruns"] = result.statistics.overruns;
     json["worst_overrun"] = result.statistics.worst_overrun;

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "diagrams/sampling/random_obstacles.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace oca::diagrams {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A tree all of which stands at one place.
+class Tree {
+ public:
+  explicit Tree(const Location& location) : location_(location) {}
+
+  Value Number(double x) const { return Value(x, location_); }
+  Value Text(const std::string& text) const { return Value(text, location_); }
+  Value List(const Eigen::Ref<const Eigen::VectorXd>& numbers) const {
+    Value::List list;
+    for (const double x : numbers) list.push_back(Number(x));
+    return Value(std::move(list), location_);
+  }
+  Value Map(std::initializer_list<std::pair<const char*, Value>> entries) const {
+    Value::Map map;
+    for (const auto& [key, value] : entries) map.push_back({key, location_, value});
+    return Value(std::move(map), location_);
+  }
+
+ private:
+  const Location& location_;
+};
+
+Vector3d DrawDirection(models::Random& random) {
+  const double z = random.Uniform(-1.0, 1.0);
+  const double azimuth = random.Uniform(-std::numbers::pi, std::numbers::pi);
+  const double r = std::sqrt(1.0 - z * z);
+  return {r * std::cos(azimuth), r * std::sin(azimuth), z};
+}
+
+// Uniform rotation [x, y, z, w]. source Shoemake, Graphics Gems III, 1992, p. 124
+Eigen::Vector4d DrawRotation(models::Random& random) {
+  const double share = random.Unit();
+  const double a = random.Uniform(-std::numbers::pi, std::numbers::pi);
+  const double b = random.Uniform(-std::numbers::pi, std::numbers::pi);
+  const double r = std::sqrt(1.0 - share);
+  const double s = std::sqrt(share);
+  return Eigen::Vector4d(r * std::sin(a), r * std::cos(a), s * std::sin(b), s * std::cos(b))
+      .normalized();
+}
+
+// A point on the polyline through the origins of the moving links from one of them on.
+Vector3d DrawPointOfArm(models::Random& random, const TaskGeometry& task, const Eigen::VectorXd& q,
+                        const std::string& from_link) {
+  const auto& bodies = task.model().bodies();
+  const auto X_WL = task.LinkPosesAt(q);
+  const int first =
+      from_link.empty() ? bodies[bodies.size() > 2 ? 1 : 0] : task.model().FindLink(from_link);
+  std::vector<Vector3d> origins{X_WL[static_cast<std::size_t>(first)].translation()};
+  for (const int body : bodies) {
+    if (body > first) origins.push_back(X_WL[static_cast<std::size_t>(body)].translation());
+  }
+  double total = 0.0;
+  for (std::size_t i = 0; i + 1 < origins.size(); ++i) {
+    total += (origins[i + 1] - origins[i]).norm();
+  }
+  double left = random.Unit() * total;
+  for (std::size_t i = 0; i + 1 < origins.size(); ++i) {
+    const Vector3d piece = origins[i + 1] - origins[i];
+    if (left < piece.norm()) return origins[i] + left * piece.normalized();
+    left -= piece.norm();
+  }
+  return origins.back();
+}
+
+}  // namespace
+
+void ShellParams::Describe(Fields<ShellParams>& fields) {
+  fields.Add("centre", &ShellParams::centre, "m", "in the world").Required();
+  fields.Add("radius", &ShellParams::radius, "m", "of the inner and the outer sphere").Required();
+}
+
+void ApproachParams::Describe(Fields<ApproachParams>& fields) {
+  using P = ApproachParams;
+  fields.Add("speed", &P::speed, "m/s", "least and largest").Required();
+  fields.Add("distance", &P::distance, "m", "from its aim at the start, least and largest")
+      .Required();
+  fields.Add("start", &P::start, "s", "when it starts to move, earliest and latest").Required();
+  fields.Add("from_link", &P::from_link, "",
+             "first link that is aimed at; the second one that moves if left out: the first cannot "
+             "evade");
+}
+
+void RandomObstacleParams::Describe(Fields<RandomObstacleParams>& fields) {
+  using P = RandomObstacleParams;
+  fields.Add("count", &P::count, "", "how many, least and most").Required();
+  fields.Add("shapes", &P::shapes, "", "kinds, each as likely").Required();
+  fields.Add("extent", &P::extent, "m", "full width along an axis, least and largest").Required();
+  fields.Add("shell", &P::shell, "", "where they stand");
+  fields.Add("approach", &P::approach, "", "how they come, instead of standing");
+}
+
+RandomObstacles::RandomObstacles(const Value& value, Problems& problems) {
+  const std::string where = "sampling.obstacles";
+  Problems own;
+  ReadFields(value, FieldsOf<RandomObstacleParams>(), where, &params_, own);
+  if (own.empty()) {
+    const auto read = [&](const Eigen::VectorXd& pair, double least, const Value& map,
+                          const char* key) {
+      return ReadInterval(pair, least, *map.Find(key), where + "." + key, own);
+    };
+    count_ = read(params_.count, 0.0, value, "count");
+    extent_ = read(params_.extent, 1e-3, value, "extent");
+    if (params_.shell) {
+      radius_ = read(params_.shell->radius, 0.0, *value.Find("shell"), "radius");
+    }
+    if (params_.approach) {
+      const Value& approach = *value.Find("approach");
+      speed_ = read(params_.approach->speed, 1e-3, approach, "speed");
+      distance_ = read(params_.approach->distance, 0.0, approach, "distance");
+      start_ = read(params_.approach->start, 0.0, approach, "start");
+    }
+    if (params_.shell.has_value() == params_.approach.has_value()) {
+      own.Add(value.location(), where + ": expected either shell or approach");
+    }
+    if (params_.shapes.empty()) {
+      own.Add(value.location(), where + ".shapes: got none; expected one at least");
+    }
+    if (count_.lower != std::floor(count_.lower) || count_.upper != std::floor(count_.upper) ||
+        count_.upper > 10000.0) {
+      own.Add(value.location(), where + ".count: expected whole numbers up to 10000");
+    }
+  }
+  problems.Add(own);
+}
+
+Value::List RandomObstacles::Draw(std::uint64_t seed, TaskGeometry& task,
+                                  const Location& location) const {
+  models::Random random(seed);
+  const auto lower = static_cast<std::uint64_t>(count_.lower);
+  const auto upper = static_cast<std::uint64_t>(count_.upper);
+  const std::uint64_t count = lower + random.Below(upper - lower + 1);
+  Value::List list;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    models::Random own(models::Random::Seed(seed, i));
+    list.push_back(DrawOne(own, static_cast<int>(i) + 1, task, location));
+  }
+  return list;
+}
+
+Value RandomObstacles::DrawOne(models::Random& random, int number, TaskGeometry& task,
+                               const Location& location) const {
+  const Tree tree(location);
+  const SampledShape shape = params_.shapes[random.Below(params_.shapes.size())];
+  const std::string id =
+      fmt::format("{}_{}", EnumNames(shape)[static_cast<std::size_t>(shape)], number);
+  const Value solid = DrawShape(random, shape, location);
+  const Value rotation = tree.List(DrawRotation(random));
+  if (params_.approach) {
+    Vector3d p_WO;
+    const Value motion = DrawMotion(random, task, location, p_WO);
+    const Value pose = tree.Map({{"xyz", tree.List(p_WO)}, {"quaternion", rotation}});
+    return tree.Map({{"id", tree.Text(id)}, {"shape", solid}, {"pose", pose}, {"motion", motion}});
+  }
+  const auto cube = [](double x) { return x * x * x; };
+  const double radius = std::cbrt(random.Uniform(cube(radius_.lower), cube(radius_.upper)));
+  const Vector3d p_WO = params_.shell->centre + radius * DrawDirection(random);
+  const Value pose = tree.Map({{"xyz", tree.List(p_WO)}, {"quaternion", rotation}});
+  return tree.Map({{"id", tree.Text(id)}, {"shape", solid}, {"pose", pose}});
+}
+
+Value RandomObstacles::DrawShape(models::Random& random, SampledShape shape,
+                                 const Location& location) const {
+  const Tree tree(location);
+  const double a = extent_.Draw(random);
+  const double b = extent_.Draw(random);
+  const double c = extent_.Draw(random);
+  const Value type = tree.Text(EnumNames(shape)[static_cast<std::size_t>(shape)]);
+  switch (shape) {
+    case SampledShape::kSphere:
+      return tree.Map({{"type", type}, {"radius", tree.Number(a / 2)}});
+    case SampledShape::kBox:
+      return tree.Map({{"type", type}, {"size", tree.List(Vector3d(a, b, c))}});
+    case SampledShape::kCylinder:
+      return tree.Map({{"type", type}, {"radius", tree.Number(a / 2)}, {"length", tree.Number(b)}});
+    case SampledShape::kCapsule:
+      break;
+  }
+  constexpr double kShortest = 1e-3;  // of the straight part, m
+  return tree.Map({{"type", type},
+                   {"radius", tree.Number(std::min(a, b) / 2)},
+                   {"length", tree.Number(std::max(std::abs(a - b), kShortest))}});
+}
+
+Value RandomObstacles::DrawMotion(models::Random& random, TaskGeometry& task,
+                                  const Location& location, Vector3d& p_WO) const {
+  const Tree tree(location);
+  const double speed = speed_.Draw(random);
+  const double distance = distance_.Draw(random);
+  const double start = start_.Draw(random);
+  const Eigen::VectorXd q = task.Request(start + distance / speed);
+  const Vector3d aim = DrawPointOfArm(random, task, q, params_.approach->from_link);
+  const Vector3d from = DrawDirection(random);
+  p_WO = aim + distance * from;
+  return tree.Map({{"type", tree.Text("linear")},
+                   {"velocity", tree.List(-speed * from)},
+                   {"start", tree.Number(start)}});
+}
+
+}  // namespace oca::diagrams
