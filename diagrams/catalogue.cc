@@ -17,6 +17,7 @@
 #include "systems/delta_limiter.h"
 #include "systems/delta_overlay.h"
 #include "systems/delta_relaxation.h"
+#include "systems/elastic_band.h"
 #include "systems/first_order_lag.h"
 #include "systems/force_sum.h"
 #include "systems/gain.h"
@@ -108,6 +109,7 @@ const std::vector<CatalogueRow>& Catalogue() {
       Row<DeltaLimiter>("DeltaLimiter"),
       Row<DeltaOverlay>("DeltaOverlay"),
       Row<DeltaRelaxation>("DeltaRelaxation"),
+      Row<ElasticBand>("ElasticBand"),
       Row<FirstOrderLag>("FirstOrderLag"),
       Row<ForceSum>("ForceSum"),
       Row<Gain>("Gain"),

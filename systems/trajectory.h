@@ -38,6 +38,7 @@ class Trajectory {
 
   Eigen::Index size() const { return last_.size(); }  ///< n
   const Eigen::VectorXd& goal() const { return last_; }
+  const std::vector<double>& times() const { return times_; }  ///< s, of the key points
   /// The position (`derivative` 0), velocity (1), ... at `time` (s) into `out`, of length n.
   void Evaluate(double time, int derivative, Eigen::Ref<Eigen::VectorXd> out) const;
   Eigen::VectorXd Evaluate(double time, int derivative) const;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <utility>
 
 #include "framework/system.h"
+#include "systems/model_set.h"
+#include "systems/request_ahead.h"
 #include "systems/trajectory.h"
 
 namespace oca::systems {
@@ -22,6 +25,7 @@ namespace oca::systems {
 ///       velocity      n  u/s
 ///       acceleration  n  u/s^2
 ///       goal          n  u      position of the last key point
+///       ahead         RequestAhead  the whole motion, for who plans ahead
 /// state position, velocity, acceleration  n   if sampled
 template <class Request>
 class TrajectorySource final : public System {
@@ -32,7 +36,8 @@ class TrajectorySource final : public System {
 
   explicit TrajectorySource(const Params& params)
       : params_(Request::Checked(params)),
-        trajectory_(Request::MakeTrajectory(params_)),
+        ahead_{std::make_shared<const Trajectory>(Request::MakeTrajectory(params_))},
+        trajectory_(*ahead_.trajectory),
         spec_{static_cast<int>(trajectory_.size()), Unit(params_.unit)},
         rate_spec_{spec_.size, spec_.unit.Rate()},
         rate_rate_spec_{spec_.size, rate_spec_.unit.Rate()},
@@ -42,12 +47,17 @@ class TrajectorySource final : public System {
         position(DeclareMotion<0>("position", spec_, sampled_position_)),
         velocity(DeclareMotion<1>("velocity", rate_spec_, sampled_velocity_)),
         acceleration(DeclareMotion<2>("acceleration", rate_rate_spec_, sampled_acceleration_)),
-        goal(DeclareOutput<Vector, &TrajectorySource::CalcGoal>("goal", spec_)) {
+        goal(DeclareOutput<Vector, &TrajectorySource::CalcGoal>("goal", spec_)),
+        ahead(DeclareOutput<RequestAhead, &TrajectorySource::CalcAhead>("ahead", {})) {
     if (!sampled()) return;
     DeclareUpdate<&TrajectorySource::Sample>(
         Every{params_.period}, Writes(sampled_position_, sampled_velocity_, sampled_acceleration_),
         kTime);
   }
+  /// Of requests that speak of a robot.
+  TrajectorySource(const Params& params, const ModelSet& models)
+    requires requires { Request::Resolved(params, models); }
+      : TrajectorySource(Request::Resolved(params, models)) {}
 
  private:
   bool sampled() const { return params_.period.positive(); }
@@ -66,6 +76,7 @@ class TrajectorySource final : public System {
     trajectory_.Evaluate(time, kDerivative, out);
   }
   void CalcGoal(MutableVectorView out) const { out = trajectory_.goal(); }
+  void CalcAhead(RequestAhead& out) const { out = ahead_; }
   void Sample(double time, MutableVectorView next_position, MutableVectorView next_velocity,
               MutableVectorView next_acceleration) const {
     const double end = time + params_.period.seconds();
@@ -75,7 +86,8 @@ class TrajectorySource final : public System {
   }
 
   const Params params_;
-  const Trajectory trajectory_;
+  const RequestAhead ahead_;
+  const Trajectory& trajectory_;
   const PortSpec spec_;  ///< of the position
   const PortSpec rate_spec_;
   const PortSpec rate_rate_spec_;
@@ -88,6 +100,7 @@ class TrajectorySource final : public System {
   const Output<Vector> velocity;
   const Output<Vector> acceleration;
   const Output<Vector> goal;
+  const Output<RequestAhead> ahead;
 };
 
 }  // namespace oca::systems

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "framework/signal.h"
+#include "models/planning/band_planner.h"
+#include "systems/signals.h"
+
+namespace oca::systems {
+
+/// What an ElasticBand holds between its plans, and what the last one came to.
+/// JSON: {"plans", "start": "request" | "last" | "pause" | "detour" | "random" | "path", "clear",
+/// "stuck", "nearest", "link", "obstacle", "time", "cost", "evaluations"}; the bands themselves are
+/// neither written nor read.
+struct BandMemory {
+  models::BandCurve held{};  ///< up to `change`
+  models::BandCurve next{};  ///< from then on; empty: held goes on
+  double change{0.0};        ///< s
+  std::vector<Obstacle> seen{};
+  double moved{0.0};          ///< s; when the arm was last seen to get on
+  Eigen::VectorXd resting{};  ///< where it was then
+  Eigen::VectorXd planned{};  ///< where it should be at the last plan
+  int failures{0};            ///< plans in a row that were not clear
+
+  std::uint64_t plans{0};  ///< that were made so far
+  models::BandStart start{models::BandStart::kRequest};
+  bool clear{true};
+  bool stuck{false};    ///< no progress to the goal for stuck_time; link and obstacle say why
+  double nearest{0.0};  ///< m; the least distance foreseen, or the margin
+  models::Name link{};  ///< the pair, empty if it is the margin
+  models::Name obstacle{};
+  double time{0.0};  ///< s; of the nearest
+  double cost{0.0};
+  std::uint64_t evaluations{0};  ///< configurations that the last plan looked at
+
+  /// The band at a time; before the first plan empty.
+  const models::BandCurve& At(double t) const { return !next.empty() && t >= change ? next : held; }
+};
+
+}  // namespace oca::systems
+
+namespace oca {
+
+template <>
+struct Signal<systems::BandMemory> {
+  static constexpr const char* kName = "BandMemory";
+  static bool Finite(const systems::BandMemory& value);
+  static void WriteJson(const systems::BandMemory& value, std::string& out);
+  static systems::BandMemory ReadJson(std::string_view text);
+};
+
+}  // namespace oca

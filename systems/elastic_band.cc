@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "systems/elastic_band.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "framework/error.h"
+#include "models/robot/robot_model.h"
+#include "systems/model_links.h"
+#include "systems/require.h"
+
+namespace oca::systems {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double kArrived = 0.01;    // rad, m; of all joints
+constexpr double kSameSpeed = 1e-6;  // m/s, rad/s: stands
+constexpr double kSamePlace = 1e-4;  // m, of an obstacle that stands
+constexpr int kMostPause = 20;       // plans between two searches that fail
+
+ElasticBand::Params Checked(const ElasticBand::Params& params) {
+  RequirePositive("period", params.period);
+  RequirePositive("plan_period", params.plan_period);
+  if (params.plan_period.seconds() < params.period.seconds()) {
+    throw ConfigError(fmt::format("plan_period: got {} s; expected at least period, {} s",
+                                  params.plan_period.seconds(), params.period.seconds()));
+  }
+  RequireAbove("margin", params.margin, 0.0);
+  RequireAbove("clear_distance", params.clear_distance, 0.0);
+  if (params.clear_distance > params.margin) {
+    throw ConfigError(fmt::format("clear_distance: got {} m; expected at most margin, {} m",
+                                  params.clear_distance, params.margin));
+  }
+  RequireAbove("clearance", params.clearance, 0.0);
+  RequireAbove("smoothness", params.smoothness, 0.0);
+  RequireAbove("nearness", params.nearness, 0.0);
+  RequireAbove("limit_share", params.limit_share, 0.0);
+  RequireAtLeast("prediction", params.prediction, 0.0);
+  RequireAtLeast("least_horizon", params.least_horizon, 0.5);
+  RequireAtLeast("most_horizon", params.most_horizon, params.least_horizon);
+  RequireAbove("restart_distance", params.restart_distance, 0.0);
+  RequireAbove("stuck_time", params.stuck_time, 0.0);
+  RequireAbove("stuck_motion", params.stuck_motion, 0.0);
+  return params;
+}
+
+bool Stands(const Obstacle& obstacle) {
+  return obstacle.linear.norm() < kSameSpeed && obstacle.angular.norm() < kSameSpeed;
+}
+
+/// Same bodies at the same places, all at rest. The capacity of `seen` may differ.
+bool SameStanding(const std::vector<Obstacle>& seen, const std::vector<Obstacle>& now) {
+  return std::equal(seen.begin(), seen.end(), now.begin(), now.end(),
+                    [](const Obstacle& a, const Obstacle& b) {
+                      return a.body == b.body && Stands(b) && Stands(a) &&
+                             (a.X_WO.matrix() - b.X_WO.matrix()).cwiseAbs().maxCoeff() < kSamePlace;
+                    });
+}
+
+Eigen::Isometry3d Foreseen(const Obstacle& obstacle, double ahead) {
+  Eigen::Isometry3d X = obstacle.X_WO;
+  X.translation() += ahead * obstacle.linear;
+  const double angle = ahead * obstacle.angular.norm();
+  if (angle > 0.0) {
+    X.linear() = Eigen::AngleAxisd(angle, obstacle.angular.normalized()) * X.linear();
+  }
+  return X;
+}
+
+}  // namespace
+
+void ElasticBand::Params::Describe(Fields<Params>& fields) {
+  fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
+  fields.Add("period", &Params::period, "s", "control period").Above(0.0).Required();
+  fields.Add("plan_period", &Params::plan_period, "s", "time between plans, and to make one")
+      .Above(0.0);
+  fields.Add("margin", &Params::margin, "m", "distance up to which obstacles push the band")
+      .Above(0.0);
+  fields
+      .Add("clear_distance", &Params::clear_distance, "m",
+           "distance that a band keeps that counts as clear; above the filter's safe_distance")
+      .Above(0.0);
+  fields.Add("clearance", &Params::clearance, "1/m^2", "price of a missing margin").Above(0.0);
+  fields
+      .Add("smoothness", &Params::smoothness, "s^4/rad^2", "price of the deviation's acceleration")
+      .Above(0.0);
+  fields.Add("nearness", &Params::nearness, "1/rad^2", "price of a deviation").Above(0.0);
+  fields
+      .Add("limit_share", &Params::limit_share, "",
+           "share of the velocity and acceleration limits that plans may use")
+      .Above(0.0);
+  fields.Add("prediction", &Params::prediction, "s", "how long obstacles are taken to go on as now")
+      .AtLeast(0.0);
+  fields.Add("least_horizon", &Params::least_horizon, "s", "least time that a plan looks ahead")
+      .AtLeast(0.5);
+  fields.Add("most_horizon", &Params::most_horizon, "s", "largest time that a plan looks ahead")
+      .AtLeast(0.5);
+  fields
+      .Add("restart_distance", &Params::restart_distance, "rad",
+           "distance of arm and band above which plans start from the arm")
+      .Above(0.0);
+  fields.Add("stuck_time", &Params::stuck_time, "s", "without progress, after which it is stuck")
+      .Above(0.0);
+  fields.Add("stuck_motion", &Params::stuck_motion, "rad", "what counts as progress").Above(0.0);
+  fields.Add("self_collision", &Params::self_collision, "", "keeps own links apart too");
+  fields.Add("seed", &Params::seed, "", "of the random starts");
+  fields.Add("enabled", &Params::enabled, "", "false: the request as it is");
+}
+
+models::BandPlannerSettings ElasticBand::SettingsOf(const Params& params) {
+  models::BandPlannerSettings settings;
+  settings.band.margin = params.margin;
+  settings.band.clear_distance = params.clear_distance;
+  settings.band.clearance = params.clearance;
+  settings.band.smoothness = params.smoothness;
+  settings.band.nearness = params.nearness;
+  settings.band.limit_share = params.limit_share;
+  settings.least_horizon = params.least_horizon;
+  settings.most_horizon = params.most_horizon;
+  return settings;
+}
+
+ElasticBand::ElasticBand(const Params& params, const ModelSet& models)
+    : params_(Checked(params)),
+      model_(MovableModel(models, params.model)),
+      position_(DeclareDiscreteState("position", PositionSpec(*model_), 0.0)),
+      velocity_(DeclareDiscreteState("velocity", RateSpec(*model_), 0.0)),
+      acceleration_(DeclareDiscreteState(
+          "acceleration", {model_->num_positions(), RateSpec(*model_).unit.Rate()}, 0.0)),
+      memory_(DeclareDiscreteState("plan", BandMemory{})),
+      ahead(DeclareInput<RequestAhead>("ahead")),
+      obstacles(DeclareInput<ObstacleSet>("obstacles")),
+      measured_position(DeclareInput<Vector>("measured_position", PositionSpec(*model_))),
+      measured_velocity(DeclareOptionalInput<Vector>("measured_velocity", RateSpec(*model_))),
+      position(DeclareStateOutput("position", position_)),
+      velocity(DeclareStateOutput("velocity", velocity_)),
+      acceleration(DeclareStateOutput("acceleration", acceleration_)),
+      plan(DeclareStateOutput("plan", memory_)) {
+  DeclareInitialization<&ElasticBand::Start>(Writes(position_), measured_position);
+  DeclareUpdate<&ElasticBand::Sample>(
+      Every{params_.period}, Writes(position_, velocity_, acceleration_), kTime, ahead, memory_);
+  DeclareUpdate<&ElasticBand::Plan>(Every{params_.plan_period}, Writes(memory_), kTime, ahead,
+                                    obstacles, measured_position, measured_velocity);
+}
+
+void ElasticBand::Start(VectorView measured, MutableVectorView position_out) const {
+  position_out = measured;
+}
+
+void ElasticBand::Sample(double time, const RequestAhead& request, const BandMemory& memory,
+                         MutableVectorView next_position, MutableVectorView next_velocity,
+                         MutableVectorView next_acceleration) const {
+  if (!request.trajectory) {
+    next_velocity.setZero();
+    next_acceleration.setZero();
+    return;
+  }
+  const double end = time + params_.period.seconds();
+  const models::BandCurve& band = memory.At(end);
+  MutableVectorView* const next[] = {&next_position, &next_velocity, &next_acceleration};
+  for (int d = 0; d < 3; ++d) {
+    request.trajectory->Evaluate(end, d, *next[d]);
+    if (!band.empty()) band.Add(end, d, *next[d]);
+  }
+}
+
+std::vector<models::BandBody> ElasticBand::MakeBodies(double time, const ObstacleSet& set) const {
+  std::vector<models::BandBody> bodies;
+  for (const Obstacle& obstacle : set.obstacles) {
+    const bool stands = Stands(obstacle) || params_.prediction == 0.0;
+    const auto pose = [obstacle, time, longest = params_.prediction, stands](double t) {
+      return stands ? obstacle.X_WO : Foreseen(obstacle, std::clamp(t - time, 0.0, longest));
+    };
+    bodies.push_back({obstacle.body->id, obstacle.body->collider, pose, stands});
+  }
+  return bodies;
+}
+
+bool ElasticBand::Astray(double time, const Trajectory* request, VectorView measured,
+                         BandMemory& memory) const {
+  memory.planned.resize(measured.size());
+  request->Evaluate(time, 0, memory.planned);
+  memory.At(time).Add(time, 0, memory.planned);
+  return (measured - memory.planned).cwiseAbs().maxCoeff() > params_.restart_distance;
+}
+
+bool ElasticBand::Kept(double time, const Trajectory* request, const ObstacleSet& set,
+                       VectorView measured, BandMemory& memory) const {
+  if (set.obstacles.empty() && !params_.self_collision && memory.held.empty() &&
+      memory.next.empty()) {
+    return true;
+  }
+  return memory.plans > 0 && memory.clear && SameStanding(memory.seen, set.obstacles) &&
+         !Astray(time, request, measured, memory);
+}
+
+void ElasticBand::Follow(double time, const Trajectory* request, VectorView measured,
+                         BandMemory& memory) const {
+  if (memory.resting.size() != measured.size() ||
+      (measured - memory.resting).cwiseAbs().maxCoeff() > params_.stuck_motion ||
+      time < request->times().back()) {
+    memory.resting = measured;
+    memory.moved = time;
+  }
+  const double away = (measured - request->goal()).cwiseAbs().maxCoeff();
+  memory.stuck = away > kArrived && time - memory.moved >= params_.stuck_time;
+}
+
+models::BandTask ElasticBand::MakeTask(double time, const Trajectory* request,
+                                       const std::vector<models::BandBody>& bodies,
+                                       VectorView measured, OptionalVector rate,
+                                       BandMemory& memory) const {
+  models::BandTask task;
+  task.start = time + params_.plan_period.seconds();
+  task.request = [request](double t, int derivative, Eigen::Ref<VectorXd> out) {
+    request->Evaluate(t, derivative, out);
+  };
+  task.request_end = request->times().back();
+  task.bodies = bodies;
+  task.seed = static_cast<std::uint64_t>(params_.seed) + memory.plans;
+  for (int d = 0; d < 3; ++d) {
+    task.deviation[d].setZero(measured.size());
+    if (!memory.held.empty()) memory.held.Evaluate(task.start, d, task.deviation[d]);
+  }
+  if (Astray(time, request, measured, memory)) {
+    const VectorXd v = rate ? VectorXd(*rate) : VectorXd::Zero(measured.size());
+    task.deviation[0] = measured + params_.plan_period.seconds() * v;
+    task.deviation[0] -= request->Evaluate(task.start, 0);
+    task.deviation[1] = v - request->Evaluate(task.start, 1);
+    task.deviation[2].setZero();
+  }
+  const int pause = std::min(memory.failures, kMostPause);
+  task.explore = pause < 3 || memory.plans % static_cast<std::uint64_t>(pause) == 0;
+  return task;
+}
+
+void ElasticBand::Plan(double time, const RequestAhead& request, const ObstacleSet& set,
+                       VectorView measured, OptionalVector rate, BandMemory& memory) const {
+  if (!request.trajectory || !params_.enabled) return;
+  if (request.trajectory->size() != measured.size()) {
+    throw ConfigError(fmt::format("ahead: length; got {} joints; expected {}",
+                                  request.trajectory->size(), measured.size()));
+  }
+  Follow(time, request.trajectory.get(), measured, memory);
+  if (Kept(time, request.trajectory.get(), set, measured, memory)) return;
+  if (!memory.next.empty()) memory.held = memory.next;
+  const auto bodies = MakeBodies(time, set);
+  const models::BandTask task =
+      MakeTask(time, request.trajectory.get(), bodies, measured, rate, memory);
+  models::BandPlanner planner(model_, SettingsOf(params_), params_.self_collision);
+  models::BandPlan found = planner.Plan(task, memory.held.empty() ? nullptr : &memory.held);
+  memory.next = std::move(found.curve);
+  memory.change = task.start;
+  memory.seen = set.obstacles;
+  memory.plans += 1;
+  memory.start = found.start;
+  memory.clear = found.check.clear();
+  memory.failures = memory.clear ? 0 : memory.failures + 1;
+  memory.nearest = found.check.min_distance;
+  memory.link = found.check.link;
+  memory.obstacle = found.check.body;
+  memory.time = found.check.time;
+  memory.cost = found.cost;
+  memory.evaluations = static_cast<std::uint64_t>(found.evaluations);
+}
+
+}  // namespace oca::systems
