@@ -9,6 +9,7 @@ find_package(muparser REQUIRED)
 find_package(assimp REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(spdlog REQUIRED)
+find_package(SQLite3 REQUIRED)
 find_package(Boost 1.74 REQUIRED)  # headers alone: Asio and Beast
 
 # CMake's FindBullet picks the float build without a word, so pkg-config names the double one.

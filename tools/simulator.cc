@@ -13,6 +13,7 @@
 #include "models/error.h"
 #include "tools/commands.h"
 #include "tools/record_commands.h"
+#include "tools/sweep_commands.h"
 
 namespace oca::tools {
 namespace {
@@ -39,6 +40,7 @@ class CommandLine {
     AddView();
     AddOthers();
     AddRecordCommands(app_, command_);
+    AddSweepCommands(app_, command_);
     AddRobot();
   }
 

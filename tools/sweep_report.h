@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "diagrams/sweep/result_file.h"
+#include "diagrams/sweep/summary.h"
+
+namespace oca::tools {
+
+/// A table of measures by combinations, with confidence intervals of 95 %, and the first failures
+/// with the command line that runs each alone.
+std::string SweepTable(const sweep::Results& results, const sweep::Summary& summary, bool colour);
+
+/// The same as one JSON object, with all failures.
+std::string SweepJson(const sweep::Results& results, const sweep::Summary& summary);
+
+}  // namespace oca::tools
