@@ -155,12 +155,16 @@ void Collider::Prepare(const Compound& compound, std::string_view where) {
   part_balls_ = std::move(tree);
 }
 
-// The points of a cloud are thousands of equal spheres.
+// The points of a cloud are thousands of equal spheres, an octree's leaves equal boxes.
 bool Collider::SameAsLast(const Shape& shape) const {
-  const auto* sphere = std::get_if<Sphere>(&shape);
-  if (parts_.empty() || sphere == nullptr) return false;
-  const auto* last = std::get_if<Sphere>(&parts_.back().collider->shape());
-  return last != nullptr && last->radius == sphere->radius;
+  if (parts_.empty()) return false;
+  const Shape& last = parts_.back().collider->shape();
+  if (shape.index() != last.index()) return false;
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+    return std::get<Sphere>(last).radius == sphere->radius;
+  }
+  const auto* box = std::get_if<Box>(&shape);
+  return box != nullptr && std::get<Box>(last).size == box->size;
 }
 
 Vector3d Collider::Support(const Vector3d& direction) const {

@@ -12,6 +12,7 @@
 
 #include "models/error.h"
 #include "models/geometry/decomposition_cache.h"
+#include "models/geometry/mesh_surface.h"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wshadow"
@@ -25,7 +26,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kWeld = 1e-6;      // of the extent
 constexpr double kThinnest = 1e-4;  // of a part's extent; flat ones are padded to it
 constexpr double kScale = 1000.0;   // to which HACD brings the diagonal
 
@@ -37,32 +37,6 @@ Extent ExtentOf(const std::vector<Vector3d>& points) {
   Vector3d low = points.front(), high = low;
   for (const Vector3d& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
   return {low, high - low};
-}
-
-// One vertex a cell of a fine grid; triangles that shrink to nothing are dropped.
-TriangleMesh Weld(const TriangleMesh& mesh) {
-  const Extent extent = ExtentOf(mesh.vertices);
-  const double cell = kWeld * std::max(extent.size.maxCoeff(), 1e-300);
-  std::map<std::array<long, 3>, int> numbers;
-  std::vector<int> welded;
-  TriangleMesh result;
-  for (const Vector3d& p : mesh.vertices) {
-    const Vector3d at = (p - extent.low) / cell;
-    const std::array<long, 3> key{std::lround(at.x()), std::lround(at.y()), std::lround(at.z())};
-    const auto [entry, fresh] = numbers.emplace(key, static_cast<int>(numbers.size()));
-    if (fresh) result.vertices.push_back(p);
-    welded.push_back(entry->second);
-  }
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const std::array<int, 3> triangle{welded[static_cast<std::size_t>(a)],
-                                      welded[static_cast<std::size_t>(b)],
-                                      welded[static_cast<std::size_t>(c)]};
-    if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0]) {
-      continue;
-    }
-    result.triangles.push_back(triangle);
-  }
-  return result;
 }
 
 // For each triangle the number of its cluster.
@@ -122,7 +96,7 @@ std::vector<std::shared_ptr<const ConvexHull>> DecomposeMesh(const TriangleMesh&
     throw ModelError(
         fmt::format("{}: concavity; got {}; expected between 0 and 1", name, concavity));
   }
-  const TriangleMesh welded = mesh.vertices.empty() ? mesh : Weld(mesh);
+  const TriangleMesh welded = WeldVertices(mesh);
   if (welded.triangles.empty()) {
     throw ModelError(fmt::format("{}: mesh is empty; got 0 triangles; expected some", name));
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "models/geometry/contact_refinement.h"
 #include "models/geometry/simplex.h"
 
 namespace oca::models::internal {
@@ -15,7 +16,9 @@ constexpr int kMaxSteps = 128;
 constexpr int kMaxIdleSteps = 4;
 constexpr double kDirection = 4e-15;  // rounding of v, of the size, times the size over |v|
 constexpr double kBlunt = 1e-9;       // of the size: a bound that costs a direction nothing
-constexpr double kRounding = 1e-15;   // of a difference of support points, of the size of the pair
+constexpr double kRefinable = 1e-5;   // of the size: from so near on a round contact is solved for
+constexpr double kRefinableShare = 1e-3;  // the same, of |v|
+constexpr double kRounding = 1e-15;  // of a difference of support points, of the size of the pair
 
 // The bodies may have moved such that a remembered triangle is worth little; it is a start still.
 void Start(const CorePair& pair, const PairCache* cache, Simplex* simplex) {
@@ -48,6 +51,12 @@ CoreDistance Result(const CorePair& pair, const Simplex& simplex, double length,
           lower > 0.0 ? across : Vector3d(simplex.v() / length), std::max(length - lower, 0.0)};
 }
 
+bool Refine(const CorePair& pair, const Simplex& simplex, CoreDistance* found) {
+  std::array<CorePair::Difference, 3> points;
+  for (int i = 0; i < simplex.count(); ++i) points[i] = simplex.point(i);
+  return RefineContact(pair, std::span(points.data(), simplex.count()), found);
+}
+
 }  // namespace
 
 GjkStatus Gjk(const CorePair& pair, double max_distance, bool separated, PairCache* cache,
@@ -60,7 +69,7 @@ GjkStatus Gjk(const CorePair& pair, double max_distance, bool separated, PairCac
   double length = simplex.v().norm();
   double lower = 0.0;
   Vector3d across = Vector3d::Zero();
-  bool outside = separated;
+  bool outside = separated, refined = !pair.IsRound();
   int idle = 0;
   for (int step = 0; step < kMaxSteps; ++step) {
     if (length <= kTouch * size) break;
@@ -76,6 +85,15 @@ GjkStatus Gjk(const CorePair& pair, double max_distance, bool separated, PairCac
       *result = Result(pair, simplex, length, bound, simplex.v() / length);
       result->distance = bound;
       return GjkStatus::kBeyond;
+    }
+    if (!refined && length - bound <= std::min(kRefinable * size, kRefinableShare * length)) {
+      refined = true;
+      CoreDistance found = Result(pair, simplex, length, lower, across);
+      if (Refine(pair, simplex, &found)) {
+        Remember(simplex, cache);
+        *result = found;
+        return found.distance > max_distance ? GjkStatus::kBeyond : GjkStatus::kSeparated;
+      }
     }
     if (length - bound <= std::min(proof, 1e-6 * length)) break;
     if (simplex.Contains(support)) break;
@@ -100,6 +118,7 @@ GjkStatus Gjk(const CorePair& pair, double max_distance, bool separated, PairCac
   }
   Remember(simplex, cache);
   *result = Result(pair, simplex, length, lower, across);
+  if (pair.IsRound()) Refine(pair, simplex, result);
   return GjkStatus::kSeparated;
 }
 

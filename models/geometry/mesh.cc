@@ -84,6 +84,15 @@ void CheckScale(const fs::path& file, const Vector3d& scale) {
                            scale.x(), scale.y(), scale.z()));
 }
 
+// In the words of this project: the path is said before, a stop comes after.
+std::string ReasonOf(std::string reason) {
+  if (reason.find("STL storage representation") != std::string::npos) {
+    return "neither text nor binary STL";
+  }
+  while (reason.ends_with('.')) reason.pop_back();
+  return reason.empty() ? "no scene" : reason;
+}
+
 // Appends the triangles of a node and of all below it. The tree of a file may be deep: no
 // recursion.
 void Collect(const aiScene& scene, const Vector3d& scale, TriangleMesh* result) {
@@ -147,7 +156,7 @@ TriangleMesh LoadMesh(const fs::path& file, const Vector3d& scale) {
   }
   if (!scene || !scene->mRootNode) {
     Refuse(file, fmt::format("cannot be read as a mesh; got {}; expected STL, OBJ or Collada",
-                             reason.empty() ? "no scene" : reason));
+                             ReasonOf(reason)));
   }
   TriangleMesh mesh;
   Collect(*scene, scale, &mesh);

@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory_resource>
 
+#include "models/geometry/contact_refinement.h"
 #include "models/geometry/lattice_hull.h"
 
 namespace oca::models::internal {
@@ -218,6 +219,9 @@ CoreDistance Polytope::Result(const std::array<int, 3>& face, const Plane& plane
   CoreDistance result{.distance = -plane.offset, .normal = -plane.normal, .gap = gap};
   for (int i = 0; i < 3; ++i) result.point_a += weight[i] * source_[face[i]].a;
   result.point_b = result.point_a - result.distance * result.normal;
+  if (pair_.IsRound()) {
+    RefineContact(pair_, std::array{source_[face[0]], source_[face[1]], source_[face[2]]}, &result);
+  }
   return result;
 }
 

@@ -9,7 +9,7 @@
 
 #include "models/error.h"
 #include "models/geometry/decomposition.h"
-#include "models/geometry/mesh.h"
+#include "models/geometry/mesh_surface.h"
 #include "models/robot/fuse_capsules.h"
 #include "models/robot/mesh_path.h"
 #include "models/robot/srdf.h"
@@ -136,7 +136,7 @@ class UrdfReader {
       const urdf::Collision& collision = *from.collision_array[i];
       link.collisions.push_back(
           {ToPose(collision.origin),
-           ReadShape(*collision.geometry,
+           ReadShape(*collision.geometry, entry.name,
                      fmt::format("{}: link '{}' collision", source, entry.name)),
            source});
     }
@@ -150,14 +150,22 @@ class UrdfReader {
     return link;
   }
 
-  Shape ReadShape(const urdf::Geometry& geometry, const std::string& where) const {
+  Shape ReadShape(const urdf::Geometry& geometry, const std::string& link,
+                  const std::string& where) const {
     if (geometry.type == urdf::Geometry::MESH) {
       const auto& mesh = static_cast<const urdf::Mesh&>(geometry);
       const std::filesystem::path file = FindMesh(mesh.filename, directory_, options_, where);
       try {
         const Eigen::Vector3d scale = ToVector(mesh.scale);
         if (options_.decompose_meshes) return LoadDecomposition(file, scale);
-        return ConvexMesh{LoadConvexHull(file, scale)};
+        const TriangleMesh triangles = LoadMesh(file, scale);
+        const auto hull = MakeConvexHull(triangles.vertices, file.string());
+        const std::string excess = options_.warn ? DescribeHullExcess(triangles, *hull) : "";
+        if (!excess.empty()) {
+          options_.warn(
+              fmt::format("link '{}': collision mesh '{}' {}", link, mesh.filename, excess));
+        }
+        return ConvexMesh{hull};
       } catch (const ModelError& error) {
         throw ModelError(where + ": " + error.what());
       }

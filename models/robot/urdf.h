@@ -28,6 +28,8 @@ struct LoadOptions {
   /// true: a collision mesh counts as the compound that LoadDecomposition makes of it, which keeps
   /// its hollows, instead of its convex hull.
   bool decompose_meshes{false};
+  /// Takes a line for each mesh whose hull adds volume, `link 'x': collision mesh ...`; or unset.
+  std::function<void(const std::string& line)> warn;
   /// false: visual elements are not read, and their meshes need not exist.
   bool load_visuals{true};
 };

@@ -117,13 +117,13 @@ TEST_P(DistanceAccuracyTest, PairsOfAllKindsAtAllGapsAreProvedFromBothSides) {
   EXPECT_GT(tally.round.count, kQueries / 4);
   EXPECT_EQ(tally.wrong_sign, 0);
   EXPECT_LE(tally.open, kQueries / 2'500);
-  EXPECT_LE(tally.open_worst, 1e-5);
+  EXPECT_LE(tally.open_worst, 1e-9);
   EXPECT_LE(tally.flat.apart, 1e-12);
   EXPECT_LE(tally.flat.overlap, 1e-12);
   EXPECT_LE(tally.flat.normal, 1e-6);
   EXPECT_LE(tally.round.apart, 1e-7);
   EXPECT_LE(tally.round.overlap, 1e-6);
-  EXPECT_LE(tally.round.normal, 1e-3);  // at gaps of 1e-4 m; a short normal has few digits
+  EXPECT_LE(tally.round.normal, 1e-6);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shares, DistanceAccuracyTest, testing::Range(0, kShares));

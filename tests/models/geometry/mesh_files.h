@@ -50,6 +50,29 @@ inline std::string TextObj() {
   return "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 }
 
+/// A closed prism over an L, 3 m^2 by 1 m; its convex hull has half a cubic metre more.
+inline std::string AngleObj() {
+  std::string text;
+  for (const char* z : {" 0\n", " 1\n"}) {
+    for (const char* xy : {"0 0", "2 0", "2 1", "1 1", "1 2", "0 2"}) {
+      text += std::string("v ") + xy + z;
+    }
+  }
+  const auto face = [&text](int a, int b, int c) {
+    text += "f " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(c) + "\n";
+  };
+  for (int i = 2; i < 6; ++i) {
+    face(1, i + 1, i);
+    face(7, 6 + i, 7 + i);
+  }
+  for (int i = 1; i <= 6; ++i) {
+    const int next = i % 6 + 1;
+    face(i, next, next + 6);
+    face(i, next + 6, i + 6);
+  }
+  return text;
+}
+
 /// The tetrahedron in Collada: `unit` in metres, `up` X_UP|Y_UP|Z_UP, `node` inside the node.
 inline std::string Collada(const std::string& unit, const std::string& up,
                            const std::string& node) {

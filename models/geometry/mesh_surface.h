@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "models/geometry/convex_hull.h"
+#include "models/geometry/mesh.h"
+
+namespace oca::models {
+
+/// The mesh with one vertex for all that lie in the same cell of a grid of 1e-6 of its extent;
+/// triangles that shrink to nothing are dropped.
+TriangleMesh WeldVertices(const TriangleMesh& mesh);
+
+/// Volume within a surface, m^3; none if the surface is open: an edge, after welding, that its
+/// triangles do not pass as often in one direction as in the other. Bodies of one mesh that overlap
+/// count twice where they do.
+std::optional<double> EnclosedVolume(const TriangleMesh& mesh);
+
+/// What a user should know of a mesh that counts as its hull: "counts as its convex hull, which
+/// adds 0.0123 m^3 (35 %)"; empty if that is less than 1 %. The volume that an open surface would
+/// have is not known, and the text says that.
+std::string DescribeHullExcess(const TriangleMesh& mesh, const ConvexHull& hull);
+
+}  // namespace oca::models
