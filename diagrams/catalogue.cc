@@ -38,6 +38,7 @@
 #include "systems/spline_generator.h"
 #include "systems/step_source.h"
 #include "systems/sum.h"
+#include "systems/tip_error.h"
 #include "systems/wrench_transform.h"
 #include "systems/zero_order_hold.h"
 
@@ -130,6 +131,7 @@ const std::vector<CatalogueRow>& Catalogue() {
       Row<SplineGenerator>("SplineGenerator"),
       Row<StepSource>("StepSource"),
       Row<Sum>("Sum"),
+      Row<TipError>("TipError"),
       Row<WrenchTransform>("WrenchTransform"),
       Row<ZeroOrderHold>("ZeroOrderHold"),
   };

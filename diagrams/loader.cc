@@ -190,6 +190,7 @@ class Loader {
     for (const Value::Entry& field : *entry.value.map()) {
       if (field.key != "type") rest.push_back(field);
     }
+    TellObstacles(rest);
     try {
       const CatalogueRow& row = FindRow(*type->string());
       const Value params = models_->ResolveFiles(Value(std::move(rest), entry.value.location()));
@@ -208,6 +209,24 @@ class Loader {
       problems_.Add(entry.location, fmt::format("{}: {}", where, error.what()));
     } catch (const ConfigError& error) {
       problems_.Add(type->location(), fmt::format("{}.type: {}", where, error.what()));
+    }
+  }
+
+  /// A goal with a clearance is kept from the obstacles of the file, unless it names others.
+  void TellObstacles(Value::Map& params) {
+    for (Value::Entry& field : params) {
+      const bool goal = field.key == "goal" && field.value.Find("clearance") != nullptr;
+      if (!goal || field.value.Find("around") != nullptr) continue;
+      Value::List sources;
+      for (const Value::Entry& system : Map("systems")) {
+        const Value* const type = system.value.Find("type");
+        if (type == nullptr || type->string() == nullptr) continue;
+        if (*type->string() != "ObstacleSource") continue;
+        Value::Map source = *system.value.map();
+        std::erase_if(source, [](const Value::Entry& entry) { return entry.key == "type"; });
+        sources.emplace_back(std::move(source), system.value.location());
+      }
+      field.value.map()->push_back({"around", field.location, {std::move(sources), field.location}});
     }
   }
 

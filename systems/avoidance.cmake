@@ -12,6 +12,7 @@ set(avoidance
   repulsive_field
   robot_kinematics
   signals
+  tip_error
   wrench_transform)
 set(avoidance_headers geometry_params.h link_colliders.h model_links.h motion_metrics_value.h
     rotation.h)

@@ -14,6 +14,7 @@ set(basics
   joint_servo
   key_points
   linear_interpolator
+  pose_goal
   ramp_source
   require
   saturation

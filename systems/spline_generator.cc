@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "framework/error.h"
+#include "systems/model_links.h"
 #include "systems/require.h"
 
 namespace oca::systems {
@@ -51,6 +52,9 @@ void SplineRequest::Params::Describe(Fields<Params>& fields) {
   fields.Add("ends", &Params::ends, "", "of a c2 spline: clamped or natural");
   fields.Add("key_points", &Params::key_points, "", "points in order of time");
   fields.Add("file", &Params::file, "", "CSV file of key points (time, p1..pn) instead");
+  fields.Add("goal", &Params::goal, "", "pose to end at, reached from the last key point");
+  fields.Add("model", &Params::model, "",
+             "robot that has the goal; may be left out if there is but one");
   fields
       .Add("period", &Params::period, "s",
            "0: continuous in time; > 0: sampled for the end of each period and held")
@@ -63,7 +67,20 @@ SplineRequest::Params SplineRequest::Example() {
                          {.time = 1.0, .position = Eigen::Vector2d(0.5, -1.0)}}};
 }
 
+SplineRequest::Params SplineRequest::Resolved(Params params, const ModelSet& models) {
+  if (!params.goal) return params;
+  params.key_points = KeyPointsFrom(params.key_points, params.file);
+  params.file.clear();
+  const auto model = MovableModel(models, params.model);
+  params.key_points.push_back(KeyPointAt(*params.goal, params.key_points.back(), model));
+  params.goal.reset();
+  return params;
+}
+
 SplineRequest::Params SplineRequest::Checked(Params params) {
+  if (params.goal) {
+    throw ConfigError("goal: a pose of a link; got no models; expected the model it is of");
+  }
   RequireNotNegative("period", params.period);
   params.key_points = KeyPointsFrom(params.key_points, params.file);
   CheckUsed(params);

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "framework/params.h"
 #include "systems/key_points.h"
+#include "systems/model_set.h"
+#include "systems/pose_goal.h"
 #include "systems/trajectory.h"
 #include "systems/trajectory_source.h"
 
@@ -26,11 +29,15 @@ struct SplineRequest {
     Trajectory::Ends ends{Trajectory::Ends::kClamped};
     std::vector<KeyPoint> key_points{};
     std::string file{};
+    std::optional<PoseGoal> goal{};
+    std::string model{};
     Period period{};
     std::string unit{"rad"};
     static void Describe(Fields<Params>& fields);
   };
   static Params Example();
+  /// With the goal as one more key point.
+  static Params Resolved(Params params, const ModelSet& models);
   static Params Checked(Params params);
   static Trajectory MakeTrajectory(const Params& params);
 };
@@ -41,6 +48,10 @@ struct SplineRequest {
 ///         quintic  meets velocities and accelerations (absent: 0); acceleration continuous
 ///         c2       cubic spline with continuous acceleration; `ends` clamped meets the velocities
 ///                  of the first and last point (absent: 0), natural has no acceleration there
+///
+/// `goal` is a pose of a link of `model`, in place of a last key point: the joints that reach it
+/// are found when the system is made, from those of the key point before, where the spline starts
+/// if it is the only one. pose_goal.h says which of them.
 ///
 /// Before the first key point it holds the first position, after the last one the last, with zero
 /// rates. `period` 0: the outputs are functions of time. `period` > 0: sampled and held; within
@@ -54,7 +65,8 @@ struct SplineRequest {
 ///       goal          n  u      position of the last key point
 /// state position, velocity, acceleration  n   if sampled
 /// throws ConfigError if the key points are none, not in order of time, of different lengths, not
-///        finite, or tell what `kind` cannot meet; if the file cannot be read; if period < 0
+///        finite, or tell what `kind` cannot meet; if the file cannot be read; if period < 0; if
+///        the goal is out of reach, without a key point before or a model
 /// source report section 3.4; formulas in trajectory.h
 using SplineGenerator = TrajectorySource<SplineRequest>;
 
