@@ -19,6 +19,8 @@ namespace {
 constexpr std::array kLimitNames{"none", "position", "velocity", "acceleration", "jerk"};
 // Less than this is rounding, and no news (rad, m).
 constexpr double kUnchanged = 1e-12;
+// Share of the acceleration limit that catching up brakes with; the rest is the request's own.
+constexpr double kCatchUpShare = 0.5;
 
 MotionLimiter::Params Checked(const MotionLimiter::Params& params) {
   RequirePositive("period", params.period);
@@ -60,73 +62,95 @@ MotionLimiter::MotionLimiter(const Params& params, const ModelSet& models)
     : params_(Checked(params)),
       model_(MovableModel(models, params.model)),
       c_(DeclareDiscreteState("c", PositionSpec(*model_), 0.0)),
+      r_(DeclareDiscreteState("r", PositionSpec(*model_), 0.0)),
       v_(DeclareDiscreteState("v", RateSpec(*model_), 0.0)),
       a_(DeclareDiscreteState("a", {model_->num_positions(), RateSpec(*model_).unit.Rate()}, 0.0)),
       started_(DeclareDiscreteState("started", {1, Unit::Any()}, 0.0)),
       position_in(DeclareInput<Vector>("position", PositionSpec(*model_))),
       measured_position(DeclareOptionalInput<Vector>("measured_position", PositionSpec(*model_))),
       position(DeclareOutput<Vector, &MotionLimiter::CalcPosition>(
-          "position", PositionSpec(*model_), position_in, c_, v_, a_, started_)),
+          "position", PositionSpec(*model_), position_in, c_, r_, v_, a_, started_)),
       velocity(DeclareOutput<Vector, &MotionLimiter::CalcVelocity>(
-          "velocity", RateSpec(*model_), position_in, c_, v_, a_, started_)),
-      clips(DeclareOutput<MotionClips, &MotionLimiter::CalcClips>("clips", {}, position_in, c_, v_,
-                                                                  a_, started_)) {
-  DeclareInitialization<&MotionLimiter::Start>(Writes(c_), position_in, measured_position);
-  DeclareUpdate<&MotionLimiter::Update>(Every{params_.period}, Writes(c_, v_, a_, started_),
-                                        position, velocity);
+          "velocity", RateSpec(*model_), position_in, c_, r_, v_, a_, started_)),
+      clips(DeclareOutput<MotionClips, &MotionLimiter::CalcClips>("clips", {}, position_in, c_, r_,
+                                                                  v_, a_, started_)) {
+  DeclareInitialization<&MotionLimiter::Start>(Writes(c_, r_), position_in, measured_position);
+  DeclareUpdate<&MotionLimiter::Update>(Every{params_.period}, Writes(c_, r_, v_, a_, started_),
+                                        position_in, position, velocity);
 }
 
 void MotionLimiter::Start(VectorView request, std::optional<VectorView> measured,
-                          MutableVectorView c) const {
+                          MutableVectorView c, MutableVectorView r) const {
   c = measured ? *measured : request;
+  r = request;
 }
 
-void MotionLimiter::Update(VectorView command, VectorView rate, MutableVectorView c,
-                           MutableVectorView v, MutableVectorView a,
-                           MutableVectorView started) const {
+void MotionLimiter::Update(VectorView request, VectorView command, VectorView rate,
+                           MutableVectorView c, MutableVectorView r, MutableVectorView v,
+                           MutableVectorView a, MutableVectorView started) const {
   started[0] = 1.0;
   a = (rate - v) / params_.period.seconds();
   v = rate;
   c = command;
+  r = request;
 }
 
-MotionLimiter::Answer MotionLimiter::Answers(VectorView request, VectorView c, VectorView v,
-                                             VectorView a, VectorView started,
+double MotionLimiter::Wish(double request, double c, double r,
+                           const models::JointLimits& limits) const {
+  const double dt = params_.period.seconds();
+  const double lag = std::fabs(r - c);
+  const double a = kCatchUpShare * limits.acceleration;
+  double catch_up = models::LargestStoppableVelocity(lag, a, dt);
+  if (std::isfinite(limits.acceleration) && std::isfinite(limits.jerk)) {
+    // Distance to a halt from u: u^2 / (2 a) + u T, T the time until the brakes are on.
+    const double ramp = a * limits.acceleration / limits.jerk;
+    catch_up = std::min(catch_up, std::sqrt(ramp * ramp + 2.0 * a * lag) - ramp);
+  }
+  // All of the lag at once in one division, so that no lag passes the request bit by bit.
+  if (catch_up >= lag / dt) return (request - c) / dt;
+  return (request - r) / dt + std::copysign(catch_up, r - c);
+}
+
+MotionLimiter::Answer MotionLimiter::Answers(VectorView request, const Past& past,
                                              Eigen::Index joint) const {
   const double dt = params_.period.seconds();
-  const double wish = (request[joint] - c[joint]) / dt;
-  Answer answer{request[joint], wish, {}};
+  const double c = past.c[joint];
+  const double whole = (request[joint] - c) / dt;
+  Answer answer{request[joint], whole, {}};
   if (!params_.enabled) return answer;
-  if (started[0] == 0.0) return {c[joint], 0.0, {}};
+  if (past.started[0] == 0.0) return {c, 0.0, {}};
+  const models::JointLimits limits = LimitsOf(*model_, joint);
   const models::VelocityRange range =
-      models::StoppableVelocities(LimitsOf(*model_, joint), {c[joint], v[joint], a[joint]}, dt);
+      models::StoppableVelocities(limits, {c, past.v[joint], past.a[joint]}, dt);
+  const double wish = Wish(request[joint], c, past.r[joint], limits);
   answer.velocity = std::min(std::max(wish, range.lower), range.upper);
-  if (answer.velocity == wish) return answer;
-  answer.position = c[joint] + answer.velocity * dt;
-  answer.clip = {static_cast<int>(joint),
-                 wish > range.upper ? range.upper_limit : range.lower_limit, range.yields,
-                 answer.position - request[joint]};
+  if (answer.velocity == whole) return answer;
+  answer.position = c + answer.velocity * dt;
+  models::MotionLimit limit = models::MotionLimit::kAcceleration;  // of the way to catch up
+  if (wish > range.upper) limit = range.upper_limit;
+  if (wish < range.lower) limit = range.lower_limit;
+  answer.clip = {static_cast<int>(joint), limit, range.yields, answer.position - request[joint]};
   return answer;
 }
 
-void MotionLimiter::CalcPosition(VectorView request, VectorView c, VectorView v, VectorView a,
-                                 VectorView started, MutableVectorView out) const {
+void MotionLimiter::CalcPosition(VectorView request, VectorView c, VectorView r, VectorView v,
+                                 VectorView a, VectorView started, MutableVectorView out) const {
   for (Eigen::Index i = 0; i < out.size(); ++i)
-    out[i] = Answers(request, c, v, a, started, i).position;
+    out[i] = Answers(request, {c, r, v, a, started}, i).position;
 }
 
-void MotionLimiter::CalcVelocity(VectorView request, VectorView c, VectorView v, VectorView a,
-                                 VectorView started, MutableVectorView out) const {
+void MotionLimiter::CalcVelocity(VectorView request, VectorView c, VectorView r, VectorView v,
+                                 VectorView a, VectorView started, MutableVectorView out) const {
   for (Eigen::Index i = 0; i < out.size(); ++i)
-    out[i] = Answers(request, c, v, a, started, i).velocity;
+    out[i] = Answers(request, {c, r, v, a, started}, i).velocity;
 }
 
-void MotionLimiter::CalcClips(VectorView request, VectorView c, VectorView v, VectorView a,
-                              VectorView started, MotionClips& out) const {
+void MotionLimiter::CalcClips(VectorView request, VectorView c, VectorView r, VectorView v,
+                              VectorView a, VectorView started, MotionClips& out) const {
   out.clips.clear();
   out.clips.reserve(static_cast<std::size_t>(request.size()));
   for (Eigen::Index i = 0; i < request.size(); ++i) {
-    const MotionClip clip = Answers(request, c, v, a, started, i).clip;
+    const MotionClip clip = Answers(request, {c, r, v, a, started}, i).clip;
     if (std::fabs(clip.amount) > kUnchanged) out.clips.push_back(clip);
   }
 }

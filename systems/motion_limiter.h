@@ -31,13 +31,17 @@ struct MotionClips {
 /// The last stage before the joints: whatever is requested, the joints are sent within the limits
 /// of the model, at every tick, and so that they can always stop within them.
 ///
-///     position_out = c + u period,   u = clamp((position - c) / period, range(c, v, a))
+///     position_out = c + u period,   u = clamp(w + catch_up(r - c), range(c, v, a))
 ///
-/// c, v, a are position, velocity and acceleration of the command at the last tick, and the range
-/// is that of models::StoppableVelocities: position, velocity, acceleration and jerk limits of the
-/// model, the last two where it has any. Each joint is treated alone. The output follows from the
-/// input at once: it costs no delay, and a request within the limits passes unchanged. The command
-/// is that of a joint which moves straight from tick to tick, as with a deadbeat JointServo.
+/// c, v, a are position, velocity and acceleration of the command at the last tick, r is the
+/// request there and w = (position - r) / period its velocity. The range is that of
+/// models::StoppableVelocities: position, velocity, acceleration and jerk limits of the model, the
+/// last two where it has any. A command that was held back, c != r, catches up no faster than it
+/// can brake by half the acceleration (and the time the jerk takes to build that up), so that it
+/// meets the request at the request's own velocity instead of shooting past it. Each joint is
+/// treated alone. The output follows from the input at once: it costs no delay, and a request
+/// within the limits passes unchanged. The command is that of a joint which moves straight from
+/// tick to tick, as with a deadbeat JointServo.
 ///
 /// in    position           n  u    target for the end of the period, held between ticks
 ///       measured_position  n  u    optional; where the command starts, else at `position`
@@ -45,6 +49,7 @@ struct MotionClips {
 ///       velocity  n  u/s           of the period: u
 ///       clips     MotionClips      the joints whose request was changed
 /// state c         n  u
+///       r         n  u
 ///       v         n  u/s           at the start 0
 ///       a         n  u/s^2         at the start 0
 ///       started   1                0 before the first tick, when the command rests
@@ -54,7 +59,9 @@ class MotionLimiter final : public System {
  public:
   static constexpr SystemDoc kDoc{
       "keeps the limits of the joints, so that they can always stop",
-      "position = c + period clamp((position - c) / period, velocities from which c can stop)", ""};
+      "position = c + period clamp(velocity of the request + catch-up, velocities from which c can "
+      "stop)",
+      ""};
   struct Params {
     std::string model{};
     Period period{};
@@ -70,20 +77,27 @@ class MotionLimiter final : public System {
   const Params params_;
   const std::shared_ptr<const models::RobotModel> model_;
   const DiscreteState<Vector> c_;
+  const DiscreteState<Vector> r_;
   const DiscreteState<Vector> v_;
   const DiscreteState<Vector> a_;
   const DiscreteState<Vector> started_;
-  Answer Answers(VectorView request, VectorView c, VectorView v, VectorView a, VectorView started,
-                 Eigen::Index joint) const;
-  void Start(VectorView request, std::optional<VectorView> measured, MutableVectorView c) const;
-  void Update(VectorView command, VectorView rate, MutableVectorView c, MutableVectorView v,
-              MutableVectorView a, MutableVectorView started) const;
-  void CalcPosition(VectorView request, VectorView c, VectorView v, VectorView a,
+  /// The command at the last tick, and the request there.
+  struct Past {
+    VectorView c, r, v, a, started;
+  };
+  Answer Answers(VectorView request, const Past& past, Eigen::Index joint) const;
+  double Wish(double request, double c, double r, const models::JointLimits& limits) const;
+  void Start(VectorView request, std::optional<VectorView> measured, MutableVectorView c,
+             MutableVectorView r) const;
+  void Update(VectorView request, VectorView command, VectorView rate, MutableVectorView c,
+              MutableVectorView r, MutableVectorView v, MutableVectorView a,
+              MutableVectorView started) const;
+  void CalcPosition(VectorView request, VectorView c, VectorView r, VectorView v, VectorView a,
                     VectorView started, MutableVectorView out) const;
-  void CalcVelocity(VectorView request, VectorView c, VectorView v, VectorView a,
+  void CalcVelocity(VectorView request, VectorView c, VectorView r, VectorView v, VectorView a,
                     VectorView started, MutableVectorView out) const;
-  void CalcClips(VectorView request, VectorView c, VectorView v, VectorView a, VectorView started,
-                 MotionClips& out) const;
+  void CalcClips(VectorView request, VectorView c, VectorView r, VectorView v, VectorView a,
+                 VectorView started, MotionClips& out) const;
 
  public:
   const Input<Vector> position_in;  ///< port `position`

@@ -102,6 +102,24 @@ TEST_F(MotionLimiterTest, LetsAJointOutsideItsRangeOnlyComeBack) {
   EXPECT_DOUBLE_EQ(Within(bench, 1, One(0.0))[0], 3.099);
 }
 
+// A request that sets off at 0.5 rad/s at once: the command lags behind, catches up and meets it.
+TEST_F(MotionLimiterTest, CatchesUpWithoutShootingPast) {
+  for (const double jerk : {models::kUnlimited, 200.0}) {
+    Bench bench(Hundred(), Arm(10, jerk));
+    bench->position_in.Fix(bench.context(), One(0.0));
+    double request = 0.0;
+    double furthest = -1.0;
+    for (int k = 0; k < 100; ++k) {
+      request = 0.5 * kDt * (k + 1);
+      const double out = Within(bench, k, One(request))[0];
+      EXPECT_LT(bench->velocity.Eval(bench.context())[0], 1.0);
+      furthest = std::max(furthest, out - request);
+    }
+    EXPECT_LT(furthest, std::isfinite(jerk) ? 1e-3 : 1e-9) << jerk;
+    EXPECT_NEAR(Within(bench, 100, One(request + 0.5 * kDt))[0], request + 0.5 * kDt, 1e-4);
+  }
+}
+
 TEST_F(MotionLimiterTest, PassesAnythingWhenDisabled) {
   auto params = Hundred();
   params.enabled = false;
