@@ -22,8 +22,9 @@ class SweepCommandTest : public testing::Test {
   Program run;
   const std::string place_{run.folder().path().string()};
   const std::string file_{place_ + "/tiny.yaml"};
-  const std::string sweep_{"$S sweep " + file_ + " --samples 6 --seed 9 -j 2 --vary " +
-                           "'parameters.slope=uniform(0.4, 0.6, step=0.1)' -o " + place_ + "/out "};
+  const std::string sweep_{"$S sweep " + file_ + " --samples 6 --seed 10 -j 2 --vary " +
+                           "'parameters.slope=uniform(0.4, 0.6, step=0.1)' -o " + place_ +
+                           "/campaign "};
 };
 
 TEST_F(SweepCommandTest, SumsUpTheSamplesAndTellsHowToRunAFailureAlone) {
@@ -31,7 +32,7 @@ TEST_F(SweepCommandTest, SumsUpTheSamplesAndTellsHowToRunAFailureAlone) {
   ASSERT_EQ(ran.status, 0) << ran.err;
   const json result = json::parse(ran.out);
   EXPECT_EQ(result["runs"], 6);
-  EXPECT_EQ(result["campaign"]["seed"], 9);
+  EXPECT_EQ(result["campaign"]["seed"], 10);
   const json& arrived = result["combinations"][0]["arrived"];
   EXPECT_EQ(arrived["of"], 6);
   ASSERT_EQ(result["failures"].size(), 6u - arrived["count"].get<std::size_t>());
@@ -42,7 +43,7 @@ TEST_F(SweepCommandTest, SumsUpTheSamplesAndTellsHowToRunAFailureAlone) {
     ASSERT_EQ(alone.status, 0) << alone.err;
     const json metrics = json::parse(alone.out)["metrics"];
     EXPECT_GT(metrics["final_error"].get<double>(), 0.01);
-    std::istringstream lines(run.Read("out/results.jsonl"));
+    std::istringstream lines(run.Read("campaign/results.jsonl"));
     bool found = false;
     for (std::string line; std::getline(lines, line);) {
       const json row = json::parse(line);
@@ -52,17 +53,17 @@ TEST_F(SweepCommandTest, SumsUpTheSamplesAndTellsHowToRunAFailureAlone) {
     }
     EXPECT_TRUE(found);
   }
-  EXPECT_TRUE(std::filesystem::exists(place_ + "/out/results.db"));
+  EXPECT_TRUE(std::filesystem::exists(place_ + "/campaign/results.db"));
 }
 
 TEST_F(SweepCommandTest, PrintsATableAndTheSameOneFromShards) {
   const Ran whole = run(sweep_);
   ASSERT_EQ(whole.status, 0) << whole.err;
-  EXPECT_THAT(whole.out, HasSubstr("tiny: 6 samples, seed 9"));
+  EXPECT_THAT(whole.out, HasSubstr("tiny: 6 samples, seed 10"));
   EXPECT_THAT(whole.out, HasSubstr("arrived"));
   EXPECT_THAT(whole.out, HasSubstr(" %"));
   EXPECT_THAT(whole.err, HasSubstr("a second, on 2 threads"));
-  const std::string shards = "$S sweep " + file_ + " --samples 6 --seed 9 --vary " +
+  const std::string shards = "$S sweep " + file_ + " --samples 6 --seed 10 --vary " +
                              "'parameters.slope=uniform(0.4, 0.6, step=0.1)' -o " + place_ +
                              "/parts";
   EXPECT_EQ(run("SLURM_ARRAY_TASK_ID=4 SLURM_ARRAY_TASK_MIN=4 SLURM_ARRAY_TASK_COUNT=3; export "
@@ -82,7 +83,7 @@ TEST_F(SweepCommandTest, PrintsATableAndTheSameOneFromShards) {
   const Ran merged = run("$S merge " + place_ + "/parts -o " + place_ + "/all.db --jsonl " +
                          place_ + "/all.jsonl");
   EXPECT_EQ(merged.status, 0) << merged.err;
-  EXPECT_EQ(run.Read("all.jsonl"), run.Read("out/results.jsonl"));
+  EXPECT_EQ(run.Read("all.jsonl"), run.Read("campaign/results.jsonl"));
   EXPECT_TRUE(std::filesystem::exists(place_ + "/all.db"));
   const auto without_times = [](std::string table) {
     const std::size_t line = table.find("  step p50");
@@ -93,7 +94,7 @@ TEST_F(SweepCommandTest, PrintsATableAndTheSameOneFromShards) {
 
 TEST_F(SweepCommandTest, TellsTheStatusOfItsRuns) {
   EXPECT_EQ(run(sweep_ + "-s parameters.gain=word").status, 2);
-  EXPECT_FALSE(std::filesystem::exists(place_ + "/out"));
+  EXPECT_FALSE(std::filesystem::exists(place_ + "/campaign"));
   run.folder().Write("strict.yaml", std::string(sweep::kTinyDiagram) +
                                         "expect:\n  final_error: {at_most: 0.01}\n");
   const std::string strict = "$S sweep " + place_ + "/strict.yaml --samples 3 -o " + place_;
@@ -112,7 +113,7 @@ TEST_F(SweepCommandTest, RefusesWhatItCannotDo) {
   EXPECT_THAT(vary.err, HasSubstr("did you mean 'uniform'?"));
   EXPECT_EQ(run(sweep_ + "--vary 'parameters.gain=uniform(1)'").status, 2);
   EXPECT_EQ(run(sweep_ + "--shard 3/3").status, 2);
-  EXPECT_EQ(run(sweep_ + "-j 0").status, 2);
+  EXPECT_EQ(run("$S sweep " + file_ + " --samples 3 -j 0 -o " + place_ + "/o").status, 2);
   EXPECT_EQ(run("$S sweep missing.yaml --samples 3 -o " + place_ + "/o").status, 2);
   const Ran misspelt = run("$S sweep " + file_ + " --sample 3 -o x --vray a=1");
   EXPECT_EQ(misspelt.status, 64);
