@@ -28,6 +28,7 @@
 #include "systems/linear_interpolator.h"
 #include "systems/motion_limiter.h"
 #include "systems/motion_metrics.h"
+#include "systems/obstacle_sensor.h"
 #include "systems/obstacle_source.h"
 #include "systems/ramp_source.h"
 #include "systems/repulsive_field.h"
@@ -39,6 +40,7 @@
 #include "systems/step_source.h"
 #include "systems/sum.h"
 #include "systems/tip_error.h"
+#include "systems/tip_trajectory.h"
 #include "systems/wrench_transform.h"
 #include "systems/zero_order_hold.h"
 
@@ -121,6 +123,7 @@ const std::vector<CatalogueRow>& Catalogue() {
       Row<LinearInterpolator>("LinearInterpolator"),
       Row<MotionLimiter>("MotionLimiter"),
       Row<MotionMetrics>("MotionMetrics"),
+      Row<ObstacleSensor>("ObstacleSensor"),
       Row<ObstacleSource>("ObstacleSource"),
       Row<RampSource>("RampSource"),
       Row<RepulsiveField>("RepulsiveField"),
@@ -131,6 +134,7 @@ const std::vector<CatalogueRow>& Catalogue() {
       Row<SplineGenerator>("SplineGenerator"),
       Row<StepSource>("StepSource"),
       Row<Sum>("Sum"),
+      Row<TipTrajectory>("TipTrajectory"),
       Row<TipError>("TipError"),
       Row<WrenchTransform>("WrenchTransform"),
       Row<ZeroOrderHold>("ZeroOrderHold"),

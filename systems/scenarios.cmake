@@ -1,0 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
+set(scenarios
+  obstacle_sensor
+  tip_trajectory)
