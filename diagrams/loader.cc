@@ -79,8 +79,13 @@ class Loader {
   /// then.
   void Draw(const std::vector<Override>& overrides, Value& document) {
     if (document.Find("sampling") == nullptr) return;
+    std::vector<Override> before = overrides;
+    std::erase_if(before, [](const Override& change) {  // items that are yet to be drawn
+      const std::size_t at = change.path.rfind(".obstacles.");
+      return at != std::string::npos && change.path.find_first_of("0123456789", at) == at + 11;
+    });
     Problems said_later;
-    ApplyOverrides(overrides, document, said_later);
+    ApplyOverrides(before, document, said_later);
     loaded_.scenario = DrawScenario(overrides, document, problems_);
     problems_.Throw();
   }
@@ -226,7 +231,8 @@ class Loader {
         std::erase_if(source, [](const Value::Entry& entry) { return entry.key == "type"; });
         sources.emplace_back(std::move(source), system.value.location());
       }
-      field.value.map()->push_back({"around", field.location, {std::move(sources), field.location}});
+      field.value.map()->push_back(
+          {"around", field.location, {std::move(sources), field.location}});
     }
   }
 

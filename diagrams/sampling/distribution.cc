@@ -89,7 +89,7 @@ Value Distribution::Draw(models::Random& random, const Location& location) const
   }
   if (!params_.step) return Value(interval_.Draw(random), location);
   const auto place = static_cast<double>(random.Below(GridPoints(interval_, *params_.step)));
-  return Value(std::round((interval_.lower + place * *params_.step) * 1e12) * 1e-12, location);
+  return Value(std::round((interval_.lower + place * *params_.step) * 1e12) / 1e12, location);
 }
 
 }  // namespace oca::diagrams

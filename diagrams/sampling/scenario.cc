@@ -56,6 +56,9 @@ class Sampler {
     ReadDraws(section);
     // Its numbers may use what is drawn: here only the names count, and what is wrong with them.
     acceptance_.emplace(FindOrNull(section, "accept"), problems_);
+    CheckName("models", acceptance_->names().model);
+    CheckName("systems", acceptance_->names().request);
+    CheckName("systems", acceptance_->names().obstacles);
     ReadSeed();
   }
 
@@ -123,6 +126,17 @@ class Sampler {
       }
     }
     return true;
+  }
+
+  void CheckName(const char* section, const std::string& name) {
+    std::vector<std::string> known;
+    const Value* const map = document_.Find(section);
+    if (map != nullptr && map->map() != nullptr) {
+      for (const Value::Entry& entry : *map->map()) known.push_back(entry.key);
+    }
+    if (std::find(known.begin(), known.end(), name) != known.end()) return;
+    problems_.Add(accept_location_, fmt::format("sampling.accept: no '{}' in {}{}", name, section,
+                                                DidYouMean(name, known)));
   }
 
   void ReadDraws(const Value& section) {

@@ -62,7 +62,7 @@ Eigen::Vector3d PositionOf(const Value& obstacle) {
 }
 
 void ExpectOnGrid(double value, double lower, double upper, double step) {
-  EXPECT_GE(value, lower);
+  EXPECT_GE(value, lower - 1e-12);
   EXPECT_LE(value, upper + 1e-12);
   EXPECT_NEAR(std::remainder(value - lower, step), 0.0, 1e-9);
 }
@@ -244,8 +244,9 @@ TEST(ScenarioTest, TellsWhereAMistakeStands) {
               HasSubstr("sampling.draw.x: got 2 of uniform, integers and choose; expected one"));
   EXPECT_THAT(ErrorOf("sampling: {draw: {x: {integers: [0.5, 1]}}}\n"),
               HasSubstr("expected whole numbers"));
-  EXPECT_THAT(ErrorOf("sampling: {accept: {home_distanse: {at_least: 1}}}\n"),
-              HasSubstr("sampling.accept: unknown key 'home_distanse'"));
+  EXPECT_THAT(
+      ErrorOf("sampling: {accept: {home_distanse: {at_least: 1}}}\n"),
+      HasSubstr("sampling.accept.home_distanse: unknown key; did you mean 'home_distance'"));
   EXPECT_THAT(ErrorOf("sampling: {accept: {request: splin}}\n"),
               HasSubstr("did you mean 'spline'"));
   EXPECT_THAT(ErrorOf("sampling: {tries: 0}\n"), HasSubstr("sampling.tries: got 0; expected"));
