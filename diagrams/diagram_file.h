@@ -45,18 +45,11 @@ struct AttachedParams {
   static void Describe(Fields<AttachedParams>& fields);
 };
 
-/// What the collision meshes of a robot count as.
-enum class CollisionMeshes { kHull, kDecomposition };
-inline std::span<const char* const> EnumNames(CollisionMeshes) {
-  static constexpr std::array kNames{"hull", "decomposition"};
-  return kNames;
-}
-
 /// An entry of `models`.
 struct ModelParams {
   std::string urdf;
   std::string srdf;
-  CollisionMeshes collision{CollisionMeshes::kHull};
+  systems::CollisionMeshes collision{systems::CollisionMeshes::kHull};  ///< of its meshes
   systems::PoseParams base_pose;
   std::optional<PerComponent> acceleration_limits;
   std::optional<PerComponent> jerk_limits;

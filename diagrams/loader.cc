@@ -16,6 +16,7 @@
 #include "framework/dynamic_port.h"
 #include "framework/error.h"
 #include "framework/nearest.h"
+#include "systems/obstacle_source.h"
 
 namespace oca::diagrams {
 
@@ -54,6 +55,8 @@ class Loader {
     ReadSimulator();
     models_.emplace(root_, problems_);
     loaded_.models = models_->models();
+    loaded_.warnings.insert(loaded_.warnings.end(), models_->warnings().begin(),
+                            models_->warnings().end());
     ReadSystems();
     ReadConnections();
     CheckTolerances();
@@ -204,6 +207,7 @@ class Loader {
       auto system = row.make(params, where, loaded_.models, problems_);
       if (!system) return;
       locations_[entry.key] = entry.location;
+      KeepWarnings(*system, where, entry.location);
       if (!Inside(entry.key)) {
         systems_[entry.key] = outside_.emplace_back(std::move(system)).get();
         return;
@@ -214,6 +218,15 @@ class Loader {
       problems_.Add(entry.location, fmt::format("{}: {}", where, error.what()));
     } catch (const ConfigError& error) {
       problems_.Add(type->location(), fmt::format("{}.type: {}", where, error.what()));
+    }
+  }
+
+  void KeepWarnings(const System& system, const std::string& where, const Location& location) {
+    const auto* const source = dynamic_cast<const systems::ObstacleSource*>(&system);
+    if (source == nullptr) return;
+    for (const std::string& line : source->warnings()) {
+      loaded_.warnings.push_back(
+          fmt::format("{}: warning: {}: {}", location.ToString(), where, line));
     }
   }
 
@@ -231,8 +244,7 @@ class Loader {
         std::erase_if(source, [](const Value::Entry& entry) { return entry.key == "type"; });
         sources.emplace_back(std::move(source), system.value.location());
       }
-      field.value.map()->push_back(
-          {"around", field.location, {std::move(sources), field.location}});
+      field.value.map()->push_back({"around", field.location, {std::move(sources), field.location}});
     }
   }
 

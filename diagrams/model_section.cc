@@ -30,12 +30,16 @@ Location LocationOf(const Value& map, const char* key) {
 }
 
 std::vector<models::AttachedObject> MakeAttached(const std::vector<AttachedParams>& params,
-                                                 const std::string& where) {
+                                                 const std::string& where,
+                                                 std::vector<std::string>* warnings) {
   std::vector<models::AttachedObject> objects;
   for (std::size_t i = 0; i < params.size(); ++i) {
     const AttachedParams& from = params[i];
     const std::string at = fmt::format("{}.attached[{}]", where, i);
-    const auto body = systems::MakeObstacleBody(from.id, from.shape, at + ".shape");
+    if (from.shape.type == systems::ShapeType::kHalfSpace) {
+      throw ConfigError(at + ".shape.type: got a half_space; expected a body that ends");
+    }
+    const auto body = systems::MakeObstacleBody(from.id, from.shape, at + ".shape", warnings);
     objects.push_back({from.id, from.link,
                        from.pose.value_or(systems::PoseParams{}).Pose(at + ".pose"),
                        body->collider->shape(), from.touches});
@@ -77,10 +81,14 @@ void ModelSection::ReadModel(const Value::Entry& entry) {
     failed_ = true;
     return;
   }
+  std::vector<std::string> warnings;
   try {
     models::LoadOptions options;
+    options.warn = [&](const std::string& line) {
+      warnings.push_back(fmt::format("{}: {}; collision: decomposition splits it", where, line));
+    };
     options.X_WB = params.base_pose.Pose(where + ".base_pose");
-    options.decompose_meshes = params.collision == CollisionMeshes::kDecomposition;
+    options.decompose_meshes = params.collision == systems::CollisionMeshes::kDecomposition;
     options.srdf = Resolve(params.srdf, LocationOf(entry.value, "srdf"));
     if (params.acceleration_limits) {
       options.acceleration_limits = params.acceleration_limits->values();
@@ -93,11 +101,14 @@ void ModelSection::ReadModel(const Value::Entry& entry) {
     options.package_directories = PackageFolders();
     const models::RobotModel robot =
         models::LoadUrdf(Resolve(params.urdf, LocationOf(entry.value, "urdf")), options);
-    models_.Add(entry.key, std::make_shared<const models::RobotModel>(
-                               models::AttachObjects(robot, MakeAttached(params.attached, where))));
+    models_.Add(entry.key, std::make_shared<const models::RobotModel>(models::AttachObjects(
+                               robot, MakeAttached(params.attached, where, &warnings))));
   } catch (const std::runtime_error& error) {
     failed_ = true;
     problems_.Add(entry.location, fmt::format("{}: {}", where, error.what()));
+  }
+  for (const std::string& line : warnings) {
+    warnings_.push_back(fmt::format("{}: warning: {}", entry.location.ToString(), line));
   }
 }
 

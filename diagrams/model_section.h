@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "framework/value.h"
 #include "systems/model_set.h"
@@ -19,6 +20,8 @@ class ModelSection {
   const systems::ModelSet& models() const { return models_; }
   /// Whether a model could not be loaded; its users would only repeat the problem.
   bool failed() const { return failed_; }
+  /// What to know of the models that did load, a line each, with its place.
+  const std::vector<std::string>& warnings() const { return warnings_; }
   /// `value` with the texts of all keys named `file` made paths from where the program runs; they
   /// are written relative to the file they stand in, or as package://NAME/PATH.
   Value ResolveFiles(const Value& value);
@@ -31,6 +34,7 @@ class ModelSection {
   Problems& problems_;
   std::map<std::string, std::filesystem::path> packages_;
   systems::ModelSet models_;
+  std::vector<std::string> warnings_;
   bool failed_{false};
 };
 

@@ -8,7 +8,9 @@
 
 #include "framework/error.h"
 #include "models/error.h"
-#include "models/geometry/mesh.h"
+#include "models/geometry/decomposition.h"
+#include "models/geometry/mesh_surface.h"
+#include "models/geometry/octree.h"
 #include "models/geometry/point_cloud.h"
 #include "systems/rotation.h"
 
@@ -34,14 +36,21 @@ constexpr std::array<Sizes, kShapeTypeNames.size()> kSizes{{{.radius = true},
                                                             {},
                                                             {.parts = true},
                                                             {.radius = true, .file = true},
-                                                            {.file = true, .grid = true}}};
+                                                            {.file = true, .grid = true},
+                                                            {.file = true}}};
+
+// "a box", "an ellipsoid".
+std::string OneOf(ShapeType type) {
+  const std::string name = EnumNames(type)[static_cast<int>(type)];
+  return (name.find_first_of("aeiou") == 0 ? "an " : "a ") + name;
+}
 
 void CheckPresence(bool present, bool wanted, const char* key, ShapeType type,
                    const std::string& where) {
   if (present == wanted) return;
-  throw ConfigError(fmt::format("{}.{}: got {}; expected {} of a {}", where, key,
+  throw ConfigError(fmt::format("{}.{}: got {}; expected {} of {}", where, key,
                                 present ? "a value" : "none", wanted ? "one, the size" : "none",
-                                EnumNames(type)[static_cast<int>(type)]));
+                                OneOf(type)));
 }
 
 void CheckSizes(const SolidParams& shape, bool parts, const std::string& where) {
@@ -54,7 +63,20 @@ void CheckSizes(const SolidParams& shape, bool parts, const std::string& where) 
   CheckPresence(parts, has.parts, "parts", shape.type, where);
 }
 
-models::Shape MakeSolid(const SolidParams& shape) {
+using Warnings = std::vector<std::string>*;
+
+models::Shape MakeHull(const std::string& file, const std::string& where, Warnings warnings) {
+  const models::TriangleMesh mesh = models::LoadMesh(file);
+  const auto hull = models::MakeConvexHull(mesh.vertices, file);
+  const std::string excess = warnings != nullptr ? models::DescribeHullExcess(mesh, *hull) : "";
+  if (!excess.empty()) {
+    warnings->push_back(
+        fmt::format("{}: mesh '{}' {}; collision: decomposition splits it", where, file, excess));
+  }
+  return models::ConvexMesh{hull};
+}
+
+models::Shape MakeSolid(const SolidParams& shape, const std::string& where, Warnings warnings) {
   switch (shape.type) {
     case ShapeType::kSphere:
       return models::Sphere{*shape.radius};
@@ -65,7 +87,7 @@ models::Shape MakeSolid(const SolidParams& shape) {
     case ShapeType::kCapsule:
       return models::Capsule{*shape.radius, *shape.length};
     case ShapeType::kMesh:
-      return models::ConvexMesh{models::LoadConvexHull(*shape.file)};
+      return MakeHull(*shape.file, where, warnings);
     case ShapeType::kCone:
       return models::Cone{*shape.radius, *shape.length};
     case ShapeType::kEllipsoid:
@@ -75,35 +97,54 @@ models::Shape MakeSolid(const SolidParams& shape) {
     case ShapeType::kCompound:
     case ShapeType::kCloud:
     case ShapeType::kHeightmap:
+    case ShapeType::kOctree:
       break;
   }
   return models::Compound{};
 }
 
-models::Shape MakeShape(const ShapeParams& shape, const std::string& where) {
-  CheckSizes(shape, !shape.parts.empty(), where);
-  const bool grid = kSizes[static_cast<int>(shape.type)].grid;
-  CheckPresence(shape.cell.has_value(), grid, "cell", shape.type, where);
-  CheckPresence(shape.scale.has_value(), grid, "scale", shape.type, where);
-  if (shape.type == ShapeType::kCloud) {
-    return models::MakeCloud(models::LoadPointCloud(*shape.file), *shape.radius);
-  }
-  if (grid) return models::LoadHeightmap(*shape.file, *shape.cell, *shape.scale);
-  if (shape.type != ShapeType::kCompound) return MakeSolid(shape);
+models::Shape MakeCompound(const ShapeParams& shape, const std::string& where, Warnings warnings) {
   models::Compound compound;
   for (std::size_t i = 0; i < shape.parts.size(); ++i) {
     const PartParams& part = shape.parts[i];
     const std::string name = fmt::format("{}.parts[{}]", where, i);
     if (part.shape.type >= ShapeType::kHalfSpace) {
-      throw ConfigError(fmt::format("{}.shape.type: got a {}; expected a convex body that ends",
-                                    name,
-                                    EnumNames(part.shape.type)[static_cast<int>(part.shape.type)]));
+      throw ConfigError(fmt::format("{}.shape.type: got {}; expected a convex body that ends", name,
+                                    OneOf(part.shape.type)));
     }
     CheckSizes(part.shape, false, name + ".shape");
-    compound.parts.push_back(
-        {part.pose.value_or(PoseParams()).Pose(name + ".pose"), MakeSolid(part.shape)});
+    compound.parts.push_back({part.pose.value_or(PoseParams()).Pose(name + ".pose"),
+                              MakeSolid(part.shape, name + ".shape", warnings)});
   }
   return compound;
+}
+
+models::Shape MakeShape(const ShapeParams& shape, const std::string& where, Warnings warnings) {
+  CheckSizes(shape, !shape.parts.empty(), where);
+  const bool grid = kSizes[static_cast<int>(shape.type)].grid;
+  CheckPresence(shape.cell.has_value(), grid, "cell", shape.type, where);
+  CheckPresence(shape.scale.has_value(), grid, "scale", shape.type, where);
+  if (shape.collision && shape.type != ShapeType::kMesh) {
+    throw ConfigError(
+        fmt::format("{}.collision: got a value; expected none of {}, only a mesh has it", where,
+                    OneOf(shape.type)));
+  }
+  switch (shape.type) {
+    case ShapeType::kCloud:
+      return models::MakeCloud(models::LoadPointCloud(*shape.file), *shape.radius);
+    case ShapeType::kHeightmap:
+      return models::LoadHeightmap(*shape.file, *shape.cell, *shape.scale);
+    case ShapeType::kOctree:
+      return models::LoadOctree(*shape.file);
+    case ShapeType::kCompound:
+      return MakeCompound(shape, where, warnings);
+    default:
+      break;
+  }
+  if (shape.collision == CollisionMeshes::kDecomposition) {
+    return models::LoadDecomposition(*shape.file);
+  }
+  return MakeSolid(shape, where, warnings);
 }
 
 // The fields that a part and a whole have in common.
@@ -125,8 +166,8 @@ void DescribeSolid(const char* types, Fields<P>& fields) {
   fields.template Add<Triple>("size", &P::size, "m", "full edge lengths of a box").Above(0.0);
   fields.template Add<Triple>("radii", &P::radii, "m", "semi-axes of an ellipsoid").Above(0.0);
   fields.template Add<File>("file", &P::file, "",
-                            "mesh (STL, OBJ, Collada), whose convex hull counts, cloud (CSV, XYZ, "
-                            "PLY, PCD) or heightmap (PGM, CSV)");
+                            "mesh (STL, OBJ, Collada), cloud (CSV, XYZ, PLY, PCD), heightmap (PGM, "
+                            "CSV) or octree (BT, OT)");
 }
 
 SolidParams SolidParamsOf(const models::Shape& shape) {
@@ -204,33 +245,65 @@ void PartParams::Describe(Fields<PartParams>& fields) {
 void ShapeParams::Describe(Fields<ShapeParams>& fields) {
   DescribeSolid(
       "sphere, box, cylinder, capsule, mesh, cone (apex up), ellipsoid, half_space (all below the "
-      "xy plane), compound, cloud or heightmap",
+      "xy plane), compound, cloud, heightmap or octree",
       fields);
   fields.Add("parts", &ShapeParams::parts, "", "convex bodies that make a compound");
   fields.Add("cell", &ShapeParams::cell, "m", "width of a heightmap's cell").Above(0.0);
   fields.Add("scale", &ShapeParams::scale, "m", "height of a heightmap's full grey, or of 1 in CSV")
       .Above(0.0);
+  fields.Add<std::optional<CollisionMeshes>>(
+      "collision", &ShapeParams::collision, "",
+      "what a mesh counts as: hull (if left out), or decomposition into convex parts");
 }
 
 std::shared_ptr<const ObstacleBody> MakeObstacleBody(const std::string& id,
                                                      const ShapeParams& shape,
-                                                     const std::string& where) {
+                                                     const std::string& where,
+                                                     std::vector<std::string>* warnings) {
   try {
-    return std::make_shared<const ObstacleBody>(
-        ObstacleBody{models::Name(id), models::MakeCollider(MakeShape(shape, where), where),
-                     shape.file.value_or("")});
+    return std::make_shared<const ObstacleBody>(ObstacleBody{
+        models::Name(id), models::MakeCollider(MakeShape(shape, where, warnings), where),
+        shape.file.value_or("")});
   } catch (const models::ModelError& error) {
     const std::string what = error.what();
     throw ConfigError(what.starts_with(where) ? what : where + ": " + what);
   }
 }
 
+namespace {
+
+// Of a compound that a file gave.
+std::optional<ShapeParams> FileParamsOf(const models::Compound& compound, const std::string& file) {
+  if (file.empty()) return std::nullopt;
+  ShapeParams params;
+  params.file = file;
+  const models::Shape& part = compound.parts.front().shape;
+  if (const auto* sphere = std::get_if<models::Sphere>(&part)) {
+    params.type = ShapeType::kCloud;
+    params.radius = sphere->radius;
+  } else if (std::holds_alternative<models::ConvexMesh>(part)) {
+    params.type = ShapeType::kMesh;
+    params.collision = CollisionMeshes::kDecomposition;
+  } else if (file.ends_with(".bt") || file.ends_with(".ot")) {
+    params.type = ShapeType::kOctree;
+  } else {
+    return std::nullopt;  // a heightmap
+  }
+  return params;
+}
+
+}  // namespace
+
 ShapeParams ShapeParamsOf(const ObstacleBody& body) {
   const models::Shape& shape = body.collider->shape();
+  const auto* const compound = std::get_if<models::Compound>(&shape);
+  if (compound != nullptr) {
+    if (const auto params = FileParamsOf(*compound, body.file)) return *params;
+  }
   ShapeParams params;
   static_cast<SolidParams&>(params) = SolidParamsOf(shape);
   if (params.file) params.file = body.file;
-  if (const auto* compound = std::get_if<models::Compound>(&shape)) {
+  if (compound != nullptr) {
     for (const models::CompoundPart& part : compound->parts) {
       params.parts.push_back({SolidParamsOf(part.shape), PoseParamsOf(part.X_SP)});
     }

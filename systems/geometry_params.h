@@ -40,12 +40,20 @@ enum class ShapeType {
   kHalfSpace,
   kCompound,
   kCloud,
-  kHeightmap
+  kHeightmap,
+  kOctree
 };
 inline constexpr std::array kShapeTypeNames{"sphere",   "box",   "cylinder",  "capsule",
                                             "mesh",     "cone",  "ellipsoid", "half_space",
-                                            "compound", "cloud", "heightmap"};
+                                            "compound", "cloud", "heightmap", "octree"};
 inline std::span<const char* const> EnumNames(ShapeType) { return kShapeTypeNames; }
+
+/// What a mesh counts as: its convex hull, or convex parts that keep its hollows.
+enum class CollisionMeshes { kHull, kDecomposition };
+inline std::span<const char* const> EnumNames(CollisionMeshes) {
+  static constexpr std::array kNames{"hull", "decomposition"};
+  return kNames;
+}
 
 /// A convex shape as files and JSON give it: a type, and just those sizes that the type has.
 struct SolidParams {
@@ -65,23 +73,26 @@ struct PartParams {
   static void Describe(Fields<PartParams>& fields);
 };
 
-/// Any shape; a compound has parts and no sizes. A cloud or heightmap becomes a compound of balls
-/// or boxes.
+/// Any shape; a compound has parts and no sizes. A cloud, heightmap, octree or decomposed mesh
+/// becomes a compound of balls, boxes or hulls.
 struct ShapeParams : SolidParams {
   std::vector<PartParams> parts{};
   std::optional<double> cell{};
   std::optional<double> scale{};
+  std::optional<CollisionMeshes> collision{};
   static void Describe(Fields<ShapeParams>& fields);
 };
 
-/// Prepares an obstacle for distance queries; reads the file if it has one.
-/// throws ConfigError naming `where` for a missing, surplus or bad size, or a bad file
+/// Prepares an obstacle for distance queries; reads the file if it has one. `warnings` (may be
+/// null) gets a line for each mesh whose hull adds volume. throws ConfigError naming `where` for a
+/// missing, surplus or bad size, or a bad file
 std::shared_ptr<const ObstacleBody> MakeObstacleBody(const std::string& id,
                                                      const ShapeParams& shape,
-                                                     const std::string& where);
+                                                     const std::string& where,
+                                                     std::vector<std::string>* warnings = nullptr);
 
-/// The inverse: the parameters that an obstacle was made from; of a cloud or heightmap, those of
-/// the compound that it became.
+/// The inverse: the parameters that an obstacle was made from; of a heightmap, those of the
+/// compound that it became.
 ShapeParams ShapeParamsOf(const ObstacleBody& body);
 
 }  // namespace oca::systems

@@ -145,7 +145,7 @@ ObstacleSource::Entry ObstacleSource::MakeEntry(const ObstacleParams& params,
                                                 const Eigen::Isometry3d& X_WF) {
   const std::string where = fmt::format("obstacle '{}'", params.id);
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Entry entry{MakeObstacleBody(params.id, params.shape, where + ".shape"),
+  Entry entry{MakeObstacleBody(params.id, params.shape, where + ".shape", &warnings_),
               X_WF,
               {},
               params.appear.value_or(-kInfinity),

@@ -62,6 +62,9 @@ class ObstacleSource final : public System {
 
   explicit ObstacleSource(const Params& params);
 
+  /// What to know of the files that obstacles come from, a line each.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
  private:
   struct Entry {
     std::shared_ptr<const ObstacleBody> body;
@@ -73,10 +76,11 @@ class ObstacleSource final : public System {
 
     bool There(double time) const { return time >= appear && time < disappear; }
   };
-  static std::vector<Entry> MakeEntries(const Params& params);
-  static Entry MakeEntry(const ObstacleParams& params, const Eigen::Isometry3d& X_WF);
+  std::vector<Entry> MakeEntries(const Params& params);
+  Entry MakeEntry(const ObstacleParams& params, const Eigen::Isometry3d& X_WF);
 
   const Period period_;
+  std::vector<std::string> warnings_;  ///< MakeEntries adds to it
   const std::vector<Entry> entries_;
   const std::vector<int> moving_;      ///< places in entries_ of those that do not stand
   const std::vector<double> changes_;  ///< times at which bodies come or go, ascending

@@ -32,6 +32,8 @@ Json ToJson(const SolidParams& shape) {
 
 Json ToJson(const ShapeParams& shape) {
   Json json = ToJson(static_cast<const SolidParams&>(shape));
+  if (shape.collision)
+    json["collision"] = EnumNames(*shape.collision)[static_cast<int>(*shape.collision)];
   for (const PartParams& part : shape.parts) {
     json["parts"].push_back(
         {{"shape", ToJson(part.shape)}, {"pose", systems::ToJson(part.pose->Pose("part"))}});
@@ -62,10 +64,22 @@ PartParams ReadPart(const JsonReader& json) {
   return part;
 }
 
+CollisionMeshes ReadCollision(const JsonReader& json) {
+  const std::string text = json.Text();
+  const auto names = EnumNames(CollisionMeshes());
+  const auto found = std::find(names.begin(), names.end(), text);
+  if (found == names.end()) json.Fail("'" + text + "'", fmt::format("{}", fmt::join(names, ", ")));
+  return static_cast<CollisionMeshes>(found - names.begin());
+}
+
 ShapeParams ReadShape(const JsonReader& json) {
-  json.CheckKeys({"type"}, {"radius", "length", "size", "radii", "file", "parts"});
+  json.CheckKeys({"type"}, {"radius", "length", "size", "radii", "file", "parts", "cell", "scale",
+                            "collision"});
   ShapeParams shape;
   ReadSolid(json, &shape);
+  if (json.Has("cell")) shape.cell = json.At("cell").Number();
+  if (json.Has("scale")) shape.scale = json.At("scale").Number();
+  if (json.Has("collision")) shape.collision = ReadCollision(json.At("collision"));
   if (json.Has("parts")) {
     json.At("parts").ForEach(
         [&](const JsonReader& part) { shape.parts.push_back(ReadPart(part)); });

@@ -477,6 +477,8 @@ TEST_F(LoaderTest, AttachedObjectsThatCannotBeAreRefused) {
               HasSubstr("models.arm.attached[0].shape.radius"));
   EXPECT_THAT(with("{id: cup, link: planar2_tip, shape: {type: box}}"),
               HasSubstr("models.arm.attached[0].shape.size"));
+  EXPECT_THAT(with("{id: cup, link: planar2_tip, shape: {type: half_space}}"),
+              HasSubstr("models.arm.attached[0].shape.type: got a half_space"));
   EXPECT_THAT(with("{id: cup, link: planar2_tip, touchs: [], " + ball + "}"),
               HasSubstr("did you mean 'touches'?"));
 }

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "framework/error.h"
+#include "tests/models/geometry/mesh_files.h"
 #include "tests/system_bench.h"
 #include "tests/temporary_folder.h"
 
@@ -81,6 +82,9 @@ TEST(ObstacleSourceTest, RefusesACloudWithoutRadiusFileOrPoints) {
   EXPECT_THAT(RefusalOf({.obstacles = {cloud}}), HasSubstr("file: got none"));
   cloud.shape.file = "missing.csv";
   EXPECT_THAT(RefusalOf({.obstacles = {cloud}}), HasSubstr("missing.csv"));
+  const test::TemporaryFolder folder;
+  cloud.shape.file = folder.Write("empty.csv", "x,y,z\n").string();
+  EXPECT_THAT(RefusalOf({.obstacles = {cloud}}), HasSubstr("empty.csv: "));
   cloud.shape.radius.reset();
   EXPECT_THAT(RefusalOf({.obstacles = {cloud}}), HasSubstr("radius: got none"));
 }
@@ -101,6 +105,59 @@ TEST(ObstacleSourceTest, RaisesABoxForACellOfAHeightmap) {
   const auto& parts = std::get<models::Compound>(set.obstacles.at(0).body->collider->shape()).parts;
   ASSERT_EQ(parts.size(), 2u);
   EXPECT_NEAR(std::get<models::Box>(parts[1].shape).size.z(), 0.8, 1e-15);  // 0.3 and a cell
+}
+
+TEST(ObstacleSourceTest, RefusesTheSizesOfAHeightmapElsewhere) {
+  ObstacleSource::ObstacleParams ball = Ball("ball", Vector3d::Zero());
+  ball.shape.cell = 0.1;
+  EXPECT_THAT(RefusalOf({.obstacles = {ball}}),
+              HasSubstr("cell: got a value; expected none of a sphere"));
+  ball.shape.cell.reset();
+  ball.shape.scale = 0.1;
+  EXPECT_THAT(RefusalOf({.obstacles = {ball}}), HasSubstr("scale: got a value"));
+  ball.shape.scale.reset();
+  ball.shape.collision = CollisionMeshes::kHull;
+  EXPECT_THAT(RefusalOf({.obstacles = {ball}}),
+              HasSubstr("collision: got a value; expected none of a sphere"));
+}
+
+TEST(ObstacleSourceTest, AMeshIsItsHullWithAWarningOrItsParts) {
+  const test::TemporaryFolder folder;
+  ASSERT_EQ(::setenv("XDG_CACHE_HOME", folder.path().c_str(), 1), 0);
+  ObstacleSource::ObstacleParams mesh = Ball("angle", Vector3d::Zero());
+  mesh.shape = {};
+  mesh.shape.type = ShapeType::kMesh;
+  mesh.shape.file = folder.Write("angle.obj", models::AngleObj()).string();
+  const ObstacleSource hull({.obstacles = {mesh}});
+  EXPECT_THAT(hull.warnings(), testing::ElementsAre(HasSubstr("which adds 0.5 m^3 (16.7 %)")));
+  mesh.shape.collision = CollisionMeshes::kDecomposition;
+  SystemBench<ObstacleSource> parts(ObstacleSource::Params{.obstacles = {mesh}});
+  EXPECT_THAT(parts->warnings(), testing::IsEmpty());
+  const ObstacleBody& body = *parts->obstacles.Eval(parts.context()).obstacles.at(0).body;
+  EXPECT_GE(std::get<models::Compound>(body.collider->shape()).parts.size(), 2u);
+  const ShapeParams again = ShapeParamsOf(body);
+  EXPECT_EQ(again.type, ShapeType::kMesh);
+  EXPECT_EQ(again.collision, CollisionMeshes::kDecomposition);
+  EXPECT_EQ(again.file, mesh.shape.file);
+}
+
+TEST(ObstacleSourceTest, PutsABoxWhereAnOctreeIsOccupied) {
+  const test::TemporaryFolder folder;
+  ObstacleSource::ObstacleParams map = Ball("map", Vector3d::Zero());
+  map.shape = {};
+  map.shape.type = ShapeType::kOctree;
+  map.shape.file = folder
+                       .Write("map.bt",
+                              "# Octomap OcTree binary file\nid OcTree\nsize 2\nres 1e-4\n"
+                              "data\n" +
+                                  std::string("\x00\x80", 2))
+                       .string();
+  SystemBench<ObstacleSource> bench(ObstacleSource::Params{.obstacles = {map}});
+  const ObstacleBody& body = *bench->obstacles.Eval(bench.context()).obstacles.at(0).body;
+  const auto& parts = std::get<models::Compound>(body.collider->shape()).parts;
+  ASSERT_EQ(parts.size(), 1u);
+  EXPECT_NEAR(parts[0].X_SP.translation().x(), 1.6384, 1e-12);
+  EXPECT_EQ(ShapeParamsOf(body).type, ShapeType::kOctree);
 }
 
 TEST(ObstacleSourceTest, IsEmptyWithoutObstacles) {

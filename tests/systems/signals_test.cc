@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "framework/error.h"
+#include "tests/temporary_folder.h"
 
 namespace oca::systems {
 namespace {
@@ -120,6 +121,34 @@ TEST(SignalsTest, ACompoundComesBackAsItWasWritten) {
   EXPECT_THAT(WriteText<ObstacleSet>(set), HasSubstr(parts));
 }
 
+TEST(SignalsTest, ACloudComesBackAsItsFileNotAsItsPoints) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.Write("points.csv", "0,0,0\n1,2,3\n").string();
+  const std::string shape = R"({"type":"cloud","radius":0.01,"file":")" + file + R"("})";
+  const auto set = Signal<ObstacleSet>::ReadJson(R"([{"id":"s","shape":)" + shape +
+                                                 R"(,"pose":{"xyz":[0,0,0]}}])");
+  const std::string text = WriteText<ObstacleSet>(set);
+  EXPECT_THAT(text, HasSubstr(R"("type":"cloud")"));
+  EXPECT_THAT(text, HasSubstr(file));
+  EXPECT_THAT(text, testing::Not(HasSubstr("parts")));
+}
+
+TEST(SignalsTest, ReadsTheSizesOfAHeightmapAndWhatAMeshCountsAs) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.Write("heights.csv", "1,2\n").string();
+  const auto read = [&](const std::string& fields) {
+    return Signal<ObstacleSet>::ReadJson(R"([{"id":"s","shape":{)" + fields + R"(,"file":")" +
+                                         file + R"("},"pose":{"xyz":[0,0,0]}}])");
+  };
+  const auto set = read(R"("type":"heightmap","cell":0.5,"scale":0.1)");
+  const auto& map = std::get<models::Compound>(set.obstacles[0].body->collider->shape());
+  EXPECT_EQ(map.parts.size(), 2u);
+  EXPECT_THAT(
+      Refusal<ObstacleSet>(R"([{"id":"s","shape":{"type":"mesh","file":"a.stl","collision":"hul"},)"
+                           R"("pose":{"xyz":[0,0,0]}}])"),
+      HasSubstr("hull, decomposition"));
+}
+
 TEST(SignalsTest, RefusesAShapeThatHasSizesOfAnother) {
   const auto refusal = [](const std::string& shape) {
     return Refusal<ObstacleSet>(R"([{"id":"s","shape":)" + shape + R"(,"pose":{"xyz":[0,0,0]}}])");
@@ -127,7 +156,7 @@ TEST(SignalsTest, RefusesAShapeThatHasSizesOfAnother) {
   EXPECT_THAT(refusal(R"({"type":"half_space","radius":1})"),
               HasSubstr("radius: got a value; expected none of a half_space"));
   EXPECT_THAT(refusal(R"({"type":"ellipsoid","size":[1,1,1]})"),
-              HasSubstr("size: got a value; expected none of a ellipsoid"));
+              HasSubstr("size: got a value; expected none of an ellipsoid"));
   EXPECT_THAT(refusal(R"({"type":"compound"})"), HasSubstr("parts: got none"));
   EXPECT_THAT(refusal(R"({"type":"compound","parts":[{"shape":{"type":"half_space"}}]})"),
               HasSubstr("parts[0].shape.type: got a half_space"));
