@@ -6,7 +6,7 @@ import { STLLoader } from "three/addons/loaders/STLLoader.js";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
-import type { Arrow, Color, Lines, Model, Pose, SceneEntity, Vector3 } from "./messages";
+import type { Arrow, Color, Cube, Lines, Model, Pose, SceneEntity, Vector3 } from "./messages";
 
 // Shared by all entities; never disposed.
 const kCube = new THREE.BoxGeometry(1, 1, 1);
@@ -16,6 +16,8 @@ const kShaft = new THREE.CylinderGeometry(0.5, 0.5, 1, 16).rotateZ(-Math.PI / 2)
 const cylinders = new Map<string, THREE.BufferGeometry>();
 const materials = new Map<string, THREE.MeshStandardMaterial>();
 const kLineStrip = 0, kLineLoop = 1;
+const kCoarseSphere = new THREE.IcosahedronGeometry(0.5, 1);  // for clouds of them
+const kMany = 32;  // from so many on they are drawn together
 
 export function applyPose(object: THREE.Object3D, pose: Pose | undefined): void {
   if (!pose) return;
@@ -52,6 +54,32 @@ function mesh(geometry: THREE.BufferGeometry, color: Color | undefined, pose: Po
   made.scale.set(size.x, size.y, size.z);
   made.castShadow = made.receiveShadow = true;
   return made;
+}
+
+/** Equal bodies, as the points of a cloud or the cells of a map: one draw call a colour. */
+function meshes(geometry: THREE.BufferGeometry, many: Cube[]): THREE.Object3D[] {
+  const byMaterial = new Map<THREE.Material, Cube[]>();
+  for (const one of many) {
+    const key = material(one.color);
+    const same = byMaterial.get(key);
+    if (same) same.push(one); else byMaterial.set(key, [one]);
+  }
+  const at = new THREE.Object3D();
+  return [...byMaterial].map(([look, same]) => {
+    const made = new THREE.InstancedMesh(geometry, look, same.length);
+    same.forEach((one, i) => {
+      applyPose(at, one.pose);
+      at.scale.set(one.size.x, one.size.y, one.size.z);
+      at.updateMatrix();
+      made.setMatrixAt(i, at.matrix);
+    });
+    made.castShadow = made.receiveShadow = true;
+    return made;
+  });
+}
+
+function bodies(fine: THREE.BufferGeometry, coarse: THREE.BufferGeometry, list: Cube[]): THREE.Object3D[] {
+  return list.length < kMany ? list.map((one) => mesh(fine, one.color, one.pose, one.size)) : meshes(coarse, list);
 }
 
 /** An arrow along its own x; a torque has two heads, one behind the other. */
@@ -110,8 +138,8 @@ export function fatLines(flat: number[], lineMaterial: LineMaterial, colors?: nu
 export function solid(entity: SceneEntity): THREE.Group {
   const group = new THREE.Group();
   group.name = entity.id;
-  for (const cube of entity.cubes ?? []) group.add(mesh(kCube, cube.color, cube.pose, cube.size));
-  for (const sphere of entity.spheres ?? []) group.add(mesh(kSphere, sphere.color, sphere.pose, sphere.size));
+  for (const made of bodies(kCube, kCube, entity.cubes ?? [])) group.add(made);
+  for (const made of bodies(kSphere, kCoarseSphere, entity.spheres ?? [])) group.add(made);
   for (const one of entity.cylinders ?? []) {
     group.add(mesh(cylinder(one.bottom_scale ?? 1, one.top_scale ?? 1), one.color, one.pose, one.size));
   }
