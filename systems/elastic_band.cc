@@ -37,6 +37,7 @@ ElasticBand::Params Checked(const ElasticBand::Params& params) {
   RequireAbove("clearance", params.clearance, 0.0);
   RequireAbove("smoothness", params.smoothness, 0.0);
   RequireAbove("nearness", params.nearness, 0.0);
+  RequireAtLeast("calm", params.calm, 0.0);
   RequireAbove("limit_share", params.limit_share, 0.0);
   RequireAtLeast("prediction", params.prediction, 0.0);
   RequireAtLeast("least_horizon", params.least_horizon, 0.5);
@@ -88,6 +89,7 @@ void ElasticBand::Params::Describe(Fields<Params>& fields) {
       .Add("smoothness", &Params::smoothness, "s^4/rad^2", "price of the deviation's acceleration")
       .Above(0.0);
   fields.Add("nearness", &Params::nearness, "1/rad^2", "price of a deviation").Above(0.0);
+  fields.Add("calm", &Params::calm, "s^2/rad^2", "price of the deviation's speed").AtLeast(0.0);
   fields
       .Add("limit_share", &Params::limit_share, "",
            "share of the velocity and acceleration limits that plans may use")
@@ -116,6 +118,7 @@ models::BandPlannerSettings ElasticBand::SettingsOf(const Params& params) {
   settings.band.clear_distance = params.clear_distance;
   settings.band.clearance = params.clearance;
   settings.band.smoothness = params.smoothness;
+  settings.band.calm = params.calm;
   settings.band.nearness = params.nearness;
   settings.band.limit_share = params.limit_share;
   settings.least_horizon = params.least_horizon;
@@ -233,6 +236,7 @@ models::BandTask ElasticBand::MakeTask(double time, const Trajectory* request,
     task.deviation[2].setZero();
   }
   const int pause = std::min(memory.failures, kMostPause);
+  task.fresh = memory.plans == 0;
   task.explore = pause < 3 || memory.plans % static_cast<std::uint64_t>(pause) == 0;
   return task;
 }

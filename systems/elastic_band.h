@@ -53,7 +53,7 @@ class ElasticBand final : public System {
   static constexpr SystemDoc kDoc{
       "bends the requested motion around what stands and moves, ahead of time",
       "position = request + x, x = argmin integral of clearance max(margin - distance, 0)^2 + "
-      "nearness x^2 + smoothness x''^2 + limits excess^2",
+      "nearness x^2 + calm x'^2 + smoothness x''^2 + limits excess^2",
       "Quinlan, Khatib 1993, Elastic bands"};
   struct Params {
     std::string model{};
@@ -64,6 +64,7 @@ class ElasticBand final : public System {
     double clearance{1e4};
     double smoothness{0.02};
     double nearness{0.1};
+    double calm{0.1};
     double limit_share{0.85};
     double prediction{2.0};
     double least_horizon{2.0};

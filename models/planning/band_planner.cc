@@ -14,8 +14,7 @@ namespace {
 using Eigen::VectorXd;
 
 // Intervals of a band, s.
-constexpr double kFine = 0.1;  // of the first kFineSpan while something moves
-constexpr double kFineSpan = 1.6;
+constexpr double kFine = 0.1;  // of the first fine_span while something moves
 constexpr double kGrowth = 1.3;
 constexpr double kCoarse = 0.4;
 constexpr int kFewest = 8;
@@ -60,7 +59,7 @@ std::vector<double> BandPlanner::TimesOf(const BandTask& task) const {
   double step = kFine;
   while (moving && times.back() - task.start + step < horizon && step < kCoarse) {
     times.push_back(times.back() + step);
-    if (times.back() - task.start > kFineSpan) step *= kGrowth;
+    if (times.back() - task.start > settings_.fine_span) step *= kGrowth;
   }
   const double rest = task.start + horizon - times.back();
   const int count = std::max(moving ? 1 : kFewest, static_cast<int>(std::ceil(rest / kCoarse)));
@@ -101,11 +100,18 @@ BandPlan BandPlanner::Finish(const BandTask& /*task*/, BandStart kind, BandCurve
   return plan;
 }
 
+bool BandPlanner::Better(const BandPlan& plan, const BandPlan& best) const {
+  const bool clear = plan.check.clear();
+  if (clear != best.check.clear()) return clear;
+  if (!clear) return plan.check.violation < 0.95 * best.check.violation;
+  const auto way = [&](const BandCheck& check) {
+    return check.way + kMarginWay * std::max(settings_.band.margin - check.min_distance, 0.0);
+  };
+  return way(plan.check) < way(best.check);
+}
+
 void BandPlanner::Keep(BandPlan plan, BandPlan& best) const {
-  const bool better = plan.check.clear() != best.check.clear() ? plan.check.clear()
-                      : plan.check.clear()                     ? plan.cost < best.cost
-                                           : plan.check.violation < 0.95 * best.check.violation;
-  if (better) best = std::move(plan);
+  if (Better(plan, best)) best = std::move(plan);
 }
 
 BandPlan BandPlanner::Plan(const BandTask& task, const BandCurve* last) {
@@ -135,7 +141,7 @@ BandPlan BandPlanner::Plan(const BandTask& task, const BandCurve* last) {
         Keep(std::move(back), best);
       }
     }
-    if (!best.check.clear() && task.explore) {
+    if ((!best.check.clear() && task.explore) || (task.fresh && !trouble.clear())) {
       Explore(task, trouble.clear() ? best.check : trouble, best);
     }
   }

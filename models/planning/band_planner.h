@@ -29,6 +29,7 @@ struct BandPlannerSettings {
   double least_horizon{2.0};  ///< s
   double most_horizon{30.0};  ///< s
   double tail{0.5};           ///< s; after the end of the request
+  double fine_span{1.6};      ///< s; from the start, with short intervals if anything moves
 };
 
 /// What a band is planned for.
@@ -40,6 +41,7 @@ struct BandTask {
   std::span<const BandBody> bodies{};
   std::uint64_t seed{0};
   bool explore{true};  ///< try other starts if the last band is not clear
+  bool fresh{false};   ///< or if it is clear but the request is not
 };
 
 struct BandPlan {
@@ -50,13 +52,17 @@ struct BandPlan {
   long evaluations{0};  ///< configurations that were looked at
 };
 
+inline constexpr double kMarginWay = 10.0;  ///< rad/m
+
 /// Finds bands: keeps the last one where it can be made clear, else tries many starts.
 ///
 /// 1. The request, if nothing deviates and it is clear.
 /// 2. The last band, relaxed; or the way straight back, if that is clear and much cheaper.
-/// 3. If that is not clear: pauses before what moves, detours of each joint around the time in
-///    question, random ones, paths of RrtConnect past what stands; the cheapest few are relaxed,
-///    and the cheapest clear one wins. If none is clear: what lacks least.
+/// 3. If that is not clear, or the task is fresh: pauses before what moves, detours of each joint
+///    around the time in question, random ones, and if these are not clear, paths of RrtConnect
+///    past what stands; the cheapest few are relaxed, and of those that are clear the one wins
+///    whose joints go the shortest way, a missing margin counted at kMarginWay. If none is clear:
+///    what lacks least.
 ///
 /// The work is bounded and the answer a function of the arguments. Allocates.
 class BandPlanner {
@@ -83,6 +89,7 @@ class BandPlanner {
   void AddPauses(const BandTask& task, const BandCheck& trouble, std::vector<Start>& starts) const;
   void AddDetours(const BandTask& task, const BandCheck& trouble, std::vector<Start>& starts) const;
   void TryPaths(const BandTask& task, BandPlan& best);
+  bool Better(const BandPlan& plan, const BandPlan& best) const;
   void Keep(BandPlan plan, BandPlan& best) const;
 
   const BandPlannerSettings settings_;

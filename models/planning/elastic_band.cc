@@ -111,6 +111,9 @@ void ElasticBand::AddDiagonal(const Sample& sample, const Eigen::VectorXd x[3]) 
     cost_ += settings_.nearness * x[0][j] * x[0][j] + settings_.smoothness * x[2][j] * x[2][j];
     d_[0][j] += settings_.nearness;
     g_[0][j] += settings_.nearness * x[0][j];
+    cost_ += settings_.calm * x[1][j] * x[1][j];
+    d_[1][j] += settings_.calm;
+    g_[1][j] += settings_.calm * x[1][j];
     d_[2][j] += settings_.smoothness;
     g_[2][j] += settings_.smoothness * x[2][j];
     const double half = 0.5 * (model_->upper_limits()[j] - model_->lower_limits()[j]);
@@ -203,10 +206,12 @@ Eigen::VectorXd ElasticBand::HalfGradient(const BandCurve& curve) {
 BandCheck ElasticBand::Check(const BandCurve& curve) {
   BandCheck check{.min_distance = settings_.margin};
   if (bodies_.empty()) return check;
-  Eigen::VectorXd x(q_.size());
+  Eigen::VectorXd x(q_.size()), before;
   for (const Sample& sample : checks_) {
     curve.Evaluate(sample.time, 0, x);
     Place(sample, x);
+    if (before.size() > 0) check.way += (q_ - before).cwiseAbs().sum();
+    before = q_;
     const NearPair pair = clearance_.Nearest(settings_.margin);
     if (pair.distance < check.min_distance) {
       check.min_distance = pair.distance;

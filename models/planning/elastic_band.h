@@ -32,6 +32,7 @@ struct BandSettings {
   double clearance{1e4};        ///< 1/m^2; price of a missing margin
   double smoothness{0.02};      ///< s^4/rad^2; price of an acceleration of the deviation
   double nearness{0.1};         ///< 1/rad^2; price of a deviation
+  double calm{0.1};             ///< s^2/rad^2; price of a speed of the deviation
   double limits{100.0};         ///< price of the square of what exceeds a limit, a limit being 1
   double limit_share{0.9};      ///< of the velocity and acceleration limits that a band may use
 };
@@ -45,13 +46,14 @@ struct BandCheck {
   double violation{0.0};  ///< m s; integral of what lacks to clear_distance
   double first{0.0};      ///< s; first and last time at which it is not clear
   double last{0.0};
+  double way{0.0};  ///< rad; that the joints go, all together
   bool clear() const { return !(violation > 0.0); }
 };
 
 /// A band of configurations along a requested motion, which bodies push away and which pulls itself
 /// back and straight: the deviation x(t), a BandCurve, that minimises
 ///
-///     integral of  clearance sum_pairs max(margin - rho, 0)^2 + nearness |x|^2 +
+///     integral of  clearance sum_pairs max(margin - rho, 0)^2 + nearness |x|^2 + calm |x'|^2 +
 ///                  smoothness |x''|^2 + limits |excess|^2   dt
 ///
 /// where rho is the distance of a link and a body at request + x and at that time, and excess what
