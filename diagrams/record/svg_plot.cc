@@ -21,6 +21,7 @@ constexpr std::array kDashes{"", "7 3", "2 2", "9 3 2 3"};
 
 constexpr double kPlotWidth = 510.0, kPanelHeight = 250.0;
 constexpr double kLeft = 74.0, kTop = 34.0, kBottom = 50.0;
+constexpr std::size_t kLegendRows = 13;  // of 16 px, that a panel has room for
 
 std::string Escaped(const std::string& text) {
   std::string out;
@@ -54,8 +55,8 @@ struct Range {
 /// Draws one panel with its upper edge at `top`.
 class PanelWriter {
  public:
-  PanelWriter(const PlotPanel& panel, double top, std::string& out)
-      : panel_(panel), top_(top + kTop), out_(out) {
+  PanelWriter(const PlotPanel& panel, double top, double column_width, std::string& out)
+      : panel_(panel), top_(top + kTop), column_width_(column_width), out_(out) {
     FindRanges();
   }
 
@@ -174,33 +175,46 @@ class PanelWriter {
   }
 
   void WriteLegend() {
-    const double x = kLeft + Width() + 12.0;
-    double y = top_ + 8.0;
-    for (const PlotCurve& curve : panel_.curves) {
-      if (y > top_ + Height() + kBottom - 8.0) return;  // no room: the rest goes unnamed
-      Line(x, y, x + 24.0, y, Stroke(curve).c_str());
-      Text(x + 30.0, y + 4.0, "start", curve.label);
-      y += 16.0;
+    for (std::size_t i = 0; i < panel_.curves.size(); ++i) {
+      WriteName(i, Stroke(panel_.curves[i]), panel_.curves[i].label);
     }
     if (!panel_.limit) return;
-    Line(x, y, x + 24.0, y, "stroke=\"#b00020\" stroke-dasharray=\"4 3\"");
-    Text(x + 30.0, y + 4.0, "start", fmt::format("limit {:g}", *panel_.limit));
+    WriteName(panel_.curves.size(), "stroke=\"#b00020\" stroke-dasharray=\"4 3\"",
+              fmt::format("limit {:g}", *panel_.limit));
+  }
+
+  void WriteName(std::size_t entry, const std::string& stroke, const std::string& name) {
+    const double x =
+        kLeft + Width() + 12.0 + column_width_ * static_cast<double>(entry / kLegendRows);
+    const double y = top_ + 8.0 + 16.0 * static_cast<double>(entry % kLegendRows);
+    Line(x, y, x + 24.0, y, stroke.c_str());
+    Text(x + 30.0, y + 4.0, "start", name);
   }
 
   const PlotPanel& panel_;
   const double top_;
+  const double column_width_;
   std::string& out_;
   Range x_, y_;
 };
 
 /// What the longest name in a legend takes.
-double LegendWidth(const std::vector<PlotPanel>& panels) {
+double ColumnWidth(const std::vector<PlotPanel>& panels) {
   constexpr double kLetter = 7.2;
   std::size_t longest = 10;
   for (const PlotPanel& panel : panels) {
     for (const PlotCurve& curve : panel.curves) longest = std::max(longest, curve.label.size());
   }
   return 48.0 + kLetter * static_cast<double>(longest);
+}
+
+/// Columns that the longest legend takes.
+double LegendColumns(const std::vector<PlotPanel>& panels) {
+  std::size_t entries = 1;
+  for (const PlotPanel& panel : panels) {
+    entries = std::max(entries, panel.curves.size() + (panel.limit ? 1 : 0));
+  }
+  return static_cast<double>((entries + kLegendRows - 1) / kLegendRows);
 }
 
 }  // namespace
@@ -223,13 +237,15 @@ std::vector<double> Ticks(double low, double high, int most) {
 std::string SvgPlot(const std::vector<PlotPanel>& panels) {
   if (panels.empty()) throw ConfigError("plot: got nothing to draw; expected a signal");
   const double height = kPanelHeight * static_cast<double>(panels.size());
+  const double column = ColumnWidth(panels);
   std::string out = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" "
       "height=\"{1}\" font-family=\"DejaVu Sans, Helvetica, sans-serif\" font-size=\"11.5\" "
       "fill=\"#222222\">\n<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n",
-      kLeft + kPlotWidth + LegendWidth(panels), height);
+      kLeft + kPlotWidth + column * LegendColumns(panels), height);
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    PanelWriter(panels[i], kPanelHeight * static_cast<double>(i), out).Write(static_cast<int>(i));
+    PanelWriter(panels[i], kPanelHeight * static_cast<double>(i), column, out)
+        .Write(static_cast<int>(i));
   }
   return out + "</svg>\n";
 }

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "diagrams/record/svg_plot.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <regex>
+#include <string>
 
 #include "framework/error.h"
 
@@ -35,6 +39,25 @@ TEST(SvgPlotTest, LiftsThePenOverWhatIsNotFinite) {
   const std::string path = svg.substr(svg.find("<path"));
   EXPECT_EQ(std::count(path.begin(), path.begin() + path.find("/>"), 'M'), 2);
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
+}
+
+TEST(SvgPlotTest, NamesEveryCurveWithinThePictureHoweverManyThereAre) {
+  PlotPanel panel{"", "", "", {}};
+  for (int i = 0; i < 30; ++i)
+    panel.curves.push_back({fmt::format("joint_{}.", i), {0, 1}, {0, 1}});
+  panel.limit = 0.5;
+  const std::string svg = SvgPlot({panel});
+  for (int i = 0; i < 30; ++i) EXPECT_THAT(svg, HasSubstr(fmt::format(">joint_{}.<", i)));
+  EXPECT_THAT(svg, HasSubstr(">limit 0.5<"));
+  const double width = std::stod(svg.substr(svg.find("width=\"") + 7));
+  double right = 0.0, low = 0.0;
+  const std::regex kName("<text x=\"([0-9.]+)\" y=\"([0-9.]+)\" text-anchor=\"start\"");
+  for (std::sregex_iterator name(svg.begin(), svg.end(), kName), end; name != end; ++name) {
+    right = std::max(right, std::stod((*name)[1]));
+    low = std::max(low, std::stod((*name)[2]));
+  }
+  EXPECT_LT(right + 7.2 * 9, width);
+  EXPECT_LT(low, 250.0);
 }
 
 TEST(SvgPlotTest, DrawsALevelStretchByItsEndsAndKeepsASpike) {
