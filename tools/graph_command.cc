@@ -48,7 +48,7 @@ std::string Escaped(const std::string& text) {
 /// Solid: computed within the instant. Dashed: a held state, which is what closes loops.
 std::string Dot(const diagrams::LoadedDiagram& loaded) {
   std::string dot = fmt::format(
-      "digraph \"{}\" {{\n  rankdir=LR; bgcolor=white; nodesep=0.35; ranksep=0.6;\n"
+      "digraph \"{}\" {{\n  rankdir=TB; bgcolor=white; nodesep=0.25; ranksep=0.45;\n"
       "  node [shape=box, style=\"rounded,filled\", fillcolor=\"#eef3fa\", color=\"#4a6fa5\", "
       "fontname=Helvetica, fontsize=12, margin=\"0.15,0.08\"];\n"
       "  edge [color=\"#555555\", fontname=Helvetica, fontsize=9, fontcolor=\"#333333\", "
