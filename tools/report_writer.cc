@@ -27,7 +27,12 @@ ReportWriter::ReportWriter(const std::string& file, const diagrams::LoadedDiagra
     : file_(Writable(file)),
       page_(live::LoadPage()),
       sink_(bytes_, record::Compression::kZstd),
-      recorder_(loaded, {.version = OCA_VERSION, .overrides = overrides, .start_epoch = 0},
+      recorder_(loaded,
+                {.version = OCA_VERSION,
+                 .overrides = overrides,
+                 .start_epoch = 0,
+                 .attach_files = true,
+                 .brief = true},
                 {&sink_}, log) {}
 
 void ReportWriter::Finish() {

@@ -58,7 +58,7 @@ std::string_view CompressionName(Compression compression) {
   return kMcapNames[static_cast<std::size_t>(compression)];
 }
 
-void Compress(Compression compression, std::string_view bytes, std::string& out) {
+void Compress(Compression compression, int level, std::string_view bytes, std::string& out) {
   if (compression == Compression::kNone) {
     out += bytes;
     return;
@@ -68,9 +68,8 @@ void Compress(Compression compression, std::string_view bytes, std::string& out)
   const std::size_t bound =
       zstd ? ZSTD_compressBound(bytes.size()) : LZ4F_compressFrameBound(bytes.size(), nullptr);
   out.resize(start + bound);
-  constexpr int kFast = 1;
   const std::size_t size =
-      zstd ? ZSTD_compress(out.data() + start, bound, bytes.data(), bytes.size(), kFast)
+      zstd ? ZSTD_compress(out.data() + start, bound, bytes.data(), bytes.size(), level)
            : LZ4F_compressFrame(out.data() + start, bound, bytes.data(), bytes.size(), nullptr);
   if (zstd ? ZSTD_isError(size) != 0 : LZ4F_isError(size) != 0) throw std::bad_alloc();
   out.resize(start + size);

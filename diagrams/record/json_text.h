@@ -13,11 +13,11 @@ namespace oca::record {
 
 /// All digits that the number has; null for NaN and infinity.
 void AppendJson(std::string& out, double number);
-/// As many digits as single precision has: enough for a picture.
+/// Rounded to a millionth, without zeros at the end: enough for a picture.
 void AppendShort(std::string& out, double number);
 /// Quoted and escaped.
 void AppendQuoted(std::string& out, std::string_view text);
-/// {"x":...,"y":...,"z":...} in single precision.
+/// {"x":...,"y":...,"z":...}, rounded as AppendShort does; so the next one.
 void AppendXyz(std::string& out, const Eigen::Vector3d& vector);
 /// {"x":...,"y":...,"z":...,"w":...}
 void AppendQuaternion(std::string& out, const Eigen::Quaterniond& rotation);

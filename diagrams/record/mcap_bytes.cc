@@ -42,6 +42,7 @@ std::uint32_t Crc32(std::uint32_t crc, std::string_view bytes) {
     std::memcpy(&word, at, sizeof word);
     word ^= crc;
     crc = 0;
+#pragma GCC unroll 8
     for (int k = 0; k < 8; ++k) crc ^= kCrcTables[7 - k][(word >> (8 * k)) & 0xff];
   }
   for (; at != end; ++at) {

@@ -40,7 +40,7 @@ enum class Opcode : std::uint8_t {
 std::uint32_t Crc32(std::uint32_t crc, std::string_view bytes);
 
 /// The bytes as one lz4 or zstd frame, appended to `out`.
-void Compress(Compression compression, std::string_view bytes, std::string& out);
+void Compress(Compression compression, int level, std::string_view bytes, std::string& out);
 /// throws ConfigError if `name` is unknown or the bytes are no such frame of `size` bytes.
 std::string Decompress(std::string_view name, std::string_view bytes, std::size_t size);
 /// As MCAP calls it: "", "lz4" or "zstd".

@@ -9,8 +9,9 @@
 
 namespace oca::record {
 
-McapWriter::McapWriter(std::ostream& stream, Compression compression, std::size_t chunk_size)
-    : stream_(stream), compression_(compression), chunk_size_(chunk_size) {
+McapWriter::McapWriter(std::ostream& stream, Compression compression, std::size_t chunk_size,
+                       int level)
+    : stream_(stream), compression_(compression), chunk_size_(chunk_size), level_(level) {
   std::string content;
   AppendText(content, "");  // profile
   AppendText(content, "oca");
@@ -79,7 +80,7 @@ void McapWriter::Write(std::uint16_t id, std::uint64_t log_time, std::string_vie
 void McapWriter::WriteChunk() {
   if (chunk_messages_ == 0) return;
   packed_.clear();
-  Compress(compression_, chunk_, packed_);
+  Compress(compression_, level_, chunk_, packed_);
   std::string& content = record_;
   content.clear();
   AppendNumber(content, chunk_first_);

@@ -22,8 +22,9 @@ namespace oca::record {
 class McapWriter {
  public:
   /// Writes the header. The stream must outlive the writer.
+  /// `level` of zstd: 1 fast to 19 small.
   McapWriter(std::ostream& stream, Compression compression,
-             std::size_t chunk_size = kDefaultChunkSize);
+             std::size_t chunk_size = kDefaultChunkSize, int level = 1);
   /// Closes.
   ~McapWriter();
   McapWriter(const McapWriter&) = delete;
@@ -42,7 +43,8 @@ class McapWriter {
   void Close();
 
   std::uint64_t message_count() const { return messages_; }
-  static constexpr std::size_t kDefaultChunkSize = std::size_t{1} << 20;
+  /// Small enough that a run does not wait for the last one.
+  static constexpr std::size_t kDefaultChunkSize = std::size_t{256} << 10;
 
  private:
   struct Channel {
@@ -64,6 +66,7 @@ class McapWriter {
   std::ostream& stream_;
   const Compression compression_;
   const std::size_t chunk_size_;
+  const int level_;
   std::uint64_t position_{0};
   std::uint32_t crc_{0};  ///< of all that was written
   std::vector<McapSchema> schemas_;

@@ -2,7 +2,11 @@
 #include "diagrams/record/plot_hints.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <nlohmann/json.hpp>
+
+#include "systems/delta_limiter.h"
 
 namespace oca::record {
 namespace {
@@ -26,7 +30,104 @@ OutputHandle RecordedDelta(const LoadedDiagram& loaded, const SignalFacts& facts
   return delta;
 }
 
+/// What an overlay applies of a limited delta, if that is recorded and the delta itself is not.
+OutputHandle AppliedDelta(const LoadedDiagram& loaded, const SignalFacts& facts,
+                          const OutputHandle& limited) {
+  if (Recorded(loaded, facts.NameOf(limited))) return limited;
+  for (const LoadedDiagram::Block& block : loaded.systems) {
+    if (block.type != "DeltaOverlay") continue;
+    const auto delta = facts.DriverOf(block.name, "delta");
+    const OutputHandle applied =
+        loaded.diagram->FindSystem(block.name)->FindOutput("applied_delta");
+    const bool same = delta && facts.NameOf(*delta) == facts.NameOf(limited);
+    if (same && Recorded(loaded, facts.NameOf(applied))) return applied;
+  }
+  return limited;
+}
+
+std::string TopicOf(const OutputHandle& output, const SignalFacts& facts) {
+  std::string topic = "/" + facts.NameOf(output);
+  std::replace(topic.begin(), topic.end(), '.', '/');
+  return topic;
+}
+
+/// The numbers of a parameter; none if it has its default.
+std::vector<double> NumbersAt(const LoadedDiagram::Block& block, const char* key) {
+  const Value* const value = block.params.Find(key);
+  std::vector<double> numbers(1);
+  if (value == nullptr) return {};
+  if (value->number(numbers[0])) return numbers;
+  numbers.clear();
+  for (const Value& item : value->list() == nullptr ? Value::List{} : *value->list()) {
+    double number = 0.0;
+    if (item.number(number)) numbers.push_back(number);
+  }
+  return numbers;
+}
+
+bool SwitchedOff(const LoadedDiagram::Block& block) {
+  const Value* const enabled = block.params.Find("enabled");
+  return enabled != nullptr && enabled->boolean() != nullptr && !*enabled->boolean();
+}
+
+/// A multiple of a system's own period of at least 10 ms: its instants are events of every run.
+Period SamplingOf(const LoadedDiagram::Block& block) {
+  constexpr double kFinest = 0.01;  // s
+  const std::vector<double> period = NumbersAt(block, "period");
+  if (period.size() != 1 || !(period[0] > 0.0)) return {};
+  const Period own = Period::FromSeconds(period[0]);
+  const auto times =
+      static_cast<std::int64_t>(std::max(1.0, std::ceil(kFinest / period[0] - 1e-9)));
+  return Period(own.numerator() * times, own.denominator());
+}
+
 }  // namespace
+
+std::vector<LimitHint> LimitHintsOf(const LoadedDiagram& loaded, const SignalFacts& facts) {
+  std::vector<LimitHint> hints;
+  for (const LoadedDiagram::Block& block : loaded.systems) {
+    if (SwitchedOff(block)) continue;
+    const System& system = *loaded.diagram->FindSystem(block.name);
+    LimitHint hint{block.name, block.type, "", {}, {}, SamplingOf(block)};
+    if (block.type == "DeltaLimiter") {
+      hint.kind = "rate";
+      hint.bound = NumbersAt(block, "max_joint_velocity");
+      if (hint.bound.empty()) hint.bound = {systems::DeltaLimiter::Params{}.max_joint_velocity[0]};
+      hint.output = AppliedDelta(loaded, facts, system.FindOutput("limited_delta"));
+    } else if (block.type == "RepulsiveField") {
+      const auto proximities = facts.DriverOf(block.name, "proximities");
+      hint.kind = "below";
+      hint.bound = NumbersAt(block, "max_distance");
+      if (!proximities || hint.bound.empty()) continue;
+      hint.output = *proximities;
+      hint.period = {};
+    } else if (block.type == "SafetyFilter") {
+      hint.kind = "bounds";
+      hint.output = system.FindOutput("activity");
+    } else if (block.type == "MotionLimiter") {
+      hint.kind = "clips";
+      hint.output = system.FindOutput("clips");
+    } else {
+      continue;
+    }
+    hints.push_back(std::move(hint));
+  }
+  return hints;
+}
+
+std::string LimitHintsJson(const std::vector<LimitHint>& hints, const SignalFacts& facts) {
+  ordered_json list = ordered_json::array();
+  for (const LimitHint& hint : hints) {
+    ordered_json json{{"system", hint.system},
+                      {"type", hint.type},
+                      {"kind", hint.kind},
+                      {"signal", TopicOf(hint.output, facts)}};
+    if (hint.bound.size() == 1) json["bound"] = hint.bound[0];
+    if (hint.bound.size() > 1) json["bound"] = hint.bound;
+    list.push_back(json);
+  }
+  return list.dump();
+}
 
 std::vector<PlotHint> PlotHintsOf(const LoadedDiagram& loaded, const SignalFacts& facts) {
   PlotHint requested{"requested", "Requested joints", ""};
@@ -70,11 +171,7 @@ std::string PlotHintsJson(const std::vector<PlotHint>& hints, const SignalFacts&
   ordered_json list = ordered_json::array();
   for (const PlotHint& hint : hints) {
     ordered_json topics = ordered_json::array();
-    for (const OutputHandle& output : hint.outputs) {
-      std::string topic = "/" + facts.NameOf(output);
-      std::replace(topic.begin(), topic.end(), '.', '/');
-      topics.push_back(topic);
-    }
+    for (const OutputHandle& output : hint.outputs) topics.push_back(TopicOf(output, facts));
     ordered_json json{
         {"id", hint.id}, {"title", hint.title}, {"unit", hint.unit}, {"topics", topics}};
     if (hint.limit) json["limit"] = *hint.limit;

@@ -23,7 +23,25 @@ struct PlotHint {
 /// several signals would do, one that is recorded already.
 std::vector<PlotHint> PlotHintsOf(const diagrams::LoadedDiagram& loaded, const SignalFacts& facts);
 
-/// As a JSON list, for metadata `oca.plots`.
+/// A system that may hold a motion back, and the signal that shows when it does.
+struct LimitHint {
+  std::string system;
+  std::string type;
+  /// How the signal shows it: `rate` of change at `bound`, `below` the bound, `clips` or `bounds`
+  /// that are listed.
+  std::string kind;
+  OutputHandle output;
+  std::vector<double> bound{};  ///< one number, or one a joint
+  Period period{};              ///< of the signal, made coarser than 10 ms; 0: the scene's
+};
+
+/// The systems of a diagram that limit: DeltaLimiter, RepulsiveField, SafetyFilter, MotionLimiter,
+/// without those that are switched off. Where several signals would do, one that is recorded.
+std::vector<LimitHint> LimitHintsOf(const diagrams::LoadedDiagram& loaded,
+                                    const SignalFacts& facts);
+
+/// As JSON lists, for metadata `oca.plots`.
 std::string PlotHintsJson(const std::vector<PlotHint>& hints, const SignalFacts& facts);
+std::string LimitHintsJson(const std::vector<LimitHint>& hints, const SignalFacts& facts);
 
 }  // namespace oca::record

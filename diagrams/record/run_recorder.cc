@@ -57,6 +57,7 @@ SignalFormat RunRecorder::FormatOf(const OutputHandle& output, const Context& co
   format.system = name.substr(0, name.find('.'));
   format.port = name.substr(name.find('.') + 1);
   format.type = &TypeOfPort(output);
+  format.brief = options_.brief;
   format.length = format.type == &kVectorType ? VectorSize(output, context) : 0;
   if (format.type != &kVectorType) return format;
   format.unit = facts_->UnitOf(output);
@@ -82,6 +83,23 @@ void RunRecorder::AddSignals(const Simulator& simulator, double duration, Groups
   }
 }
 
+/// What shows when a system limits and nobody records, at the system's own instants.
+void RunRecorder::AddLimits(double duration, Groups& groups) {
+  for (const LimitHint& hint : LimitHintsOf(loaded_, *facts_)) {
+    if (!hint.period.positive() || HasChannelOf(hint.output)) continue;
+    const SignalFormat format = FormatOf(hint.output, simulator_->context());
+    const int channel = AddChannel(ChannelOf(format));
+    signals_.push_back({hint.period, {format}, {channel}});
+    groups.push_back({{hint.output}, CapacityFor(duration, hint.period)});
+  }
+}
+
+bool RunRecorder::HasChannelOf(const OutputHandle& output) const {
+  const RecordChannel channel = ChannelOf(FormatOf(output, simulator_->context()));
+  return std::any_of(channels_.begin(), channels_.end(),
+                     [&](const auto& other) { return other.topic == channel.topic; });
+}
+
 /// The last group: what the scene shows, then what plots need and nobody records.
 void RunRecorder::AddScene(double duration, Groups& groups) {
   scene_group_ = static_cast<int>(groups.size());
@@ -89,13 +107,9 @@ void RunRecorder::AddScene(double duration, Groups& groups) {
   SignalGroup extra{loaded_.scene_period, {}, {}};
   for (const PlotHint& hint : PlotHintsOf(loaded_, *facts_)) {
     for (const OutputHandle& output : hint.outputs) {
-      const RecordChannel channel = ChannelOf(FormatOf(output, simulator_->context()));
-      const bool taken = std::any_of(channels_.begin(), channels_.end(), [&](const auto& other) {
-        return other.topic == channel.topic;
-      });
-      if (taken) continue;
+      if (HasChannelOf(output)) continue;
       extra.formats.push_back(FormatOf(output, simulator_->context()));
-      extra.channels.push_back(AddChannel(channel));
+      extra.channels.push_back(AddChannel(ChannelOf(extra.formats.back())));
       group.outputs.push_back(output);
     }
   }
@@ -114,6 +128,7 @@ void RunRecorder::Attach(Simulator& simulator, bool paced, double duration) {
   metrics_channel_ = AddChannel({"/metrics", "oca.Metrics", R"({"type":"object"})"});
   Groups groups;
   AddSignals(simulator, duration, groups);
+  AddLimits(duration, groups);
   AddScene(duration, groups);
   queue_ = std::make_unique<SampleQueue>(std::move(groups), simulator.context());
   for (int group = 0; group < scene_group_; ++group) {
@@ -143,7 +158,8 @@ void RunRecorder::BeginSinks() {
     sink->AddMetadata({"oca.parameters", ParameterTexts(loaded_)});
     sink->AddMetadata({"oca.overrides", OverrideTexts(options_.overrides)});
     const std::string plots = PlotHintsJson(PlotHintsOf(loaded_, *facts_), *facts_);
-    sink->AddMetadata({"oca.plots", {{"plots", plots}}});
+    const std::string limits = LimitHintsJson(LimitHintsOf(loaded_, *facts_), *facts_);
+    sink->AddMetadata({"oca.plots", {{"plots", plots}, {"limits", limits}}});
     sink->Begin(channels_);
   }
   scene_->DrawRobots(options_.start_epoch,
@@ -262,7 +278,7 @@ void RunRecorder::Finish(const diagrams::RunResult& result) {
   const double end = simulator_->context().time();
   scene_->Finish(TimeOf(end),
                  [&](int channel, const std::string& json) { Emit(channel, end, json); });
-  Emit(metrics_channel_, end, result.metrics);
+  if (!result.metrics.empty()) Emit(metrics_channel_, end, result.metrics);
   const std::string outcome = !result.failure.empty() ? "failed: " + result.failure
                               : result.interrupted    ? "interrupted"
                                                       : "done";

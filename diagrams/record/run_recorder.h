@@ -24,6 +24,7 @@ struct RecorderOptions {
   std::vector<diagrams::Override> overrides;  ///< as given on the command line
   std::uint64_t start_epoch{0};               ///< ns; 0: the wall clock's
   bool attach_files{true};                    ///< diagram and models, to run the record again
+  bool brief{false};  ///< for a picture: of proximities only names and distance
 };
 
 /// Records a run into sinks: the scene, the signals of section `record` at their rates, those that
@@ -59,7 +60,9 @@ class RunRecorder final : public diagrams::RunObserver, public Log {
   using Groups = std::vector<SampleQueue::Group>;
 
   void AddSignals(const Simulator& simulator, double duration, Groups& groups);
+  void AddLimits(double duration, Groups& groups);
   void AddScene(double duration, Groups& groups);
+  bool HasChannelOf(const OutputHandle& output) const;
   SignalFormat FormatOf(const OutputHandle& output, const Context& context) const;
   int AddChannel(RecordChannel channel);
   void Store(int group, const Context& context);

@@ -121,9 +121,10 @@ std::vector<RecordChannel> Scene::Channels() {
   std::vector<RecordChannel> channels;
   channels.push_back(
       {"/tf", "foxglove.FrameTransforms", FoxgloveSchema("foxglove.FrameTransforms")});
+  const std::string update = FoxgloveSchema("foxglove.SceneUpdate");
   for (const char* topic :
        {"/scene/robots", "/scene/obstacles", "/scene/forces", "/scene/trails"}) {
-    channels.push_back({topic, "foxglove.SceneUpdate", FoxgloveSchema("foxglove.SceneUpdate")});
+    channels.push_back({topic, "foxglove.SceneUpdate", update});
   }
   return channels;
 }

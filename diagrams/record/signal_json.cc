@@ -51,7 +51,7 @@ void AppendVector(std::string& out, const SignalFormat& format, const double* va
 }
 
 /// What the signal's own WriteJson says, without building a tree of it.
-void AppendProximities(std::string& out, const ProximitySet& set) {
+void AppendProximities(std::string& out, const ProximitySet& set, bool brief) {
   out += '[';
   bool first = true;
   for (const Proximity& p : set.proximities) {
@@ -62,12 +62,14 @@ void AppendProximities(std::string& out, const ProximitySet& set) {
     AppendQuoted(out, p.obstacle.text());
     out += ",\"distance\":";
     AppendJson(out, p.distance);
-    out += ",\"point_on_link\":";
-    AppendList(out, p.point_on_link);
-    out += ",\"point_on_obstacle\":";
-    AppendList(out, p.point_on_obstacle);
-    out += ",\"normal\":";
-    AppendList(out, p.normal);
+    if (!brief) {
+      out += ",\"point_on_link\":";
+      AppendList(out, p.point_on_link);
+      out += ",\"point_on_obstacle\":";
+      AppendList(out, p.point_on_obstacle);
+      out += ",\"normal\":";
+      AppendList(out, p.normal);
+    }
     out += '}';
   }
   out += ']';
@@ -88,7 +90,7 @@ void AppendSignal(std::string& out, const SignalFormat& format, const void* valu
   }
   const std::size_t start = out.size();
   if (format.type == &TypeOf<ProximitySet>()) {
-    AppendProximities(out, *static_cast<const ProximitySet*>(value));
+    AppendProximities(out, *static_cast<const ProximitySet*>(value), format.brief);
   } else {
     format.type->write_json(value, out);
   }

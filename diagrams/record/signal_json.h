@@ -17,6 +17,7 @@ struct SignalFormat {
   int length;                       ///< of a Vector
   std::string unit;                 ///< of a Vector; may be empty
   std::vector<std::string> joints;  ///< one an element; empty: no joints
+  bool brief{false};                ///< of proximities only names and distance
 };
 
 /// Topic `/system/port` and the JSON Schema of its messages: a Vector of joints is an object by

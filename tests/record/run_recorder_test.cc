@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "diagrams/record/series.h"
 #include "tests/allocation_count.h"
@@ -42,6 +44,26 @@ TEST(RunRecorderTest, KeepsASignalAtItsRateFromTheBeginningToTheEnd) {
   EXPECT_EQ(messages.front()->log_time, kEpoch);
   EXPECT_EQ(messages[1]->log_time, kEpoch + 10'000'000);
   EXPECT_EQ(messages.back()->log_time, kEpoch + 2'000'000'000);
+}
+
+TEST(RunRecorderTest, SaysWhichSystemsLimitAndKeepsWhatShowsIt) {
+  const Recorded recorded = RunRecorded(Load("safety_filter_static.yaml"), {.duration = 0.5});
+  const json limits = json::parse(recorded.file.FindMetadata("oca.plots")->at("limits"));
+  std::map<std::string, std::string> kinds;
+  for (const json& limit : limits) {
+    const std::string signal = limit["signal"];
+    kinds[limit["type"]] = limit["kind"];
+    EXPECT_EQ(recorded.file.MessagesOf(signal).size(), 51u) << signal;
+  }
+  EXPECT_EQ(kinds, (std::map<std::string, std::string>{{"SafetyFilter", "bounds"},
+                                                       {"MotionLimiter", "clips"}}));
+  const json of_report = json::parse(StaticTest().file.FindMetadata("oca.plots")->at("limits"));
+  ASSERT_EQ(of_report.size(), 2u);  // its MotionLimiter is off
+  EXPECT_EQ(of_report[0]["type"], "RepulsiveField");
+  EXPECT_EQ(of_report[0]["bound"], 0.3);
+  EXPECT_EQ(of_report[1]["type"], "DeltaLimiter");
+  EXPECT_EQ(of_report[1]["signal"], "/overlay/applied_delta");
+  EXPECT_EQ(of_report[1]["bound"], 0.6);
 }
 
 TEST(RunRecorderTest, NamesJointsAndUnits) {

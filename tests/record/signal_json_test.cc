@@ -53,6 +53,37 @@ TEST(SignalJsonTest, ProximitiesAreThoseOfTheSignalItself) {
   EXPECT_EQ(json::parse(Text(format, &set))["proximities"], json::parse(own));
 }
 
+TEST(SignalJsonTest, BriefProximitiesAreNamesAndDistance) {
+  systems::ProximitySet set;
+  set.proximities.resize(1);
+  set.proximities[0].link = models::Name("hand");
+  set.proximities[0].obstacle = models::Name("box");
+  set.proximities[0].distance = 0.25;
+  SignalFormat format{"distance", "proximities", &TypeOf<systems::ProximitySet>(), 0, "", {}};
+  format.brief = true;
+  EXPECT_EQ(Text(format, &set),
+            R"({"proximities":[{"link":"hand","obstacle":"box","distance":0.25}]})");
+}
+
+std::string Short(double number) {
+  std::string text;
+  AppendShort(text, number);
+  return text;
+}
+
+TEST(SignalJsonTest, PicturesHaveMillionths) {
+  EXPECT_EQ(Short(0.0), "0");
+  EXPECT_EQ(Short(-0.0), "0");
+  EXPECT_EQ(Short(1.5), "1.5");
+  EXPECT_EQ(Short(-0.000001), "-0.000001");
+  EXPECT_EQ(Short(-0.0000004), "0");
+  EXPECT_EQ(Short(0.9999996), "1");
+  EXPECT_EQ(Short(12.03), "12.03");
+  EXPECT_EQ(Short(100.0), "100");
+  EXPECT_EQ(json::parse(Short(1e12)), 1e12);
+  EXPECT_EQ(Short(std::nan("")), "null");
+}
+
 TEST(SignalJsonTest, Base64IsThatOfTheStandard) {
   // RFC 4648, section 10.
   for (const auto& [bytes, expected] : std::vector<std::pair<std::string, std::string>>{
