@@ -44,10 +44,18 @@ export function extend(columns: Columns, topic: Topic, from: number): void {
   }
 }
 
+/** What was read of a topic, so that nobody reads it again. */
+const known = new WeakMap<Topic, { columns: Columns; forgotten: number }>();
+
+/** The columns of a topic; they grow with it, so nobody may change them. */
 export function columnsOf(topic: Topic): Columns {
-  const columns: Columns = { times: [], names: [], values: [], unit: unitOf(topic.schema) };
-  extend(columns, topic, 0);
-  return columns;
+  let found = known.get(topic);
+  if (!found || found.forgotten !== topic.forgotten) {
+    const columns = { times: [], names: [], values: [], unit: unitOf(topic.schema) };
+    known.set(topic, found = { columns, forgotten: topic.forgotten });
+  }
+  extend(found.columns, topic, found.columns.times.length);
+  return found.columns;
 }
 
 /** The first `x-unit` anywhere in a JSON Schema. */

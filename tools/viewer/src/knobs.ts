@@ -10,6 +10,15 @@ export class Knobs {
 
   constructor(private readonly parent: HTMLElement, private readonly live: LiveSource) {}
 
+  /** The bounds of a parameter that the simulator knows; null: none. */
+  private rangeOf(name: string): [number | null, number | null] {
+    try {
+      const range: unknown = JSON.parse(this.live.recording.about(name, "oca.ranges") ?? "null");
+      if (Array.isArray(range)) return range as [number | null, number | null];
+    } catch { /* as if nobody knew */ }
+    return [null, null];
+  }
+
   /** Makes what is new, and follows what somebody else changed. */
   show(list: Parameter[]): void {
     for (const { name, value } of list) {
@@ -31,15 +40,17 @@ export class Knobs {
     this.setters.set(name, (to) => (box.checked = to === true));
   }
 
-  /** Nobody says how far a knob goes: from 0 (or minus) to three times what it was. */
+  /** As far as the parameter may go; where nobody says, from 0 (or minus) to three times what it was. */
   private addSlider(name: string, value: number): void {
     const row = element("label", "knob");
     const slider = element("input"), number = element("input");
     slider.type = "range";
     const reach = 3 * Math.abs(value) || 1;
-    slider.min = String(value < 0 ? -reach : 0);
-    slider.max = String(reach);
-    slider.step = String(reach / 300);
+    const [lower, upper] = this.rangeOf(name);
+    const low = lower ?? (value < 0 ? -reach : 0), high = upper ?? Math.max(reach, low + reach);
+    [slider.min, slider.max, slider.step] = [String(low), String(high), String((high - low) / 300)];
+    number.min = lower === null ? "" : String(lower);
+    number.max = upper === null ? "" : String(upper);
     number.type = "number";
     number.step = "any";
     const put = (to: number): void => {

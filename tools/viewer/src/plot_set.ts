@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which plots a record asks for: its metadata `oca.plots`, or what the names of its signals say.
 import { columnsOf, lowest, rates, type Columns } from "./columns";
+import { activeCounts, constraintsOf } from "./constraints";
 import type { Recording, Topic } from "./recording";
 
 export type Role = "request" | "delta" | "joints" | "distance" | "speed" | "constraints" | "other";
@@ -8,6 +9,8 @@ export interface PlotSpec {
   title: string; role: Role; signals: string[]; unit?: string; limit?: number;
   /** The columns are to be differentiated: nobody recorded the speed itself. */
   differentiate?: boolean;
+  /** How many constraints are active, a curve a system. */
+  counts?: boolean;
 }
 
 /** An item of metadata `oca.plots`, see docs/record_format.md. */
@@ -81,11 +84,15 @@ export function plotsOf(recording: Recording): PlotSpec[] {
   if (joints && !specs.some((spec) => spec.role === "speed")) {
     specs.push({ title: kTitles.speed, role: "speed", signals: joints.signals, differentiate: true });
   }
+  if (!specs.some((spec) => spec.role === "constraints") && constraintsOf(recording, specs).length > 0) {
+    specs.push({ title: kTitles.constraints, role: "constraints", signals: [], counts: true });
+  }
   return specs.sort((a, b) => kOrder.indexOf(a.role) - kOrder.indexOf(b.role));
 }
 
 /** What a plot draws; several signals share the times of the first. */
-export function columnsFor(spec: PlotSpec, recording: Recording): Columns {
+export function columnsFor(spec: PlotSpec, recording: Recording, specs: PlotSpec[] = [spec]): Columns {
+  if (spec.counts) return activeCounts(constraintsOf(recording, specs));
   const all = spec.signals.flatMap((name) => recording.topics.get(name) ?? []).map(columnsOf);
   const first = all[0] ?? { times: [], names: [], values: [], unit: "" };
   const joined: Columns = { ...first, names: [...first.names], values: [...first.values] };

@@ -40,7 +40,7 @@ export class Plots {
   /** New data or new colours. */
   refresh(): void {
     this.specs.forEach((spec, i) => {
-      const columns = columnsFor(spec, this.recording);
+      const columns = columnsFor(spec, this.recording, this.specs);
       if (columns.names.length + 1 === this.charts[i]!.series.length) {
         this.charts[i]!.setData([columns.times, ...columns.values] as uPlot.AlignedData);
       }
@@ -54,7 +54,7 @@ export class Plots {
   }
 
   private addChart(spec: PlotSpec): void {
-    const columns = columnsFor(spec, this.recording);
+    const columns = columnsFor(spec, this.recording, this.specs);
     const prefix = commonPrefix(columns.names);
     const unit = columns.unit ? ` / ${columns.unit}` : "";
     const colour = (name: string) => () => this.page.colour(name);
