@@ -26,6 +26,7 @@
 #include "systems/jacobian_mapping.h"
 #include "systems/joint_servo.h"
 #include "systems/linear_interpolator.h"
+#include "systems/loop_gain.h"
 #include "systems/motion_limiter.h"
 #include "systems/motion_metrics.h"
 #include "systems/obstacle_sensor.h"
@@ -41,6 +42,8 @@
 #include "systems/sum.h"
 #include "systems/tip_error.h"
 #include "systems/tip_trajectory.h"
+#include "systems/velocity_aware_field.h"
+#include "systems/vortex_field.h"
 #include "systems/wrench_transform.h"
 #include "systems/zero_order_hold.h"
 
@@ -121,6 +124,7 @@ const std::vector<CatalogueRow>& Catalogue() {
       Row<JacobianMapping>("JacobianMapping"),
       Row<JointServo>("JointServo"),
       Row<LinearInterpolator>("LinearInterpolator"),
+      Row<LoopGain>("LoopGain"),
       Row<MotionLimiter>("MotionLimiter"),
       Row<MotionMetrics>("MotionMetrics"),
       Row<ObstacleSensor>("ObstacleSensor"),
@@ -136,6 +140,8 @@ const std::vector<CatalogueRow>& Catalogue() {
       Row<Sum>("Sum"),
       Row<TipTrajectory>("TipTrajectory"),
       Row<TipError>("TipError"),
+      Row<VelocityAwareField>("VelocityAwareField"),
+      Row<VortexField>("VortexField"),
       Row<WrenchTransform>("WrenchTransform"),
       Row<ZeroOrderHold>("ZeroOrderHold"),
   };

@@ -23,6 +23,7 @@ void DeltaLimiter::Params::Describe(Fields<Params>& fields) {
       .Above(0.0);
   fields.Add("period", &Params::period, "s", "time between updates").Above(0.0).Required();
   fields.Add("enabled", &Params::enabled, "", "false: the delta is held, but not limited");
+  fields.Add("mode", &Params::mode, "", "each joint alone, or the whole change by one factor");
 }
 
 DeltaLimiter::DeltaLimiter(const Params& params)
@@ -35,11 +36,26 @@ DeltaLimiter::DeltaLimiter(const Params& params)
   DeclareUpdate<&DeltaLimiter::Update>(Every{params_.period}, Writes(x_), delta, x_);
 }
 
+void DeltaLimiter::Shrink(VectorView delta_value, VectorView x, MutableVectorView next) const {
+  double factor = 1.0;
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const double step = params_.max_joint_velocity[i] * params_.period.seconds();
+    const double change = std::fabs(delta_value[i] - x[i]);
+    if (change * factor > step) factor = step / change;
+  }
+  if (factor == 1.0) {
+    next = delta_value;
+  } else {
+    next = x + factor * (delta_value - x);
+  }
+}
+
 void DeltaLimiter::Update(VectorView delta_value, VectorView x, MutableVectorView next) const {
   if (!params_.enabled) {
     next = delta_value;
     return;
   }
+  if (params_.mode == Mode::kDirection) return Shrink(delta_value, x, next);
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     const double step = params_.max_joint_velocity[i] * params_.period.seconds();
     const double change = delta_value[i] - x[i];

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "systems/delta_relaxation.h"
 
+#include <algorithm>
+
 #include "systems/require.h"
 
 namespace oca::systems {
 namespace {
 
-double FactorOf(const DeltaRelaxation::Params& params) {
+DeltaRelaxation::Params Checked(const DeltaRelaxation::Params& params) {
   RequireAtLeast("relaxation_time", params.relaxation_time, 0.0);
   RequirePositive("period", params.period);
-  const double period = params.period.seconds();
-  return params.relaxation_time <= period ? 1.0 : period / params.relaxation_time;
+  return params;
 }
 
 }  // namespace
@@ -24,23 +25,28 @@ void DeltaRelaxation::Params::Describe(Fields<Params>& fields) {
 }
 
 DeltaRelaxation::DeltaRelaxation(const Params& params)
-    : factor_(FactorOf(params)),
+    : params_(Checked(params)),
       size_(DeclareSize()),
       unit_(DeclareUnit()),
       x_(DeclareDiscreteState("x", {size_, unit_}, 0.0)),
       delta(DeclareInput<Vector>("delta", {size_, unit_})),
+      relaxation_time(DeclareOptionalInput<Vector>("relaxation_time", {1, "s"})),
+      held(DeclareOptionalInput<Vector>("held", {size_, unit_})),
       relaxed_delta(DeclareOutput<Vector, &DeltaRelaxation::CalcRelaxed>(
-          "relaxed_delta", {size_, unit_}, delta, x_)) {
+          "relaxed_delta", {size_, unit_}, delta, relaxation_time, held, x_)) {
   DeclareUpdate<&DeltaRelaxation::Update>(Every{params.period}, Writes(x_), relaxed_delta);
 }
 
-void DeltaRelaxation::CalcRelaxed(VectorView delta_value, VectorView x,
-                                  MutableVectorView relaxed) const {
+void DeltaRelaxation::CalcRelaxed(VectorView delta_value, OptionalVector time, OptionalVector left,
+                                  VectorView x, MutableVectorView relaxed) const {
+  const double period = params_.period.seconds();
+  const double relaxation = std::max(params_.relaxation_time, time ? (*time)[0] : 0.0);
+  const VectorView from = left ? *left : x;
   // A factor of one must pass the delta bit by bit; x + (delta - x) may round.
-  if (factor_ == 1.0) {
+  if (relaxation <= period) {
     relaxed = delta_value;
   } else {
-    relaxed = x + factor_ * (delta_value - x);
+    relaxed = from + period / relaxation * (delta_value - from);
   }
 }
 

@@ -15,7 +15,9 @@ namespace {
 
 constexpr std::array kStatusNames{"ok", "regularised", "not_finite"};
 
-models::MappingSettings Checked(const JacobianMapping::Params& params) {
+}  // namespace
+
+models::MappingSettings MappingSettingsOf(const JacobianMapping::Params& params) {
   RequireFinite("alpha", params.alpha);
   RequireAtLeast("damping", params.damping, 0.0);
   using Method = JacobianMapping::Method;
@@ -31,17 +33,6 @@ models::MappingSettings Checked(const JacobianMapping::Params& params) {
   throw ConfigError("method: got no such method; expected transpose, pseudo_inverse or damped");
 }
 
-int FindLink(const models::RobotModel& model, models::Name name) {
-  const auto& links = model.links();
-  const auto found = std::find_if(links.begin(), links.end(),
-                                  [&](const models::Link& link) { return link.name == name; });
-  if (found != links.end()) return static_cast<int>(found - links.begin());
-  throw ConfigError(fmt::format("wrenches: got one on '{}'; expected a link of '{}'", name.text(),
-                                model.name().text()));
-}
-
-}  // namespace
-
 void JacobianMapping::Params::Describe(Fields<Params>& fields) {
   fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
   fields.Add("alpha", &Params::alpha, "", "factor of the delta; absorbs the unit of the wrench");
@@ -52,8 +43,9 @@ void JacobianMapping::Params::Describe(Fields<Params>& fields) {
 }
 
 JacobianMapping::JacobianMapping(const Params& params, const ModelSet& models)
-    : model_(MovableModel(models, params.model)),
-      settings_(Checked(params)),
+    : params_(params),
+      model_(MovableModel(models, params.model)),
+      settings_(MappingSettingsOf(params)),
       wrenches(DeclareInput<WrenchSet>("wrenches")),
       links(DeclareInput<LinkPoses>("links")),
       solution(DeclareOutput<MappingSolution, &JacobianMapping::CalcSolution>("solution", {},
@@ -68,7 +60,7 @@ void JacobianMapping::CalcSolution(const WrenchSet& wrench_set, const LinkPoses&
   result.body_wrenches.assign(model_->bodies().size(), models::BodyWrench{});
   const auto X_WL = PosesInOrder(*model_, poses, result.reordered);
   for (const LinkWrench& wrench : wrench_set.wrenches) {
-    const int link = FindLink(*model_, wrench.link);
+    const int link = LinkNumber(*model_, wrench.link, "wrenches");
     if (model_->body(link) < 0) continue;
     const Eigen::Vector3d origin = X_WL[model_->body(link)].translation();
     models::BodyWrench& sum = result.body_wrenches[model_->body_index(link)];

@@ -68,7 +68,10 @@ class JacobianMapping final : public System {
 
   JacobianMapping(const Params& params, const ModelSet& models);
 
+  const Params& params() const { return params_; }
+
  private:
+  const Params params_;
   const std::shared_ptr<const models::RobotModel> model_;
   const models::MappingSettings settings_;
   void CalcSolution(const WrenchSet& wrench_set, const LinkPoses& poses,
@@ -81,6 +84,9 @@ class JacobianMapping final : public System {
   const Output<MappingSolution> solution;
   const Output<Vector> delta;
 };
+
+/// What the mathematics needs of the parameters. throws ConfigError as JacobianMapping does
+models::MappingSettings MappingSettingsOf(const JacobianMapping::Params& params);
 
 }  // namespace oca::systems
 

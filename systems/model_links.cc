@@ -45,6 +45,15 @@ void NameLinks(const models::RobotModel& model, LinkPoses& poses) {
   poses.poses.resize(poses.links.size());
 }
 
+int LinkNumber(const models::RobotModel& model, models::Name link, const char* port) {
+  const auto& links = model.links();
+  const auto found = std::find_if(links.begin(), links.end(),
+                                  [&](const models::Link& other) { return other.name == link; });
+  if (found != links.end()) return static_cast<int>(found - links.begin());
+  throw ConfigError(fmt::format("{}: got one on '{}'; expected a link of '{}'", port, link.text(),
+                                model.name().text()));
+}
+
 std::span<const Eigen::Isometry3d> PosesInOrder(const models::RobotModel& model,
                                                 const LinkPoses& links,
                                                 std::vector<Eigen::Isometry3d>& reordered) {

@@ -27,6 +27,9 @@ PortSpec RateSpec(const models::RobotModel& model);
 /// Fills in names and bodies, and as many poses.
 void NameLinks(const models::RobotModel& model, LinkPoses& poses);
 
+/// The number of a link. throws ConfigError naming `port` if the model has no such link
+int LinkNumber(const models::RobotModel& model, models::Name link, const char* port);
+
 /// The poses in the order of the model. Those of `links` themselves if they are in this order,
 /// else `reordered`, which is then filled: a link that `links` lacks stands where its fixed joint
 /// puts it, or at the base if it is the root.

@@ -39,12 +39,20 @@ void RepulsiveField::Params::Describe(Fields<Params>& fields) {
 RepulsiveField::RepulsiveField(const Params& params)
     : params_(Checked(params)),
       proximities(DeclareInput<ProximitySet>("proximities")),
-      forces(DeclareOutput<LinkForceSet, &RepulsiveField::CalcForces>("forces", {}, proximities)) {}
+      forces(DeclareOutput<LinkForceSet, &RepulsiveField::CalcForces>("forces", {}, proximities)),
+      slopes(DeclareOutput<ContactSlopes, &RepulsiveField::CalcSlopes>("slopes", {}, proximities)) {
+}
 
 double RepulsiveField::Magnitude(double distance) const {
   if (distance > params_.max_distance) return 0.0;
   const double rho = std::max(distance, params_.min_distance);
   return params_.force_gain * (1.0 / rho - 1.0 / params_.max_distance) / (rho * rho);
+}
+
+double RepulsiveField::Slope(double distance) const {
+  if (distance > params_.max_distance) return 0.0;
+  const double rho = std::max(distance, params_.min_distance);
+  return params_.force_gain * (3.0 / rho - 2.0 / params_.max_distance) / (rho * rho * rho);
 }
 
 void RepulsiveField::CalcForces(const ProximitySet& proximity_set, LinkForceSet& force_set) const {
@@ -54,6 +62,17 @@ void RepulsiveField::CalcForces(const ProximitySet& proximity_set, LinkForceSet&
     force_set.forces.push_back({proximity.link, proximity.obstacle,
                                 Magnitude(proximity.distance) * proximity.normal,
                                 proximity.point_on_link});
+  }
+}
+
+void RepulsiveField::CalcSlopes(const ProximitySet& proximity_set,
+                                ContactSlopes& contact_slopes) const {
+  contact_slopes.slopes.clear();
+  contact_slopes.slopes.reserve(proximity_set.proximities.capacity());
+  for (const Proximity& proximity : proximity_set.proximities) {
+    if (proximity.distance > params_.max_distance) continue;
+    contact_slopes.slopes.push_back(
+        SlopeAt(proximity, Slope(proximity.distance) * proximity.normal));
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include "framework/params.h"
 #include "framework/system.h"
+#include "systems/contact_slopes.h"
 #include "systems/signals.h"
 
 namespace oca::systems {
@@ -17,6 +18,7 @@ namespace oca::systems {
 ///
 /// in    proximities  ProximitySet
 /// out   forces       LinkForceSet  N  one a proximity, same order, at point_on_link
+/// out   slopes       ContactSlopes    how they answer to the distances, for a LoopGain
 /// state -
 /// throws ConfigError if force_gain is negative, or not 0 < min_distance < max_distance
 /// source Khatib 1986, section 3; report eq. (2.3), (2.5), (3.1); THEORY.md section 1
@@ -39,14 +41,18 @@ class RepulsiveField final : public System {
 
   /// |F| in N at a signed distance in m.
   double Magnitude(double distance) const;
+  /// -d|F| / d(distance) in N/m; of the floor below it, as the motion back out would meet it.
+  double Slope(double distance) const;
 
  private:
   const Params params_;
   void CalcForces(const ProximitySet& proximity_set, LinkForceSet& force_set) const;
+  void CalcSlopes(const ProximitySet& proximity_set, ContactSlopes& contact_slopes) const;
 
  public:
   const Input<ProximitySet> proximities;
   const Output<LinkForceSet> forces;
+  const Output<ContactSlopes> slopes;
 };
 
 }  // namespace oca::systems

@@ -45,6 +45,26 @@ TEST(DeltaLimiterTest, LimitsEachJointByItsOwnVelocity) {
   EXPECT_DOUBLE_EQ(x[1], -0.02);
 }
 
+// The first joint may go 0.01, so all go a hundredth of their way.
+TEST(DeltaLimiterTest, KeepsTheDirectionOfTheWholeChangeInThatMode) {
+  auto params = Limit(Eigen::VectorXd(Eigen::Vector3d(1.0, 1.0, 2.0)));
+  params.mode = DeltaLimiter::Mode::kDirection;
+  SystemBench<DeltaLimiter> bench(params);
+  const Eigen::VectorXd x = After(bench, 1, Eigen::Vector3d(1.0, -0.5, 1.5));
+  EXPECT_NEAR((x - Eigen::Vector3d(0.01, -0.005, 0.015)).norm(), 0.0, 1e-15);
+  const Eigen::VectorXd y = After(bench, 2, Eigen::Vector3d(0.01, -0.005, 4.015));
+  EXPECT_NEAR((y - Eigen::Vector3d(0.01, -0.005, 0.035)).norm(), 0.0, 1e-15);
+}
+
+TEST(DeltaLimiterTest, PassesAChangeAtTheLimitBitByBitInThatMode) {
+  auto params = Limit(Eigen::VectorXd(Eigen::Vector2d(1.0, 1.0)));
+  params.mode = DeltaLimiter::Mode::kDirection;
+  SystemBench<DeltaLimiter> bench(params);
+  const Eigen::VectorXd raw = Eigen::Vector2d(0.01, 0.003);
+  EXPECT_EQ(After(bench, 1, raw), raw);
+  EXPECT_LT(After(bench, 2, raw + Eigen::Vector2d(0.0101, 0.001))[1], 0.004);
+}
+
 TEST(DeltaLimiterTest, HoldsItsOutputWhileTheInputMoves) {
   SystemBench<DeltaLimiter> bench(Limit(0.6));
   After(bench, 1, Eigen::VectorXd::Constant(1, 1.0));

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "framework/error.h"
+#include "systems/constant.h"
 #include "systems/delta_limiter.h"
 #include "tests/system_bench.h"
 
@@ -54,6 +57,40 @@ TEST(DeltaRelaxationTest, CostsTheLimiterBehindItNoTick) {
   EXPECT_NEAR(limiter.limited_delta.Eval(simulator.context())[0], 0.1, 1e-15);
   simulator.AdvanceTo(0.02);
   EXPECT_NEAR(limiter.limited_delta.Eval(simulator.context())[0], 0.19, 1e-15);
+}
+
+TEST(DeltaRelaxationTest, TheLongerOfBothTimesCounts) {
+  for (const double told : {0.05, 0.2}) {
+    DiagramBuilder builder;
+    const auto& time = builder.Add<Constant>("time", Constant::Params{told, "s"});
+    const auto& relaxation = builder.Add<DeltaRelaxation>("relaxation", Relax(0.1));
+    builder.Connect(time.value, relaxation.relaxation_time);
+    builder.ExportInput("delta", relaxation.delta, 1);
+    const auto diagram = builder.Build();
+    Simulator simulator(*diagram);
+    relaxation.delta.Fix(simulator.context(), Eigen::VectorXd::Constant(1, 1.0));
+    EXPECT_NEAR(relaxation.relaxed_delta.Eval(simulator.context())[0], 0.01 / std::max(told, 0.1),
+                1e-15);
+  }
+}
+
+// Without `held` the lag would run to 1e6 behind the limiter, and take 15 time constants back.
+TEST(DeltaRelaxationTest, GoesOnFromWhatALimiterLeftOfItsDelta) {
+  DiagramBuilder builder;
+  const auto& relaxation = builder.Add<DeltaRelaxation>("relaxation", Relax(0.1));
+  const auto& limiter = builder.Add<DeltaLimiter>(
+      "limiter", DeltaLimiter::Params{.max_joint_velocity = 1.0, .period = Period(1, 100)});
+  builder.Connect(relaxation.relaxed_delta, limiter.delta);
+  builder.Connect(limiter.limited_delta, relaxation.held);
+  builder.ExportInput("delta", relaxation.delta);
+  const auto diagram = builder.Build();
+  Simulator simulator(*diagram);
+  relaxation.delta.Fix(simulator.context(), Eigen::VectorXd::Constant(1, 1e6));
+  simulator.AdvanceTo(0.1);
+  EXPECT_NEAR(limiter.limited_delta.Eval(simulator.context())[0], 0.1, 1e-12);
+  relaxation.delta.Fix(simulator.context(), Eigen::VectorXd::Constant(1, 0.0));
+  simulator.AdvanceTo(0.11);
+  EXPECT_NEAR(limiter.limited_delta.Eval(simulator.context())[0], 0.09, 1e-12);
 }
 
 TEST(DeltaRelaxationTest, RefusesANegativeTimeAndPeriodZero) {

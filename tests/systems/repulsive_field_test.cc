@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "framework/error.h"
@@ -30,6 +31,19 @@ TEST(RepulsiveFieldTest, GivesTheForceOfEquation31) {
   EXPECT_NEAR(field.Magnitude(0.1), 666.667, 1e-3);
   EXPECT_NEAR(field.Magnitude(0.05), 6666.67, 1e-2);
   EXPECT_NEAR(field.Magnitude(0.01), 966666.67, 1e-2);
+}
+
+TEST(RepulsiveFieldTest, TheSlopeIsTheDerivativeOfTheForceAndThatOfTheFloorBelowIt) {
+  const RepulsiveField field(RepulsiveField::Params{.force_gain = 2.0});
+  for (const double rho : {0.011, 0.05, 0.2, 0.2999}) {
+    constexpr double kStep = 1e-7;
+    const double numeric =
+        (field.Magnitude(rho - kStep) - field.Magnitude(rho + kStep)) / (2.0 * kStep);
+    EXPECT_NEAR(field.Slope(rho), numeric, 1e-5 * numeric) << rho;
+  }
+  EXPECT_NEAR(field.Slope(0.3), 2.0 / std::pow(0.3, 4), 1e-9);
+  EXPECT_EQ(field.Slope(0.3000001), 0.0);
+  EXPECT_EQ(field.Slope(-0.5), field.Slope(0.01));
 }
 
 TEST(RepulsiveFieldTest, PushesAlongTheNormalAtThePointOnTheLink) {
