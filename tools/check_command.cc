@@ -5,6 +5,7 @@
 #include <exception>
 #include <iostream>
 
+#include "diagrams/chatter_check.h"
 #include "diagrams/loader.h"
 #include "models/robot/robot_model.h"
 #include "systems/safety_filter.h"
@@ -37,6 +38,9 @@ int CheckCommand(const std::vector<std::string>& files) {
     try {
       const auto loaded = diagrams::LoadDiagram(file);
       for (const std::string& warning : loaded.warnings) std::cerr << warning << '\n';
+      for (const std::string& warning : diagrams::ChatterWarnings(loaded)) {
+        std::cerr << warning << '\n';
+      }
       std::cout << file << ": fine, " << loaded.systems.size() << " systems, "
                 << loaded.diagram->connections().size() << " connections\n"
                 << std::flush;

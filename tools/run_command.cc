@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "diagrams/chatter_check.h"
 #include "diagrams/record/record_files.h"
 #include "diagrams/record/run_recorder.h"
 #include "diagrams/run.h"
@@ -189,6 +190,9 @@ int RunCommand(const RunArguments& arguments) {
 
   if (!extracted) {  // a record's were told when it was made
     for (const std::string& warning : loaded.warnings) fmt::print(stderr, "{}\n", warning);
+    for (const std::string& warning : diagrams::ChatterWarnings(loaded)) {
+      fmt::print(stderr, "{}\n", warning);
+    }
   }
   StderrLog log(arguments.log_level);
   diagrams::RunOptions options;

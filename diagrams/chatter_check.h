@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagrams/loader.h"
+
+namespace oca::diagrams {
+
+/// Warnings about loops of avoidance that must chatter with their settings, a line each with its
+/// place: the gain g, where, and the relaxation time that they need. A loop is
+///
+///     kinematics -> ... field -> ... -> JacobianMapping -> ... -> DeltaOverlay
+///
+/// It is looked at without running it: at samples of the requested motion, obstacles where their
+/// script has them then, the delta is led to where the loop would rest, and the gain taken there
+/// (models::LoopGain). More than 2 relaxation_time / period - 1 there means that the rest is not
+/// stable. What adapts to its gain (LoopGain) and what is not `enabled` gives no warning; neither
+/// does a loop of other make.
+std::vector<std::string> ChatterWarnings(const LoadedDiagram& loaded);
+
+}  // namespace oca::diagrams
