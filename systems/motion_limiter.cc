@@ -95,20 +95,29 @@ void MotionLimiter::Update(VectorView request, VectorView command, VectorView ra
   r = request;
 }
 
-double MotionLimiter::Wish(double request, double c, double r,
+double MotionLimiter::Wish(double request, double c, double r, double v,
                            const models::JointLimits& limits) const {
   const double dt = params_.period.seconds();
   const double lag = std::fabs(r - c);
+  // In one division, so that a request without lag passes bit by bit.
+  const double whole = (request - c) / dt;
+  if (lag <= kUnchanged) return whole;
   const double a = kCatchUpShare * limits.acceleration;
+  const bool jerky = std::isfinite(limits.acceleration) && std::isfinite(limits.jerk);
   double catch_up = models::LargestStoppableVelocity(lag, a, dt);
-  if (std::isfinite(limits.acceleration) && std::isfinite(limits.jerk)) {
+  if (jerky) {
     // Distance to a halt from u: u^2 / (2 a) + u T, T the time until the brakes are on.
     const double ramp = a * limits.acceleration / limits.jerk;
     catch_up = std::min(catch_up, std::sqrt(ramp * ramp + 2.0 * a * lag) - ramp);
   }
-  // All of the lag at once in one division, so that no lag passes the request bit by bit.
-  if (catch_up >= lag / dt) return (request - c) / dt;
-  return (request - r) / dt + std::copysign(catch_up, r - c);
+  const double wish =
+      catch_up >= lag / dt ? whole : (request - r) / dt + std::copysign(catch_up, r - c);
+  if (!jerky) return wish;
+  // The same again for the velocity: its change must end when the wish is met.
+  const double away = wish - v;
+  const double change =
+      models::LargestStoppableVelocity(std::fabs(away), kCatchUpShare * limits.jerk, dt);
+  return v + std::copysign(std::min(std::fabs(away), change * dt), away);
 }
 
 MotionLimiter::Answer MotionLimiter::Answers(VectorView request, const Past& past,
@@ -122,7 +131,7 @@ MotionLimiter::Answer MotionLimiter::Answers(VectorView request, const Past& pas
   const models::JointLimits limits = LimitsOf(*model_, joint);
   const models::VelocityRange range =
       models::StoppableVelocities(limits, {c, past.v[joint], past.a[joint]}, dt);
-  const double wish = Wish(request[joint], c, past.r[joint], limits);
+  const double wish = Wish(request[joint], c, past.r[joint], past.v[joint], limits);
   answer.velocity = std::min(std::max(wish, range.lower), range.upper);
   if (answer.velocity == whole) return answer;
   answer.position = c + answer.velocity * dt;

@@ -37,7 +37,7 @@ struct MotionClips {
 /// request there and w = (position - r) / period its velocity. The range is that of
 /// models::StoppableVelocities: position, velocity, acceleration and jerk limits of the model, the
 /// last two where it has any. A command that was held back, c != r, catches up no faster than it
-/// can brake by half the acceleration (and the time the jerk takes to build that up), so that it
+/// can brake by half the acceleration (and half the jerk, if that is limited), so that it
 /// meets the request at the request's own velocity instead of shooting past it. Each joint is
 /// treated alone. The output follows from the input at once: it costs no delay, and a request
 /// within the limits passes unchanged. The command is that of a joint which moves straight from
@@ -86,7 +86,8 @@ class MotionLimiter final : public System {
     VectorView c, r, v, a, started;
   };
   Answer Answers(VectorView request, const Past& past, Eigen::Index joint) const;
-  double Wish(double request, double c, double r, const models::JointLimits& limits) const;
+  double Wish(double request, double c, double r, double v,
+              const models::JointLimits& limits) const;
   void Start(VectorView request, std::optional<VectorView> measured, MutableVectorView c,
              MutableVectorView r) const;
   void Update(VectorView request, VectorView command, VectorView rate, MutableVectorView c,
