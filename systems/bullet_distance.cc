@@ -16,7 +16,10 @@
 namespace oca::systems {
 namespace {
 
-constexpr std::size_t kMostMoving = 3;
+constexpr std::size_t kMostMoving = 8;
+
+template <std::size_t>
+using PosesOfOne = LinkPoses;  // as many as there are indices
 
 double CheckedMaxDistance(double max_distance) {
   RequireAbove("max_distance", max_distance, 0.0);
@@ -44,6 +47,17 @@ Proximity ToProximity(models::Name link, models::Name obstacle,
   return proximity;
 }
 
+// The same pair from the other side.
+Proximity Mirrored(const Proximity& pair, models::Name obstacle) {
+  Proximity mirrored{pair.own_link, obstacle};
+  mirrored.distance = pair.distance;
+  mirrored.point_on_link = pair.point_on_obstacle;
+  mirrored.point_on_obstacle = pair.point_on_link;
+  mirrored.normal = -pair.normal;
+  mirrored.own_link = pair.link;
+  return mirrored;
+}
+
 // Bound on the speed of all points of a link; 0 if its pose does not come in.
 double SpeedOf(const LinkCollider& link, const LinkPoses& poses) {
   const int at = poses.Find(link.link, link.number);
@@ -58,7 +72,8 @@ void BulletDistance::Params::Describe(Fields<Params>& fields) {
   fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
   fields.Add("max_distance", &Params::max_distance, "m", "distance beyond which pairs are left out")
       .Above(0.0);
-  fields.Add("ignore", &Params::ignore, "", "pairs [link, obstacle] that are left out");
+  fields.Add("ignore", &Params::ignore, "",
+             "pairs [link, obstacle id or model/link] that are left out");
   fields.Add("calculate_link_forces", &Params::calculate_link_forces, "",
              "whether links of other robots and frames count as obstacles");
   fields.Add("self_collision", &Params::self_collision, "",
@@ -78,13 +93,13 @@ BulletDistance::BulletDistance(const Params& params, const ModelSet& models)
       others_(MakeOthers(params, models)),
       moving_others_(std::count_if(others_.begin(), others_.end(),
                                    [](const Other& other) { return Moves(*other.model); })),
-      ignored_(MakeIgnored(params)),
+      ignored_(MakeIgnored(params, models)),
       links(DeclareInput<LinkPoses>("links")),
       obstacles(DeclareInput<ObstacleSet>("obstacles")),
       links_of_others(DeclareOtherLinks()),
       scene(DeclareOutput<ObstacleScene, &BulletDistance::CalcScene>("scene", {}, obstacles)),
       near(DeclareOutput<NearObstacles, &BulletDistance::CalcNear>("near", {}, links, scene)),
-      proximities(DeclareProximities()) {}
+      proximities(DeclareProximities(link_forces_ ? moving_others_ : 0)) {}
 
 std::vector<LinkCollider> BulletDistance::MakeMovable() const {
   std::vector<LinkCollider> colliders = MakeLinkColliders(*model_);
@@ -138,7 +153,7 @@ std::vector<BulletDistance::Other> BulletDistance::MakeOthers(const Params& para
 }
 
 std::vector<std::pair<models::Name, models::Name>> BulletDistance::MakeIgnored(
-    const Params& params) const {
+    const Params& params, const ModelSet& models) const {
   std::vector<std::pair<models::Name, models::Name>> ignored;
   for (std::size_t i = 0; i < params.ignore.size(); ++i) {
     const auto& pair = params.ignore[i];
@@ -146,12 +161,21 @@ std::vector<std::pair<models::Name, models::Name>> BulletDistance::MakeIgnored(
       throw ConfigError(
           fmt::format("ignore[{}]: got {} names; expected 2: [link, obstacle]", i, pair.size()));
     }
+    const std::size_t slash = pair[1].find('/');
+    const std::string model = pair[1].substr(0, slash);
     try {
       model_->FindLink(pair[0]);
-    } catch (const models::ModelError& error) {
+      if (pair[1].empty() || slash == 0) {
+        throw ConfigError(
+            fmt::format("obstacle; got '{}'; expected the id of one or model/link", pair[1]));
+      }
+      if (slash != std::string::npos) models.Get(model)->FindLink(pair[1].substr(slash + 1));
+    } catch (const std::runtime_error& error) {
       throw ConfigError(fmt::format("ignore[{}]: {}", i, error.what()));
     }
     ignored.emplace_back(pair[0], pair[1]);
+    if (slash == std::string::npos || model != name_) continue;
+    ignored.emplace_back(pair[1].substr(slash + 1), name_ + "/" + pair[0]);
   }
   return ignored;
 }
@@ -168,25 +192,17 @@ std::vector<Input<LinkPoses>> BulletDistance::DeclareOtherLinks() {
   return inputs;
 }
 
-Output<ProximitySet> BulletDistance::DeclareProximities() {
-  using L = LinkPoses;
-  using B = BulletDistance;
-  const auto& of = links_of_others;
-  // What is not looked at is not read: the inputs of `others` stay, whatever the switch says.
-  switch (link_forces_ ? moving_others_ : 0) {
-    case 1:
-      return DeclareOutput<ProximitySet, &B::CalcProximities<L>>("proximities", {}, links,
-                                                                 obstacles, scene, near, of[0]);
-    case 2:
-      return DeclareOutput<ProximitySet, &B::CalcProximities<L, L>>(
-          "proximities", {}, links, obstacles, scene, near, of[0], of[1]);
-    case 3:
-      return DeclareOutput<ProximitySet, &B::CalcProximities<L, L, L>>(
-          "proximities", {}, links, obstacles, scene, near, of[0], of[1], of[2]);
-    default:
-      return DeclareOutput<ProximitySet, &B::CalcProximities<>>("proximities", {}, links, obstacles,
-                                                                scene, near);
+// What is not looked at is not read: the inputs of `others` stay, whatever the switch says.
+template <std::size_t kMoving>
+Output<ProximitySet> BulletDistance::DeclareProximities(std::size_t moving) {
+  if constexpr (kMoving < kMostMoving) {
+    if (moving > kMoving) return DeclareProximities<kMoving + 1>(moving);
   }
+  return [this]<std::size_t... I>(std::index_sequence<I...>) {
+    return DeclareOutput<ProximitySet, &BulletDistance::CalcProximities<PosesOfOne<I>...>>(
+        "proximities", {}, links, obstacles, scene, near, links_of_others[I]...);
+  }
+  (std::make_index_sequence<kMoving>());
 }
 
 void BulletDistance::CalcNear(const LinkPoses& poses, const ObstacleScene& of,
@@ -207,13 +223,19 @@ template <class... Poses>
 void BulletDistance::CalcProximities(const LinkPoses& poses, const ObstacleSet& set,
                                      const ObstacleScene& of, const NearObstacles& candidates,
                                      const Poses&... others, ProximitySet& result) const {
-  const std::array<const LinkPoses*, sizeof...(Poses) + 1> poses_of_others{&others..., nullptr};
-  result.max_distance = max_distance_;
+  const std::array<const LinkPoses*, sizeof...(Poses)> poses_of_others{&others...};
   result.fastest = of.fastest();
-  for (std::size_t i = 0; i < sizeof...(Poses); ++i) {
-    CheckVelocities(others_[i], *poses_of_others[i]);
+  Find(poses, set, candidates, poses_of_others, result);
+}
+
+void BulletDistance::Find(const LinkPoses& poses, const ObstacleSet& set,
+                          const NearObstacles& candidates, std::span<const LinkPoses* const> others,
+                          ProximitySet& result) const {
+  result.max_distance = max_distance_;
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    CheckVelocities(others_[i], *others[i]);
     for (const Neighbour& other : others_[i].links) {
-      result.fastest = std::max(result.fastest, SpeedOf(other.collider, *poses_of_others[i]));
+      result.fastest = std::max(result.fastest, SpeedOf(other.collider, *others[i]));
     }
   }
   std::size_t most = set.obstacles.capacity() + own_.size();
@@ -225,7 +247,8 @@ void BulletDistance::CalcProximities(const LinkPoses& poses, const ObstacleSet& 
     const int index = poses.Find(link.link, link.number);
     if (index < 0) continue;
     AddObstacles(link, poses.poses[index], set, candidates.of(i), result);
-    AddLinks(link, poses, index, poses_of_others.data(), result);
+    AddOwnLinks(link, poses, index, result);
+    if (link_forces_) AddLinksOfOthers(link, poses.poses[index], others, result);
   }
 }
 
@@ -245,20 +268,32 @@ void BulletDistance::AddObstacles(const LinkCollider& link, const Eigen::Isometr
   }
 }
 
-void BulletDistance::AddLinks(const LinkCollider& link, const LinkPoses& poses, int index,
-                              const LinkPoses* const* others, ProximitySet& result) const {
-  const Eigen::Isometry3d& X_WL = poses.poses[index];
+void BulletDistance::AddOwnLinks(const LinkCollider& link, const LinkPoses& poses, int index,
+                                 ProximitySet& result) const {
+  std::size_t next = 0;  // up to here all pairs with this link are mirrored; they come in order
+  const std::size_t end = result.proximities.size();
   for (const Neighbour& own : own_) {
-    if (model_->adjacent(link.number, own.collider.number) ||
-        model_->collision_disabled(link.number, own.collider.number)) {
+    const int number = own.collider.number;
+    if (model_->adjacent(link.number, number) || model_->collision_disabled(link.number, number)) {
       continue;
     }
-    const int at = poses.Find(own.collider.link, own.collider.number);
-    if (at >= 0 && AddOther(link, X_WL, own, poses.poses[at], result)) {
+    if (number < link.number && model_->body(number) >= 0) {
+      const auto& found = result.proximities;
+      while (next < end && !(found[next].own_link == link.link)) ++next;
+      if (next == end || !(found[next].link == own.collider.link)) continue;  // is beyond
+      result.proximities.push_back(Mirrored(found[next++], own.name));
+      continue;
+    }
+    const int at = poses.Find(own.collider.link, number);
+    if (at >= 0 && AddOther(link, poses.poses[index], own, poses.poses[at], result)) {
       result.proximities.back().own_link = own.collider.link;
     }
   }
-  if (!link_forces_) return;
+}
+
+void BulletDistance::AddLinksOfOthers(const LinkCollider& link, const Eigen::Isometry3d& X_WL,
+                                      std::span<const LinkPoses* const> others,
+                                      ProximitySet& result) const {
   const bool lowest = model_->body(link.number) == LowestMovable(*model_);
   for (std::size_t i = 0; i < others_.size(); ++i) {
     for (const Neighbour& other : others_[i].links) {

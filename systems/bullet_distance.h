@@ -22,12 +22,16 @@ namespace oca::systems {
 /// of the same model, then, with calculate_link_forces, links of `others`. Pairs farther apart than
 /// max_distance are left out, as are links whose pose does not come in.
 ///
-/// Links count as obstacles named <model>/<link>. A pair of the same model is found from either
-/// side, so that its forces push both links apart. Links of `others` move with the velocities that
-/// come in with their poses. Left out are the pairs of `ignore`; of the same model those that are
-/// adjacent or disabled in the SRDF; and the lowest pair of two arms, which cannot avoid each
-/// other: the lowest movable link against the other arm's lowest movable link and what of the other
-/// arm cannot move.
+/// Links count as obstacles named <model>/<link>. A pair of the same model is listed from either
+/// side, so that its forces push both links apart; it is computed once, for the link that comes
+/// first, and the other side is its exact mirror. Links of `others` move with the velocities that
+/// come in with their poses. Left out are the pairs of `ignore` (of the same model from either
+/// side); of the same model those that are adjacent or disabled in the SRDF; and the lowest pair of
+/// two arms, which cannot avoid each other: the lowest movable link against the other arm's lowest
+/// movable link and what of the other arm cannot move.
+///
+/// The second name of an `ignore` with a slash is the link of a model, which must exist; one
+/// without is the id of an obstacle, which may appear at any time.
 ///
 /// Pairs whose bounding balls are farther apart than max_distance are not looked at: balls around
 /// the obstacles form a tree, which only obstacles that move make work for, so many far ones cost
@@ -44,7 +48,7 @@ namespace oca::systems {
 /// out   near          NearObstacles  of each movable link that has solids, in the model's order
 /// state -
 /// throws ConfigError if a model or a link of `ignore` does not exist, a pair is no pair,
-///        max_distance is not positive, calculate_link_forces has no `others`, or more than 3 of
+///        max_distance is not positive, calculate_link_forces has no `others`, or more than 8 of
 ///        them move; while running if a link comes in that is not of the model, or links of
 ///        `others` without velocities
 /// source report section 3.2, Algorithm 2; THEORY.md section 1
@@ -84,9 +88,11 @@ class BulletDistance final : public System {
                                                const models::RobotModel& model);
   static std::vector<Other> MakeOthers(const Params& params, const ModelSet& models);
   std::vector<LinkCollider> MakeMovable() const;
-  std::vector<std::pair<models::Name, models::Name>> MakeIgnored(const Params& params) const;
+  std::vector<std::pair<models::Name, models::Name>> MakeIgnored(const Params& params,
+                                                                 const ModelSet& models) const;
   std::vector<Input<LinkPoses>> DeclareOtherLinks();
-  Output<ProximitySet> DeclareProximities();
+  template <std::size_t kMoving = 0>
+  Output<ProximitySet> DeclareProximities(std::size_t moving);
 
   void CalcScene(const ObstacleSet& set, ObstacleScene& result) const { result.Follow(set); }
   void CalcNear(const LinkPoses& poses, const ObstacleScene& of, NearObstacles& result) const;
@@ -94,10 +100,14 @@ class BulletDistance final : public System {
   void CalcProximities(const LinkPoses& poses, const ObstacleSet& set, const ObstacleScene& of,
                        const NearObstacles& candidates, const Poses&... others,
                        ProximitySet& result) const;
+  void Find(const LinkPoses& poses, const ObstacleSet& set, const NearObstacles& candidates,
+            std::span<const LinkPoses* const> others, ProximitySet& result) const;
   void AddObstacles(const LinkCollider& link, const Eigen::Isometry3d& X_WL, const ObstacleSet& set,
                     std::span<const int> candidates, ProximitySet& result) const;
-  void AddLinks(const LinkCollider& link, const LinkPoses& poses, int index,
-                const LinkPoses* const* others, ProximitySet& result) const;
+  void AddOwnLinks(const LinkCollider& link, const LinkPoses& poses, int index,
+                   ProximitySet& result) const;
+  void AddLinksOfOthers(const LinkCollider& link, const Eigen::Isometry3d& X_WL,
+                        std::span<const LinkPoses* const> others, ProximitySet& result) const;
   bool AddOther(const LinkCollider& link, const Eigen::Isometry3d& X_WL, const Neighbour& other,
                 const Eigen::Isometry3d& X_WO, ProximitySet& result) const;
   bool Ignored(models::Name link, models::Name obstacle) const;

@@ -137,6 +137,12 @@ TEST_F(PlanarDistanceTest, RefusesParametersThatMakeNoQuery) {
   EXPECT_THAT(refusal({.model = "lwr5"}), HasSubstr("lwr5"));
   EXPECT_THAT(refusal({.ignore = {{"planar2_link_1"}}}), HasSubstr("ignore[0]: got 1 names"));
   EXPECT_THAT(refusal({.ignore = {{"planar2_link_9", "ball"}}}), HasSubstr("planar2_link_9"));
+  EXPECT_THAT(refusal({.ignore = {{"planar2_link_1", ""}}}), HasSubstr("ignore[0]: obstacle"));
+  EXPECT_THAT(refusal({.ignore = {{"planar2_link_1", "/x"}}}), HasSubstr("ignore[0]: obstacle"));
+  EXPECT_THAT(refusal({.ignore = {{"planar2_link_1", "tabel/leg"}}}),
+              HasSubstr("ignore[0]: model: got 'tabel'; expected one of: planar2"));
+  EXPECT_THAT(refusal({.ignore = {{"planar2_link_2", "planar2/planar2_lnk_1"}}}),
+              HasSubstr("planar2_link_1"));
   EXPECT_THAT(refusal({.others = {"table"}}), HasSubstr("table"));
   EXPECT_THAT(refusal({.others = {"planar2"}}), HasSubstr("each other model once"));
 }
@@ -251,6 +257,41 @@ TEST_F(TwoArmsTest, SeesTheTableWhereItStands) {
   EXPECT_THAT(Pairs(set), ::testing::Not(::testing::Contains("planar2_link_2 ball")));
 }
 
+TEST_F(TwoArmsTest, SeesAsManyMovingArmsAsItNames) {
+  for (int i = 3; i <= 9; ++i) {
+    models_.Add("arm" + std::to_string(i), LoadTestModel("planar2", At(0.0, 0.3 * i, 0.0)));
+  }
+  Params params{.model = "left", .max_distance = 3.0, .calculate_link_forces = true};
+  for (int i = 3; i <= 7; ++i) params.others.push_back("arm" + std::to_string(i));
+  SystemBench<BulletDistance> bench(params, models_);
+  bench->links.Fix(bench.context(), LinksAt(*models_.Get("left"), Eigen::Vector2d::Zero()));
+  bench->obstacles.Fix(bench.context(), ObstacleSet{});
+  ASSERT_EQ(bench->links_of_others.size(), 5u);
+  for (int i = 3; i <= 7; ++i) {
+    LinkPoses links = LinksAt(*models_.Get("arm" + std::to_string(i)), Eigen::Vector2d::Zero());
+    links.velocities.assign(links.size(), {Vector3d(0.1 * i, 0, 0), Vector3d::Zero()});
+    bench->links_of_others[i - 3].Fix(bench.context(), links);
+  }
+  const ProximitySet& set = bench->proximities.Eval(bench.context());
+  int forearms = 0;
+  for (const Proximity& p : set.proximities) {
+    if (p.link != models::Name("planar2_link_2") ||
+        !p.obstacle.text().ends_with("planar2_link_2")) {
+      continue;
+    }
+    const int i = 3 + forearms++;
+    EXPECT_EQ(p.obstacle.text(), "arm" + std::to_string(i) + "/planar2_link_2");
+    EXPECT_NEAR(p.distance, 0.3 * i - 0.1, 1e-12);
+    EXPECT_NEAR((p.obstacle_velocity - Vector3d(0.1 * i, 0, 0)).norm(), 0.0, 1e-12);
+  }
+  EXPECT_EQ(forearms, 5);
+  params.others = {"arm3", "arm4", "arm5", "arm6", "arm7", "arm8", "arm9", "right"};
+  EXPECT_EQ(SystemBench<BulletDistance>(params, models_)->links_of_others.size(), 8u);
+  models_.Add("arm10", models_.Get("right"));
+  params.others.push_back("arm10");
+  EXPECT_THROW(BulletDistance(params, models_), ConfigError);
+}
+
 TEST_F(TwoArmsTest, RefusesToRunWithoutThePosesOfTheOtherArm) {
   DiagramBuilder builder;
   const auto& distance = builder.Add<BulletDistance>(
@@ -284,11 +325,60 @@ TEST(BulletDistanceTest, SeesTheArmItselfIfAskedTo) {
     }
     ASSERT_THAT(Pairs(set), ElementsAre("planar3_link_1 planar3/planar3_link_3",
                                         "planar3_link_3 planar3/planar3_link_1"));
-    EXPECT_NEAR(set.proximities[0].distance, set.proximities[1].distance, 1e-12);
-    EXPECT_NEAR((set.proximities[0].normal + set.proximities[1].normal).norm(), 0.0, 1e-9);
     EXPECT_EQ(set.proximities[0].own_link, models::Name("planar3_link_3"));
     EXPECT_EQ(set.proximities[1].own_link, models::Name("planar3_link_1"));
   }
+}
+
+TEST(BulletDistanceTest, ListsEveryPairOfTheArmFromBothSidesAsMirrors) {
+  const ModelSet models = TestModels("lwr4");
+  const auto model = models.Get("lwr4");
+  SystemBench<BulletDistance> bench(Params{.max_distance = 0.4, .self_collision = true}, models);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  int mirrored = 0, fixed = 0;
+  for (int k = 0; k < 200; ++k) {
+    Eigen::VectorXd q(7);
+    for (int j = 0; j < 7; ++j) q[j] = (2.0 * unit(random) - 1.0) * model->upper_limits()[j];
+    bench->links.Fix(bench.context(), LinksAt(*model, q));
+    bench->obstacles.Fix(bench.context(), ObstacleSet{{Ball("ball", Vector3d(0.3, 0.0, 0.6))}});
+    const ProximitySet& set = bench->proximities.Eval(bench.context());
+    std::vector<std::pair<int, int>> order;
+    for (const Proximity& p : set.proximities) {
+      const int link = model->FindLink(p.link.text());
+      const int other = p.own_link.empty() ? -1 : model->FindLink(p.own_link.text());
+      order.emplace_back(link, other);
+      if (other < 0) continue;
+      EXPECT_EQ(p.obstacle.text(), "lwr4/" + p.own_link.text());
+      const auto twin = std::find_if(
+          set.proximities.begin(), set.proximities.end(),
+          [&](const Proximity& t) { return t.link == p.own_link && t.own_link == p.link; });
+      if (model->body(other) < 0) {
+        ++fixed;
+        EXPECT_EQ(twin, set.proximities.end()) << "the base cannot move";
+        continue;
+      }
+      ASSERT_NE(twin, set.proximities.end()) << p.link.text() << " " << p.own_link.text();
+      EXPECT_EQ(p.distance, twin->distance);
+      EXPECT_EQ(p.point_on_link, twin->point_on_obstacle);
+      EXPECT_EQ(p.normal, -twin->normal);
+      ++mirrored;
+    }
+    EXPECT_TRUE(std::is_sorted(order.begin(), order.end()));
+  }
+  EXPECT_GT(mirrored, 100);
+  EXPECT_GT(fixed, 20);
+}
+
+TEST(BulletDistanceTest, APairOfTheArmIgnoredFromOneSideIsIgnoredFromBoth) {
+  const ModelSet models = TestModels("planar3");
+  SystemBench<BulletDistance> bench(Params{.max_distance = 1.0,
+                                           .ignore = {{"planar3_link_3", "planar3/planar3_link_1"}},
+                                           .self_collision = true},
+                                    models);
+  bench->links.Fix(bench.context(), LinksAt(*models.Get("planar3"), Vector3d(0.0, 1.5, 1.5)));
+  bench->obstacles.Fix(bench.context(), ObstacleSet{});
+  EXPECT_TRUE(bench->proximities.Eval(bench.context()).proximities.empty());
 }
 
 // Found from either side, a pair pushes with n^T (J_A - J_B): the joints before both do nothing.
