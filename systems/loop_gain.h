@@ -29,8 +29,7 @@ struct GainEstimate {
 /// chatter, from what is near at this tick:
 ///
 ///     relaxation_time = max(parameter relaxation_time, safety period (1 + gain) / 2)
-///     gain = spectral radius of  alpha M sum_i b_i (slope_i + 2 damping_i / period)^T-weighted
-///     rows
+///     gain = spectral radius of alpha M sum_i b_i(slope_i + 2 damping_i / period) b_i(normal_i)^T
 ///
 /// as models::LoopGain has it, with the M of the mapping: the parameters model, alpha, method and
 /// damping must be those of the JacobianMapping in the loop. With `safety` 1 the loop is at the
