@@ -71,6 +71,11 @@ Eigen::Isometry3d Foreseen(const Obstacle& obstacle, double ahead) {
   return X;
 }
 
+void RequireSize(const Trajectory& request, Eigen::Index size) {
+  if (request.size() == size) return;
+  throw ConfigError(fmt::format("ahead: length; got {} joints; expected {}", request.size(), size));
+}
+
 }  // namespace
 
 void ElasticBand::Params::Describe(Fields<Params>& fields) {
@@ -161,6 +166,7 @@ void ElasticBand::Sample(double time, const RequestAhead& request, const BandMem
     next_acceleration.setZero();
     return;
   }
+  RequireSize(*request.trajectory, next_position.size());
   const double end = time + params_.period.seconds();
   const models::BandCurve& band = memory.At(end);
   MutableVectorView* const next[] = {&next_position, &next_velocity, &next_acceleration};
@@ -244,10 +250,7 @@ models::BandTask ElasticBand::MakeTask(double time, const Trajectory* request,
 void ElasticBand::Plan(double time, const RequestAhead& request, const ObstacleSet& set,
                        VectorView measured, OptionalVector rate, BandMemory& memory) const {
   if (!request.trajectory || !params_.enabled) return;
-  if (request.trajectory->size() != measured.size()) {
-    throw ConfigError(fmt::format("ahead: length; got {} joints; expected {}",
-                                  request.trajectory->size(), measured.size()));
-  }
+  RequireSize(*request.trajectory, measured.size());
   Follow(time, request.trajectory.get(), measured, memory);
   if (Kept(time, request.trajectory.get(), set, measured, memory)) return;
   if (!memory.next.empty()) memory.held = memory.next;
