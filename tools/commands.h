@@ -48,6 +48,18 @@ int ViewCommand(const ViewArguments& arguments);
 
 int CheckCommand(const std::vector<std::string>& files);
 
+struct PlanArguments {
+  std::string file;
+  std::vector<std::string> overrides;
+  std::optional<int> seed;         ///< of the first sample; none: the file's
+  int samples{1};                  ///< seeds seed, seed + 1, ...
+  int starts{30};
+  std::string model{"arm"};
+  std::optional<double> duration;  ///< s; instead of the file's
+};
+/// Whether an optimiser that knows the whole script finds a clear motion: a JSON object a line.
+int PlanCommand(const PlanArguments& arguments);
+
 struct GraphArguments {
   std::string file;
   std::string format{"dot"};

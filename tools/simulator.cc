@@ -122,6 +122,21 @@ class CommandLine {
     check->add_option("FILE", check_files_, "diagram files")->required();
     check->callback([this] { command_ = [this] { return CheckCommand(check_files_); }; });
 
+    CLI::App* const plan = app_.add_subcommand(
+        "plan", "say whether an optimiser that knows the whole script finds a clear motion");
+    plan->add_option("FILE", plan_.file, "diagram file with the systems spline and obstacles")
+        ->required();
+    plan->add_option("-s,--set", plan_.overrides, "PATH=VALUE: override a value of the file")
+        ->allow_extra_args(false);
+    plan->add_option("--seed", plan_.seed, "of the scenario, instead of the file's")
+        ->check(WholeNumber(9));
+    plan->add_option("--samples", plan_.samples, "scenarios with this seed and those after it")
+        ->check(WholeNumber(9));
+    plan->add_option("--starts", plan_.starts, "starts that are relaxed")->check(WholeNumber(5));
+    plan->add_option("--model", plan_.model, "the robot");
+    plan->add_option("-t,--duration", plan_.duration, "s, instead of the file's");
+    plan->callback([this] { command_ = [this] { return PlanCommand(plan_); }; });
+
     CLI::App* const graph = app_.add_subcommand("graph", "draw a diagram file");
     graph->add_option("FILE", graph_.file, "diagram file")->required();
     graph->add_option("--format", graph_.format, "dot, svg or mermaid")
@@ -228,6 +243,7 @@ class CommandLine {
   RunArguments run_;
   ViewArguments view_;
   std::vector<std::string> check_files_;
+  PlanArguments plan_;
   GraphArguments graph_;
   std::string described_;
   CheckCollisionsArguments collisions_;
