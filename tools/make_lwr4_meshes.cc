@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Makes the meshes of models/robots/lwr4 from the outer measures of the KUKA LWR 4.
 //
-//   make_lwr4_meshes FOLDER            writes base, segment, forearm, wrist and flange .stl
+//   make_lwr4_meshes FOLDER            writes base, segment, forearm, fork, wrist and flange .stl
 //   make_lwr4_meshes --check FOLDER    fails unless the files there are what it would write
+//   make_lwr4_meshes --help
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -33,13 +34,21 @@ struct Housing {
 
 constexpr int kSides = 20;
 
+constexpr const char* kUsage =
+    "usage: make_lwr4_meshes FOLDER            write base, segment, forearm, fork, wrist and flange"
+    " .stl\n"
+    "       make_lwr4_meshes --check FOLDER    fail unless the files there are what it would "
+    "write\n"
+    "       make_lwr4_meshes --help\n";
+
 // Half width of a drum of radius r about the y axis, at a distance d from that axis.
 double Drum(double r, double d) { return std::sqrt(r * r - d * d); }
 
 // Widths, reaches and lengths are those of the arm's public data sheet and drawings, to a few mm:
-// housings 0.12 m wide; a joint about y is two half drums side by side, one of either link, each
-// bulging sideways to 0.116 m (elbows) or 0.087 m (forearm). Every part in the frame of its lower
-// joint, z up the arm, bulging towards +y; the URDF turns them.
+// housings 0.12 m wide; an elbow is two half drums side by side, one of either link, each bulging
+// sideways to 0.116 m. The forearm ends below the wrist's drum and holds it from one side, by a
+// fork that reaches 0.087 m: between them the flange turns freely, 0.02 m clear. Every part in the
+// frame of its lower joint, z up the arm, bulging towards +y; the URDF turns them.
 std::vector<Housing> Housings() {
   const double r = 0.062;  // of the elbows' drums
   const double w = 0.071;  // of the wrist's drum
@@ -65,23 +74,28 @@ std::vector<Housing> Housings() {
           {"forearm",
            {{0.009, 0.0, 0.057, 0.057, 2.0},
             {0.025, 0.0, 0.061, 0.061, 2.0},
-            {0.070, 0.002, 0.0615, 0.061, 2.0},
-            {0.110, 0.012, 0.062, 0.060, 2.2},
-            {0.150, 0.035, 0.062, 0.050, 2.6},
-            {0.175, 0.052, 0.062, 0.0345, 3.0},
-            {0.190, 0.057, Drum(r, 0.0), 0.030, 3.0},
-            {0.215, 0.057, Drum(r, 0.025), 0.0295, 3.0},
-            {0.233, 0.057, Drum(r, 0.043), 0.027, 3.0},
-            {0.245, 0.057, Drum(r, 0.055), 0.024, 3.0},
-            {0.251, 0.057, Drum(r, 0.061), 0.021, 3.0}}},
+            {0.055, 0.006, 0.0615, 0.067, 2.1},
+            {0.075, 0.013, 0.061, 0.074, 2.3},
+            {0.088, 0.013, 0.056, 0.073, 2.3},
+            {0.095, 0.013, 0.045, 0.070, 2.2},
+            {0.099, 0.013, 0.030, 0.064, 2.0}}},
+          {"fork",
+           {{0.060, 0.0740, 0.045, 0.0130, 3.0},
+            {0.100, 0.0740, 0.056, 0.0130, 3.0},
+            {0.150, 0.0740, 0.062, 0.0130, 3.0},
+            {0.190, 0.0740, Drum(r, 0.0), 0.0130, 3.0},
+            {0.215, 0.0740, Drum(r, 0.025), 0.0130, 3.0},
+            {0.233, 0.0735, Drum(r, 0.043), 0.0125, 3.0},
+            {0.245, 0.0725, Drum(r, 0.055), 0.0115, 3.0},
+            {0.251, 0.0715, Drum(r, 0.061), 0.0105, 3.0}}},
           {"wrist",
-           {{-0.070, 0.017, Drum(w, 0.070), 0.045, 3.0},
-            {-0.062, 0.017, Drum(w, 0.062), 0.053, 3.0},
-            {-0.045, 0.017, Drum(w, 0.045), 0.060, 2.8},
-            {-0.020, 0.017, Drum(w, 0.020), 0.063, 2.6},
-            {0.0, 0.017, w, 0.063, 2.5},
-            {0.020, 0.015, Drum(w, 0.020), 0.061, 2.4},
-            {0.040, 0.009, 0.0585, 0.055, 2.2},
+           {{-0.070, 0.010, Drum(w, 0.070), 0.050, 3.0},
+            {-0.062, 0.010, Drum(w, 0.062), 0.059, 3.0},
+            {-0.045, 0.010, Drum(w, 0.045), 0.066, 2.8},
+            {-0.020, 0.010, Drum(w, 0.020), 0.069, 2.6},
+            {0.0, 0.010, w, 0.069, 2.5},
+            {0.020, 0.009, Drum(w, 0.020), 0.066, 2.4},
+            {0.040, 0.006, 0.0585, 0.057, 2.2},
             {0.059, 0.0, 0.046, 0.046, 2.0}}},
           {"flange",
            {{-0.020, 0.0, 0.038, 0.038, 2.0},
@@ -188,10 +202,13 @@ bool Handle(const Housing& housing, const std::filesystem::path& folder, bool ch
 }  // namespace
 
 int main(int argc, char** argv) {
-  const bool check = argc == 3 && std::string(argv[1]) == "--check";
-  if (argc != 2 && !check) {
-    std::fprintf(stderr, "usage: make_lwr4_meshes [--check] FOLDER\n");
-    return 64;
+  const std::string first = argc > 1 ? argv[1] : "";
+  const bool help = argc == 2 && (first == "--help" || first == "-h");
+  const bool check = argc == 3 && first == "--check";
+  const bool write = argc == 2 && !first.empty() && first.front() != '-';
+  if (!check && !write) {
+    std::fputs(kUsage, help ? stdout : stderr);
+    return help ? 0 : 64;
   }
   bool fine = true;
   for (const Housing& housing : Housings()) fine = Handle(housing, argv[argc - 1], check) && fine;

@@ -45,6 +45,26 @@ TEST_F(RobotCommandTest, WritesAnSrdfThatADiagramMayUseAndNothingUnasked) {
   EXPECT_THAT(text, HasSubstr("reason=\"Always\""));
 }
 
+// Fewer samples than the files were made with: these find the same pairs.
+TEST_F(RobotCommandTest, LeavesEverySrdfOfTheProductAsItIs) {
+  namespace fs = std::filesystem;
+  int files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(OCA_SOURCE_DIR "/models/robots")) {
+    if (entry.path().extension() != ".srdf") continue;
+    ++files;
+    const fs::path copy = run.folder().path() / entry.path().filename();
+    fs::copy_file(entry.path(), copy);
+    const std::string text = run.Read(copy.filename());
+    const std::string urdf = fs::path(entry.path()).replace_extension(".urdf").string();
+    const Ran ran =
+        run("$S robot check-collisions " + urdf + " --samples 10000 --write-srdf " + copy.string());
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    EXPECT_EQ(run.Read(copy.filename()), text) << entry.path() << "\n" << ran.out;
+    EXPECT_THAT(text, HasSubstr("check-collisions package://"));
+  }
+  EXPECT_GE(files, 7);
+}
+
 TEST_F(RobotCommandTest, JsonHoldsAllPairs) {
   const Ran ran = run(check_ + "--json --seed 5 --margin 0.5");
   ASSERT_EQ(ran.status, 0) << ran.err;

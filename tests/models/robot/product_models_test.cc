@@ -7,6 +7,7 @@
 
 #include "models/geometry/convex_hull.h"
 #include "models/robot/kinematics.h"
+#include "models/robot/link_colliders.h"
 #include "models/robot/urdf.h"
 #include "random_robot.h"
 
@@ -257,9 +258,7 @@ TEST(DualArmTest, TwoArmsStandSideBySide) {
 
 TEST(Lwr4Test, MeshesAreTheSameArmInItsHousings) {
   const RobotModel plain = Lwr4();
-  LoadOptions options;
-  options.srdf = ProductFile("robots/lwr4/lwr4.srdf");
-  const RobotModel meshes = LoadUrdf(ProductFile("robots/lwr4/lwr4_meshes.urdf"), options);
+  const RobotModel meshes = Load("robots/lwr4/lwr4_meshes");
   ASSERT_EQ(meshes.num_links(), plain.num_links());
   Random random(71);
   for (int i = 0; i < 20; ++i) {
@@ -271,11 +270,36 @@ TEST(Lwr4Test, MeshesAreTheSameArmInItsHousings) {
     }
   }
   for (int link = 0; link < 8; ++link) {
-    ASSERT_EQ(meshes.links()[link].collisions.size(), 1u);
-    const auto& mesh = std::get<ConvexMesh>(meshes.links()[link].collisions[0].shape);
-    EXPECT_GT(mesh.hull->vertices.size(), 50u) << link;
-    EXPECT_FALSE(meshes.links()[link].visuals.at(0).mesh_file.empty());
+    const Link& housing = meshes.links()[link];
+    ASSERT_EQ(housing.collisions.size(), link == 5 ? 2u : 1u);  // forearm and fork
+    ASSERT_EQ(housing.visuals.size(), housing.collisions.size());
+    for (std::size_t i = 0; i < housing.collisions.size(); ++i) {
+      const auto& mesh = std::get<ConvexMesh>(housing.collisions[i].shape);
+      EXPECT_GT(mesh.hull->vertices.size(), 50u) << link;
+      EXPECT_FALSE(housing.visuals[i].mesh_file.empty());
+    }
   }
+}
+
+// Only joints 6 and 7 move the flange against the forearm; joint 7 turns it, not quite round.
+TEST(Lwr4Test, FlangeOfTheMeshesTurnsClearOfForearmAndFork) {
+  const RobotModel model = Load("robots/lwr4/lwr4_meshes");
+  const std::vector<LinkCollider> links = LinkCollidersOf(model);
+  ASSERT_EQ(links[5].number, 5);
+  ASSERT_EQ(links[7].number, 7);
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(7);
+  double least = kUnlimited;
+  for (int i = -120; i <= 120; ++i) {
+    for (int turn = 0; turn < 18; turn += 5) {
+      q[5] = i * kDegree;
+      q[6] = turn * kDegree;
+      const auto X_WL = LinkPoses(model, q);
+      least = std::min(least, DistanceToLink(links[5], X_WL[5], links[7], X_WL[7], 1.0).distance);
+    }
+  }
+  EXPECT_GT(least, 0.02) << "the margin within which pairs are to be checked";
+  EXPECT_LT(least, 0.03) << "the fork holds the wrist";
+  EXPECT_TRUE(model.collision_disabled(5, 7));
 }
 
 // Bounds of the housing of each link in its own frame, m: 0.124 m wide, elbows to 0.116 m sideways,
