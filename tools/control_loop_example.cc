@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How to embed the avoidance of a diagram file in a robot's own control loop: docs/embedding.md.
 //
-//     control_loop_example [FILE [SECONDS]]
+//     control_loop_example [FILE [SECONDS]] [-s PATH=VALUE]...
 //
-// Takes the place of everything around the avoidance: it asks for a motion, pretends that the
-// joints follow exactly, and moves an obstacle. It runs at 1 kHz of the wall clock.
+// Takes the place of the plant and of the camera: it pretends that the joints follow the commanded
+// velocity exactly, and moves the obstacles. All else is the file's own, whatever its method of
+// avoidance and however many joints its robot has. It runs at 1 kHz of the wall clock.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <numbers>
+#include <stdexcept>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "diagrams/loader.h"
 #include "framework/control_loop.h"
@@ -22,16 +25,61 @@ namespace {
 
 using oca::Status;
 using oca::Vector;
+using oca::diagrams::Override;
 using oca::systems::ObstacleSet;
-using std::numbers::pi;
 
 constexpr double kPeriod = 1e-3;  // s
+constexpr const char* kUsage =
+    "usage: control_loop_example [FILE [SECONDS]] [-s PATH=VALUE]...\n"
+    "  FILE     a diagram file that includes parts/avoidance.yaml; diagrams/static_test.yaml if "
+    "left"
+    " out\n"
+    "  SECONDS  from 0 to 1e6; 12 if left out\n"
+    "  -s       as of `simulator run`, say parameters.avoidance=safety_filter\n";
 
-/// The joints asked for at t, rad: joints 1 and 3 swing the arm through the box within 10 s.
-void Request(double t, Eigen::VectorXd& q) {
-  const double s = 0.5 - 0.5 * std::cos(pi * std::min(t / 10.0, 1.0));
-  q << 1.75 * pi / 2 * s, 85.0 * pi / 180, -30.0 * pi / 180 * s, -35.0 * pi / 180, 0.0,
-      30.0 * pi / 180, 0.0;
+struct Arguments {
+  std::string file{"diagrams/static_test.yaml"};
+  double seconds{12.0};
+  std::vector<Override> overrides{{"parameters.rate", "1000"}};  // that of the loop
+};
+
+/// Whether the words make sense.
+bool Read(const std::vector<std::string>& words, Arguments& arguments) {
+  int place = 0;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == "-s" && i + 1 < words.size()) {
+      arguments.overrides.push_back(Override::Parse(words[++i]));
+    } else if (words[i].empty() || words[i].front() == '-' || place > 1) {
+      return false;
+    } else if (place++ == 0) {
+      arguments.file = words[i];
+    } else {
+      char* end = nullptr;
+      arguments.seconds = std::strtod(words[i].c_str(), &end);
+      if (*end != '\0' || !(arguments.seconds >= 0.0 && arguments.seconds <= 1e6)) return false;
+    }
+  }
+  return true;
+}
+
+/// What the program takes the place of: the names of all other systems.
+std::vector<std::string> Inside(const oca::diagrams::LoadedDiagram& whole) {
+  std::vector<std::string> names;
+  for (const auto& block : whole.systems) {
+    const bool outside = block.type == "IntegratorPlant" || block.type == "ObstacleSource" ||
+                         block.type == "MotionMetrics";
+    if (!outside) names.push_back(block.name);
+  }
+  return names;
+}
+
+template <class T>
+oca::Output<T> OutputOf(const oca::diagrams::LoadedDiagram& whole, const char* system,
+                        const char* port) {
+  const oca::System* const found = whole.diagram->FindSystem(system);
+  if (found != nullptr) return {found->FindOutput(port)};
+  throw std::runtime_error(whole.file + ": systems; got no '" + system +
+                           "'; expected those of parts/loop.yaml");
 }
 
 /// What a robot does about a failure is its own affair; here it holds still, and says why once.
@@ -50,24 +98,24 @@ class Guard {
 };
 
 /// Exit status: 0 if every tick went well.
-int Run(const char* file, double seconds) {
-  // Load once. The limiter and its like work at the loop's rate.
-  const auto avoidance = oca::diagrams::LoadPart(
-      file, {"kinematics", "distance", "field", "wrenches", "mapping", "relaxation", "limiter"},
-      {{"parameters.rate", "1000"}, {"parameters.relaxation_time", "0.4"}});
-  const oca::Diagram& diagram = *avoidance.diagram;
+int Run(const Arguments& arguments) {
+  // Load once: the whole file says where the joints and obstacles are, the part is what we run.
+  const auto whole = oca::diagrams::LoadDiagram(arguments.file, arguments.overrides);
+  const oca::Context start_of_all = whole.diagram->MakeContext();
+  const auto part = oca::diagrams::LoadPart(arguments.file, Inside(whole), arguments.overrides);
+  const oca::Diagram& diagram = *part.diagram;
   const auto measured = diagram.GetInput<Vector>("plant_position");
   const auto obstacles = diagram.GetInput<ObstacleSet>("obstacles_obstacles");
-  const auto delta = diagram.GetOutput<Vector>("limiter_limited_delta");
+  const auto command = diagram.GetOutput<Vector>("servo_command");  // joint velocities
+  const auto delta = diagram.GetOutput<Vector>("overlay_applied_delta");
 
-  ObstacleSet scene = oca::Signal<ObstacleSet>::ReadJson(
-      R"([{"id": "box", "shape": {"type": "box", "size": [0.2, 0.2, 0.2]},
-           "pose": {"xyz": [0, 0.6, 1.0]}}])");
-  Eigen::VectorXd request(7), q(7);
-  Request(0.0, request);
-  q = request;
+  Eigen::VectorXd q = OutputOf<Vector>(whole, "plant", "position").Eval(start_of_all);
+  const ObstacleSet first =
+      OutputOf<ObstacleSet>(whole, "obstacles", "obstacles").Eval(start_of_all);
+  ObstacleSet scene = first;
 
   oca::ControlLoop loop(diagram, oca::Period(1, 1000));
+  loop.Watch(command);
   loop.Watch(delta);
   Guard guard;
   if (!guard.Fine(loop.Set(measured, q)) || !guard.Fine(loop.Set(obstacles, scene))) return 1;
@@ -76,25 +124,29 @@ int Run(const char* file, double seconds) {
   // From here on: no exception, no heap.
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
-  const auto ticks = static_cast<long>(seconds / kPeriod);
+  const auto ticks = static_cast<long>(arguments.seconds / kPeriod);
   double worst = 0.0, total = 0.0, largest = 0.0;
   for (long k = 0; k < ticks; ++k) {
     const double t = static_cast<double>(k) * kPeriod;
     std::this_thread::sleep_until(start + std::chrono::microseconds(1000 * k));
     const auto woken = Clock::now();
-    scene.obstacles[0].X_WO.translation().z() = 1.0 + 0.02 * std::sin(t);
+    for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
+      scene.obstacles[i].X_WO.translation().z() =
+          first.obstacles[i].X_WO.translation().z() + 0.02 * std::sin(t);
+    }
     if (guard.Fine(loop.Set(measured, q)) && guard.Fine(loop.Set(obstacles, scene)) &&
         guard.Fine(loop.Tick())) {
-      Request(t, request);
-      q = request + loop.Get(delta);  // the command; the joints follow it
+      q += kPeriod * loop.Get(command);
     }
     const double took = std::chrono::duration<double>(Clock::now() - woken).count();
     worst = std::max(worst, took);
     total += took;
-    largest = std::max(largest, loop.Get(delta).cwiseAbs().maxCoeff());
+    largest = std::max(largest, loop.Get(delta).lpNorm<Eigen::Infinity>());
   }
-  std::printf("%ld ticks of 1 ms; %.1f us each, the longest %.1f us; largest delta %.3f rad\n",
-              ticks, 1e6 * total / static_cast<double>(std::max(ticks, 1L)), 1e6 * worst, largest);
+  std::printf(
+      "%ld ticks of 1 ms, %ld joints; %.1f us each, the longest %.1f us; largest delta %.3f rad\n",
+      ticks, static_cast<long>(q.size()), 1e6 * total / static_cast<double>(std::max(ticks, 1L)),
+      1e6 * worst, largest);
   if (guard.failures() == 0) return 0;
   std::fprintf(stderr, "held still %ld times\n", guard.failures());
   return 1;
@@ -103,18 +155,18 @@ int Run(const char* file, double seconds) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  char* end = nullptr;
-  const double seconds = argc > 2 ? std::strtod(argv[2], &end) : 12.0;
-  const bool usable = argc < 3 || (end != argv[2] && *end == '\0');
-  if (argc > 3 || (argc > 1 && argv[1][0] == '-') || !usable ||
-      !(seconds >= 0.0 && seconds <= 1e6)) {
-    std::fprintf(stderr, "usage: control_loop_example [FILE [SECONDS]]; SECONDS from 0 to 1e6\n");
-    return 64;
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  if (words == std::vector<std::string>{"--help"}) {
+    std::fputs(kUsage, stdout);
+    return 0;
   }
   try {
-    return Run(argc > 1 ? argv[1] : "diagrams/static_test.yaml", seconds);
+    Arguments arguments;
+    if (Read(words, arguments)) return Run(arguments);
   } catch (const std::exception& error) {  // only while setting up
     std::fprintf(stderr, "%s\n", error.what());
     return 2;
   }
+  std::fputs(kUsage, stderr);
+  return 64;
 }
