@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "framework/error.h"
+#include "framework/log.h"
 #include "models/robot/robot_model.h"
 #include "systems/model_links.h"
 #include "systems/require.h"
@@ -150,7 +151,7 @@ ElasticBand::ElasticBand(const Params& params, const ModelSet& models)
   DeclareInitialization<&ElasticBand::Start>(Writes(position_), measured_position);
   DeclareUpdate<&ElasticBand::Sample>(
       Every{params_.period}, Writes(position_, velocity_, acceleration_), kTime, ahead, memory_);
-  DeclareUpdate<&ElasticBand::Plan>(Every{params_.plan_period}, Writes(memory_), kTime, ahead,
+  DeclareUpdate<&ElasticBand::Plan>(Every{params_.plan_period}, Writes(memory_), kTime, kLog, ahead,
                                     obstacles, measured_position, measured_velocity);
 }
 
@@ -218,6 +219,16 @@ void ElasticBand::Follow(double time, const Trajectory* request, VectorView meas
   memory.stuck = away > kArrived && time - memory.moved >= params_.stuck_time;
 }
 
+void ElasticBand::Report(double time, const BandMemory& memory, Log& log) const {
+  const std::string pair = memory.link.empty()
+                               ? "nothing near"
+                               : fmt::format("{} to {}, {:.3f} m", memory.link.text(),
+                                             memory.obstacle.text(), memory.nearest);
+  log.Write(LogLevel::kWarning, time,
+            fmt::format("the arm is stuck: no progress to its goal for {} s; what blocks: {}",
+                        params_.stuck_time, pair));
+}
+
 models::BandTask ElasticBand::MakeTask(double time, const Trajectory* request,
                                        const std::vector<models::BandBody>& bodies,
                                        VectorView measured, OptionalVector rate,
@@ -247,11 +258,13 @@ models::BandTask ElasticBand::MakeTask(double time, const Trajectory* request,
   return task;
 }
 
-void ElasticBand::Plan(double time, const RequestAhead& request, const ObstacleSet& set,
+void ElasticBand::Plan(double time, Log& log, const RequestAhead& request, const ObstacleSet& set,
                        VectorView measured, OptionalVector rate, BandMemory& memory) const {
   if (!request.trajectory || !params_.enabled) return;
   RequireSize(*request.trajectory, measured.size());
+  const bool was_stuck = memory.stuck;
   Follow(time, request.trajectory.get(), measured, memory);
+  if (memory.stuck && !was_stuck) Report(time, memory, log);
   if (Kept(time, request.trajectory.get(), set, measured, memory)) return;
   if (!memory.next.empty()) memory.held = memory.next;
   const auto bodies = MakeBodies(time, set);

@@ -30,7 +30,8 @@ namespace oca::systems {
 /// Control samples are those of the end of each period, held, as from a sampled SplineGenerator.
 ///
 /// The arm counts as stuck if the request rests, the goal is not reached to 0.01 and nothing moved
-/// by stuck_motion for stuck_time; `plan` then names the pair that is nearest.
+/// by stuck_motion for stuck_time; `plan` then names the pair that is nearest, and a warning is
+/// logged.
 ///
 /// Plans allocate; control samples do not, nor does a tick at which a plan is kept.
 ///
@@ -96,8 +97,9 @@ class ElasticBand final : public System {
               BandMemory& memory) const;
 
   void Start(VectorView measured, MutableVectorView position_out) const;
-  void Plan(double time, const RequestAhead& request, const ObstacleSet& set, VectorView measured,
-            OptionalVector rate, BandMemory& memory) const;
+  void Report(double time, const BandMemory& memory, Log& log) const;
+  void Plan(double time, Log& log, const RequestAhead& request, const ObstacleSet& set,
+            VectorView measured, OptionalVector rate, BandMemory& memory) const;
   void Sample(double time, const RequestAhead& request, const BandMemory& memory,
               MutableVectorView next_position, MutableVectorView next_velocity,
               MutableVectorView next_acceleration) const;
