@@ -305,6 +305,9 @@ TEST_F(LoaderTest, BasePosesThatAreNoneAreRefused) {
   EXPECT_EQ(with("{xyz: [0, 0, 1], rpy: [0, 0, 0]}"), "");
   EXPECT_THAT(with("{xyz: [0, 0]}"), HasSubstr("models.arm.base_pose.xyz"));
   EXPECT_THAT(with("{xyz: [0, 0, a]}"), HasSubstr("models.arm.base_pose.xyz[2]"));
+  EXPECT_THAT(with("{xyz: [0, 0, .nan]}"), HasSubstr("models.arm.base_pose.xyz[2]: got '.nan'"));
+  EXPECT_THAT(with("{xyz: [0, -1000001, 0]}"), HasSubstr("models.arm.base_pose.xyz"));
+  EXPECT_THAT(with("{xyz: [0, 0, 0], rpy: [1e300, 0, 0]}"), HasSubstr("models.arm.base_pose.rpy"));
   EXPECT_THAT(with("{quaternion: [0, 0, 0, 0]}"), HasSubstr("models.arm"));
   EXPECT_THAT(with("{zyx: [0, 0, 0]}"), HasSubstr("did you mean 'xyz'?"));
 }
