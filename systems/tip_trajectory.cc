@@ -138,6 +138,7 @@ void TipRequest::Params::Describe(Fields<Params>& fields) {
 
 TipRequest::Params TipRequest::Example() {
   Params params;
+  params.link = "planar2_tip";
   params.from = Vector3d(0.7, 0.3, 0.0);
   params.to = Vector3d(0.4, 0.6, 0.0);
   params.posture = Eigen::Vector2d(0.1, 0.8);
