@@ -12,6 +12,7 @@
 #include "diagrams/record/series.h"
 #include "framework/error.h"
 #include "tools/commands.h"
+#include "tools/method_figure.h"
 #include "tools/record_commands.h"
 #include "tools/report_figures.h"
 
@@ -92,6 +93,19 @@ void WritePng(const fs::path& file, const std::string& svg) {
   if (status != 0) throw ConfigError(fmt::format("{}: cannot be written", file.string()));
 }
 
+std::vector<PlotPanel> PanelsOf(const PlotArguments& arguments) {
+  const bool methods = arguments.figure == "method-comparison";
+  if (methods && arguments.records.empty()) {
+    throw ConfigError("plot: method-comparison: got no folder; expected some that `sweep` wrote");
+  }
+  if (methods) return MethodPanels(arguments.records);
+  if (!arguments.figure.empty()) return FigurePanels(arguments.figure);
+  if (arguments.records.empty() || arguments.signals.empty()) {
+    throw ConfigError("plot: got nothing to draw; expected records and --signal, or --figure");
+  }
+  return SignalPanels(arguments);
+}
+
 }  // namespace
 
 int PlotCommand(const PlotArguments& arguments) {
@@ -99,11 +113,7 @@ int PlotCommand(const PlotArguments& arguments) {
   if (file.extension() != ".svg" && file.extension() != ".png") {
     throw ConfigError(fmt::format("-o: got '{}'; expected a .svg or .png file", file.string()));
   }
-  if (arguments.figure.empty() && (arguments.records.empty() || arguments.signals.empty())) {
-    throw ConfigError("plot: got nothing to draw; expected records and --signal, or --figure");
-  }
-  const std::string svg = record::SvgPlot(
-      arguments.figure.empty() ? SignalPanels(arguments) : FigurePanels(arguments.figure));
+  const std::string svg = record::SvgPlot(PanelsOf(arguments));
   if (file.extension() == ".svg") {
     Write(file, svg);
   } else {

@@ -57,12 +57,16 @@ void AddPlot(CLI::App& app, std::function<int()>& command) {
   CLI::App* const plot =
       app.add_subcommand("plot", "draw recorded signals, of several runs at once");
   const auto arguments = std::make_shared<PlotArguments>();
-  plot->add_option("RECORD", arguments->records, "records of runs");
+  plot->add_option("RECORD", arguments->records,
+                   "records of runs; of sweeps their folders, for method-comparison");
   plot->add_option("--signal", arguments->signals,
                    "system.port or system.port.joint with * and ?; a panel each")
       ->allow_extra_args(false);
-  plot->add_option("--figure", arguments->figure, "a figure of the report, from runs of our own")
-      ->check(CLI::IsMember(FigureNames()));
+  std::vector<std::string> figures = FigureNames();
+  figures.push_back("method-comparison");
+  plot->add_option("--figure", arguments->figure,
+                   "a figure of the report, from runs of our own, or what sweeps reached")
+      ->check(CLI::IsMember(figures));
   plot->add_option("-o,--output", arguments->output, "file to write, .svg or .png")->required();
   plot->callback(
       [&command, arguments] { command = [arguments] { return PlotCommand(*arguments); }; });

@@ -107,7 +107,7 @@ std::vector<PlotPanel> FigurePanels(const std::string& name) {
   if (name == "report-4.1") return StaticTest(false);
   if (name == "report-4.2") return StaticTest(true);
   throw ConfigError("plot: no figure '" + name +
-                    "'; expected report-3.5, report-4.1 or report-4.2");
+                    "' from runs of our own; expected report-3.5, report-4.1 or report-4.2");
 }
 
 }  // namespace oca::tools

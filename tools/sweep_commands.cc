@@ -60,6 +60,7 @@ struct MergeArguments {
   std::string database;
   std::string lines;
   bool json{false};
+  bool markdown{false};
 };
 
 std::optional<int> NumberIn(const char* variable) {
@@ -128,10 +129,14 @@ class SweepBar {
 
 bool WantsBar(bool unwanted) { return !unwanted && WantsColour(STDERR_FILENO); }
 
-int Report(const Results& results, bool json, bool colour) {
+enum class Form { kTable, kJson, kMarkdown };
+
+int Report(const Results& results, Form form, bool colour) {
   const sweep::Summary summary = sweep::Summarize(results);
-  if (json) {
+  if (form == Form::kJson) {
     std::cout << SweepJson(results, summary) << '\n';
+  } else if (form == Form::kMarkdown) {
+    std::cout << SweepMarkdown(results, summary);
   } else {
     std::cout << SweepTable(results, summary, colour);
   }
@@ -174,7 +179,8 @@ int SweepCommand(const SweepArguments& arguments) {
   fmt::print(stderr, "{} runs in {:.3g} s, {:.3g} a second, on {} threads\n", ran, taken.count(),
              static_cast<double>(ran) / taken.count(), arguments.jobs);
   if (finished && shard.count == 1) WriteDatabase(folder / "results.db", file.results());
-  const int status = Report(file.results(), arguments.json, WantsColour(STDOUT_FILENO));
+  const int status = Report(file.results(), arguments.json ? Form::kJson : Form::kTable,
+                            WantsColour(STDOUT_FILENO));
   if (finished) return status;
   fmt::print(stderr, "interrupted: {} of {} runs are kept, the same command goes on with them\n",
              file.results().rows.size(), CountRuns(campaign, shard));
@@ -189,7 +195,10 @@ int MergeCommand(const MergeArguments& arguments) {
   WriteDatabase(arguments.database.empty() ? fs::path(arguments.folder) / "results.db"
                                            : fs::path(arguments.database),
                 results);
-  return Report(results, arguments.json, WantsColour(STDOUT_FILENO));
+  const Form form = arguments.json       ? Form::kJson
+                    : arguments.markdown ? Form::kMarkdown
+                                         : Form::kTable;
+  return Report(results, form, WantsColour(STDOUT_FILENO));
 }
 
 /// Digits only: a conversion to an unsigned number would wrap what is negative.
@@ -249,7 +258,11 @@ void AddSweepCommands(CLI::App& app, std::function<int()>& command) {
   merge->add_option("-o,--output", arguments->database,
                     "SQLite database to write; DIR/results.db if left out");
   merge->add_option("--jsonl", arguments->lines, "file to write all results to, as JSON lines");
-  merge->add_flag("--json", arguments->json, "print one JSON object instead of the table");
+  CLI::Option* const json =
+      merge->add_flag("--json", arguments->json, "print one JSON object instead of the table");
+  merge
+      ->add_flag("--markdown", arguments->markdown, "print the table as Markdown, without failures")
+      ->excludes(json);
   merge->callback(
       [&command, arguments] { command = [arguments] { return MergeCommand(*arguments); }; });
 }

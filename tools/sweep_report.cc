@@ -83,15 +83,6 @@ std::vector<Measure> Measures() {
           {"step p50, p99, max, us", [](const C& one) { return TimesText(one.steps); }}};
 }
 
-std::string TitleOf(const CombinationSummary& one) {
-  std::string title;
-  for (const auto& [path, value] : one.settings) {
-    const std::string name = path.substr(path.rfind('.') + 1);
-    title += fmt::format("{}{}={}", title.empty() ? "" : " ", name, value);
-  }
-  return title;
-}
-
 /// A measure that no combination has is left out; so is one that says the same as the one before.
 std::string Rows(const std::vector<CombinationSummary>& columns) {
   std::string text;
@@ -174,6 +165,43 @@ ordered_json ToJson(const CombinationSummary& one) {
 
 }  // namespace
 
+std::string TitleOf(const sweep::Settings& settings) {
+  std::string title;
+  for (const auto& [path, value] : settings) {
+    const std::string name = path.substr(path.rfind('.') + 1);
+    title += fmt::format("{}{}={}", title.empty() ? "" : " ", name, value);
+  }
+  return title;
+}
+
+std::string SweepMarkdown(const sweep::Results& results, const sweep::Summary& summary) {
+  const std::vector<Measure> measures = Measures();
+  std::string header = "| |", rule = "|---|";
+  std::vector<std::string> lines;
+  for (const CombinationSummary& one : summary.combinations) {
+    const std::string title = TitleOf(one.settings);
+    lines.push_back(fmt::format("| {} |", title.empty() ? results.campaign.name : title));
+  }
+  std::string name;
+  for (const Measure& measure : measures) {
+    // The indented ones belong to the measure before.
+    const bool more = std::string_view(measure.name).starts_with("  ");
+    name = more ? fmt::format("{}, {}", name, measure.name + 2) : measure.name;
+    std::vector<std::string> cells;
+    for (const CombinationSummary& one : summary.combinations) cells.push_back(measure.text(one));
+    if (std::all_of(cells.begin(), cells.end(),
+                    [](const std::string& cell) { return cell == kNothing; })) {
+      continue;
+    }
+    header += fmt::format(" {} |", name);
+    rule += "---|";
+    for (std::size_t i = 0; i < cells.size(); ++i) lines[i] += fmt::format(" {} |", cells[i]);
+  }
+  std::string text = header + '\n' + rule + '\n';
+  for (const std::string& line : lines) text += line + '\n';
+  return text;
+}
+
 std::string SweepTable(const sweep::Results& results, const sweep::Summary& summary, bool colour) {
   const sweep::Campaign& campaign = results.campaign;
   std::string text =
@@ -187,7 +215,8 @@ std::string SweepTable(const sweep::Results& results, const sweep::Summary& summ
         all.begin() + static_cast<std::ptrdiff_t>(first + count));
     if (all.size() > 1) {
       text += fmt::format("  {:<24}", "");
-      for (const CombinationSummary& one : columns) text += fmt::format("{:<28}", TitleOf(one));
+      for (const CombinationSummary& one : columns)
+        text += fmt::format("{:<28}", TitleOf(one.settings));
       text.erase(text.find_last_not_of(' ') + 1);
       text += '\n';
     }
