@@ -70,6 +70,9 @@ ordered_json WorstOf(const ordered_json& one, const ordered_json& other) {
     worst["first_contact_time"] =
         std::min(first.get<double>(), one["first_contact_time"].get<double>());
   }
+  if (one["time_to_goal"].is_null() || other["time_to_goal"].is_null()) {
+    worst["time_to_goal"] = ordered_json();  // all are there, or not
+  }
   const char* const kCertified = "certified_min_distance";  // known only if it is for both
   const auto certified = other[kCertified];
   worst[kCertified] =

@@ -29,11 +29,15 @@ namespace oca::systems {
 /// - first_contact_time: of the first sample at distance <= 0
 /// - max_abs_delta: largest |delta| of any joint
 /// - final_error: max_i |position_i - goal_i| now; without a goal, the request takes its place
+/// - time_to_goal: from the first sample to the first of those, up to the last one, that are all
+///   within 0.01 of the goal; null if the last one is not, or there is no goal
 /// - delta_sign_changes_per_second: how often the change of delta from sample to sample, where it
 ///   is above 1e-6, reverses; a joint and s
 /// - total_variation_ratio: sum |d position| / sum |d request| over joints and samples
 /// - max_joint_speed: largest |d position| / period
 /// - max_joint_acceleration: largest |change of d position| / period^2
+/// - limit_violations: joints of `model` beyond a limit of their position, speed or acceleration,
+///   by more than rounding, summed over the samples; null without a model
 ///
 /// The output at a sampling instant whose update is pending has its sample in it, so the end of a
 /// run counts, once. A metric whose inputs are not connected or without a value is null.

@@ -33,11 +33,13 @@ constexpr std::array kNumbers{
     NumberField{"first_contact_time", &MotionMetricsValue::first_contact_time},
     NumberField{"max_abs_delta", &MotionMetricsValue::max_abs_delta},
     NumberField{"final_error", &MotionMetricsValue::final_error},
+    NumberField{"time_to_goal", &MotionMetricsValue::time_to_goal},
     NumberField{"delta_sign_changes_per_second",
                 &MotionMetricsValue::delta_sign_changes_per_second},
     NumberField{"total_variation_ratio", &MotionMetricsValue::total_variation_ratio},
     NumberField{"max_joint_speed", &MotionMetricsValue::max_joint_speed},
-    NumberField{"max_joint_acceleration", &MotionMetricsValue::max_joint_acceleration}};
+    NumberField{"max_joint_acceleration", &MotionMetricsValue::max_joint_acceleration},
+    NumberField{"limit_violations", &MotionMetricsValue::limit_violations}};
 
 constexpr const char* kPair = "min_distance_pair";
 
@@ -67,8 +69,8 @@ MotionMetricsValue Signal<MotionMetricsValue>::ReadJson(std::string_view text) {
   const JsonReader reader(json, "metrics");
   reader.CheckKeys({"min_distance", kPair, "min_distance_time", "certified_min_distance",
                     "contact_time", "first_contact_time", "max_abs_delta", "final_error",
-                    "delta_sign_changes_per_second", "total_variation_ratio", "max_joint_speed",
-                    "max_joint_acceleration"});
+                    "time_to_goal", "delta_sign_changes_per_second", "total_variation_ratio",
+                    "max_joint_speed", "max_joint_acceleration", "limit_violations"});
   MotionMetricsValue value;
   for (const auto& [key, member] : kNumbers) {
     if (!json[key].is_null()) value.*member = reader.At(key).Number();
@@ -101,7 +103,9 @@ bool Signal<MotionTally>::Finite(const MotionTally& value) {
                            value.position_path_,
                            value.request_path_,
                            value.max_speed_,
-                           value.max_acceleration_};
+                           value.max_acceleration_,
+                           value.limit_violations_,
+                           value.goal_time_.value_or(0.0)};
   return AllFinite(numbers.data(), numbers.size()) && finite(value.position_) &&
          finite(value.velocity_) && finite(value.request_) && finite(value.delta_);
 }

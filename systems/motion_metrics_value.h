@@ -27,10 +27,12 @@ struct MotionMetricsValue {
   std::optional<double> first_contact_time;             ///< s; none if there was no contact
   std::optional<double> max_abs_delta;                  ///< of the applied delta; rad, m
   std::optional<double> final_error;                    ///< max norm against the goal; rad, m
+  std::optional<double> time_to_goal;  ///< since the first sample, s; none unless it is there
   std::optional<double> delta_sign_changes_per_second;  ///< mean over joints; 1/s
   std::optional<double> total_variation_ratio;  ///< path of q over path of the request, joint space
   std::optional<double> max_joint_speed;        ///< rad/s, m/s
   std::optional<double> max_joint_acceleration;  ///< rad/s^2, m/s^2
+  std::optional<double> limit_violations;        ///< joints beyond a limit, summed over samples
 };
 
 /// What the signals were at one instant; those that do not exist are empty.
@@ -82,7 +84,8 @@ class MotionTally {
   double LeastInStep(const MotionSample& sample, double step);
   Pair* FindPair(const Proximity& proximity, std::size_t& place);
   double TravelOf(const models::RobotModel& model, models::Name link) const;
-  void AddPosition(VectorView position, double step);
+  void AddPosition(VectorView position, const models::RobotModel* model, double step);
+  void CountViolations(VectorView position, const models::RobotModel& model, double step);
   void AddDelta(VectorView delta);
 
   int samples_{0};
@@ -109,6 +112,8 @@ class MotionTally {
   double request_path_{0.0};
   double max_speed_{0.0};
   double max_acceleration_{0.0};
+  double limit_violations_{0.0};
+  std::optional<double> goal_time_;      // when it came to the goal, if it is there
   std::vector<double> position_;         // of the last sample
   std::vector<double> velocity_;         // between the last two samples
   std::vector<double> request_;          // of the last sample

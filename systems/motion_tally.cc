@@ -10,6 +10,11 @@ namespace {
 // A change of the delta below this is none, so that rounding does not count as chatter.
 constexpr double kLeastChange = 1e-6;
 
+// As near to the goal as this it is reached; rad, m.
+constexpr double kArrived = 0.01;
+// What rounding may take a joint beyond its limits: rad or m, and shares of the others.
+constexpr double kRounding = 1e-6;
+
 double MaxNorm(const Eigen::Ref<const Eigen::VectorXd>& values) {
   return values.size() == 0 ? 0.0 : values.cwiseAbs().maxCoeff();
 }
@@ -46,7 +51,14 @@ void MotionTally::Add(const MotionSample& sample) {
   if (samples_ > 0 && in_contact_) contact_time_ += step;
   AddDistance(sample);
   Certify(sample, step);
-  if (sample.position) AddPosition(*sample.position, step);
+  if (sample.position) AddPosition(*sample.position, sample.model, step);
+  if (sample.position && sample.goal) {
+    if (*FinalError(sample) > kArrived) {
+      goal_time_.reset();
+    } else if (!goal_time_) {
+      goal_time_ = sample.time - first_time_;
+    }
+  }
   if (sample.request) {
     if (samples_ > 0) request_path_ += PathLength(*sample.request, request_);
     Keep(*sample.request, request_);
@@ -70,7 +82,24 @@ void MotionTally::AddDistance(const MotionSample& sample) {
   if (in_contact_ && !first_contact_time_) first_contact_time_ = sample.time;
 }
 
-void MotionTally::AddPosition(VectorView position, double step) {
+void MotionTally::CountViolations(VectorView position, const models::RobotModel& model,
+                                  double step) {
+  for (Eigen::Index i = 0; i < position.size(); ++i) {
+    bool beyond = position[i] < model.lower_limits()[i] - kRounding ||
+                  position[i] > model.upper_limits()[i] + kRounding;
+    if (samples_ > 0) {
+      const double velocity = (position[i] - position_[i]) / step;
+      const double acceleration = (velocity - velocity_[i]) / step;
+      beyond |= std::fabs(velocity) > (1.0 + kRounding) * model.velocity_limits()[i];
+      beyond |= samples_ > 1 &&
+                std::fabs(acceleration) > (1.0 + kRounding) * model.acceleration_limits()[i];
+    }
+    limit_violations_ += beyond ? 1.0 : 0.0;
+  }
+}
+
+void MotionTally::AddPosition(VectorView position, const models::RobotModel* model, double step) {
+  if (model != nullptr) CountViolations(position, *model, step);
   if (samples_ == 0) {
     velocity_.assign(static_cast<std::size_t>(position.size()), 0.0);
   } else {
@@ -107,6 +136,8 @@ MotionMetricsValue MotionTally::At(const MotionSample& now) const {
   MotionMetricsValue value;
   value.final_error = FinalError(now);
   if (samples_ == 0) return value;
+  if (now.position && now.goal) value.time_to_goal = goal_time_;
+  if (now.position && now.model != nullptr) value.limit_violations = limit_violations_;
   const double duration = now.time - first_time_;
   value.min_distance = min_distance_;
   if (min_distance_) {

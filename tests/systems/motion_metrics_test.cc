@@ -9,6 +9,7 @@
 
 #include "framework/error.h"
 #include "tests/system_bench.h"
+#include "tests/systems/test_models.h"
 
 namespace oca::systems {
 namespace {
@@ -102,9 +103,9 @@ TEST(MotionMetricsTest, HasNoValueWithoutASource) {
       text,
       R"({"min_distance":null,"min_distance_pair":null,"min_distance_time":null,)"
       R"("certified_min_distance":null,"contact_time":null,"first_contact_time":null,"max_abs_delta":null,)"
-      R"("final_error":null,"delta_sign_changes_per_second":null,)"
+      R"("final_error":null,"time_to_goal":null,"delta_sign_changes_per_second":null,)"
       R"("total_variation_ratio":null,"max_joint_speed":null,)"
-      R"("max_joint_acceleration":null})");
+      R"("max_joint_acceleration":null,"limit_violations":null})");
 }
 
 TEST(MotionMetricsTest, FindsTheLeastDistanceItsPairAndItsTime) {
@@ -202,6 +203,55 @@ TEST(MotionMetricsTest, MeasuresTheErrorAgainstTheGoalAndElseTheRequest) {
   EXPECT_NEAR(Bench({.position = position, .request = request}).At(0.25).final_error.value(), 0.5,
               1e-15);
   EXPECT_FALSE(Bench({.position = position}).At(0.25).final_error.has_value());
+}
+
+TEST(MotionMetricsTest, TellsWhenTheGoalWasReachedForGood) {
+  // Near the goal from 0.2 s, away at 0.5 s, near again from 0.6 s to 0.9 s.
+  const VectorScript position = [](double t) {
+    const bool away = Tick(t) < 2 || Tick(t) == 5 || Tick(t) == 10;
+    return Vector2d(1.0, away ? 0.9899 : 0.9901);
+  };
+  const VectorScript goal = [](double) { return Vector2d(1.0, 1.0); };
+  Bench bench({.position = position, .goal = goal});
+  EXPECT_FALSE(bench.At(0.1).time_to_goal.has_value());
+  EXPECT_NEAR(bench.At(0.4).time_to_goal.value(), 0.2, 1e-12);
+  EXPECT_FALSE(bench.At(0.5).time_to_goal.has_value());
+  EXPECT_NEAR(bench.At(0.9).time_to_goal.value(), 0.6, 1e-12);
+  EXPECT_FALSE(bench.At(1.0).time_to_goal.has_value());
+  EXPECT_FALSE(Bench({.position = position, .request = goal}).At(0.9).time_to_goal.has_value());
+}
+
+TEST(MotionMetricsTest, CountsTheJointsBeyondALimitAtEachSample) {
+  auto plain = LoadTestModel("lwr4");
+  auto joints = plain->joints();
+  for (auto& joint : joints) joint.acceleration_limit = 2.0;
+  const models::RobotModel model(plain->name(), plain->links(), joints);
+  // The first joint goes through the positions, one each 0.1 s.
+  const auto violations = [&](const std::vector<double>& positions) {
+    MotionTally tally;
+    double time = 0.0;
+    double count = -1.0;
+    for (const double position : positions) {
+      Eigen::VectorXd value = Eigen::VectorXd::Zero(7);
+      value[0] = position;
+      MotionSample sample{};
+      sample.time = time;
+      sample.position.emplace(value.data(), value.size());
+      sample.model = &model;
+      tally.Add(sample);
+      count = tally.At(sample).limit_violations.value();
+      time += 0.1;
+    }
+    return count;
+  };
+  const double v = model.velocity_limits()[0], upper = model.upper_limits()[0];
+  EXPECT_EQ(violations({0.0, 0.1 * v, 0.2 * v}), 0.0);
+  EXPECT_EQ(violations({0.0, 0.1001 * v, 0.2002 * v}), 2.0);
+  EXPECT_EQ(violations({upper, upper}), 0.0);
+  EXPECT_EQ(violations({upper + 1e-5, upper + 1e-5, upper}), 2.0);
+  EXPECT_EQ(violations({-upper - 1e-5}), 1.0);
+  EXPECT_EQ(violations({0.0, 0.0, 0.02}), 0.0);
+  EXPECT_EQ(violations({0.0, 0.0, 0.0201}), 1.0);
 }
 
 TEST(MotionMetricsTest, FindsTheFastestAndTheHardestTick) {
