@@ -116,11 +116,12 @@ TEST(StaticTest, TwoRunsGiveTheSameBits) {
   EXPECT_NE(Outcome(kAsItIs).text, Outcome({kTranspose}).text);
 }
 
-// The housings fill about what the capsules fill.
+// The housings fill about what the capsules fill. Depth is that in one solid, and the fork of the
+// forearm is slimmer than the capsule: 0.098 m instead of 0.122 m.
 TEST(StaticTest, TheArmOfMeshesGoesThroughTheBoxAndEvadesItAlike) {
   const Override meshes{"parameters.arm_meshes", "true"};
   const Outcome through({meshes, kNoAvoidance});
-  EXPECT_NEAR(through["min_distance"], -0.130, 0.005);
+  EXPECT_NEAR(through["min_distance"], -0.098, 0.005);
   const Outcome clear({meshes});
   EXPECT_NEAR(clear["min_distance"], 0.268, 0.01);
   EXPECT_LT(clear["final_error"], 1e-3);
