@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <vector>
 
 #include "tools/terminal.h"
@@ -82,6 +84,9 @@ std::vector<Measure> Measures() {
           {"within joint limits", share(&C::within_limits)},
           {"step p50, p99, max, us", [](const C& one) { return TimesText(one.steps); }}};
 }
+
+/// Of the measure before it.
+bool IsWorst(const Measure& measure) { return std::string_view(measure.name) == "  worst"; }
 
 /// A measure that no combination has is left out; so is one that says the same as the one before.
 std::string Rows(const std::vector<CombinationSummary>& columns) {
@@ -175,27 +180,35 @@ std::string TitleOf(const sweep::Settings& settings) {
 }
 
 std::string SweepMarkdown(const sweep::Results& results, const sweep::Summary& summary) {
-  const std::vector<Measure> measures = Measures();
+  // What no one asks of a comparison, or each run's expectations say of it already.
+  constexpr std::array<std::string_view, 3> kLeftOut{"runs", "clear at control ticks",
+                                                     "expectations met"};
   std::string header = "| |", rule = "|---|";
   std::vector<std::string> lines;
   for (const CombinationSummary& one : summary.combinations) {
     const std::string title = TitleOf(one.settings);
     lines.push_back(fmt::format("| {} |", title.empty() ? results.campaign.name : title));
   }
-  std::string name;
-  for (const Measure& measure : measures) {
-    // The indented ones belong to the measure before.
-    const bool more = std::string_view(measure.name).starts_with("  ");
-    name = more ? fmt::format("{}, {}", name, measure.name + 2) : measure.name;
+  const std::vector<Measure> measures = Measures();
+  for (std::size_t m = 0; m < measures.size(); ++m) {
+    const std::string_view name = measures[m].name;
     std::vector<std::string> cells;
-    for (const CombinationSummary& one : summary.combinations) cells.push_back(measure.text(one));
-    if (std::all_of(cells.begin(), cells.end(),
-                    [](const std::string& cell) { return cell == kNothing; })) {
-      continue;
+    for (const CombinationSummary& one : summary.combinations) {
+      cells.push_back(measures[m].text(one));
     }
-    header += fmt::format(" {} |", name);
+    const bool nothing = std::all_of(cells.begin(), cells.end(), [](const std::string& cell) {
+      return cell == kNothing || cell == "0";
+    });
+    if (nothing || std::count(kLeftOut.begin(), kLeftOut.end(), name) > 0) continue;
+    const bool has_worst = m + 1 < measures.size() && IsWorst(measures[m + 1]);
+    if (IsWorst(measures[m])) continue;
+    header += fmt::format(" {}{} |", name, has_worst ? "; worst" : "");
     rule += "---|";
-    for (std::size_t i = 0; i < cells.size(); ++i) lines[i] += fmt::format(" {} |", cells[i]);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      lines[i] += fmt::format(" {}", cells[i]);
+      if (has_worst) lines[i] += "; " + measures[m + 1].text(summary.combinations[i]);
+      lines[i] += " |";
+    }
   }
   std::string text = header + '\n' + rule + '\n';
   for (const std::string& line : lines) text += line + '\n';

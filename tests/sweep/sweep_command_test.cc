@@ -92,6 +92,33 @@ TEST_F(SweepCommandTest, PrintsATableAndTheSameOneFromShards) {
   EXPECT_EQ(without_times(merged.out), without_times(whole.out));
 }
 
+TEST_F(SweepCommandTest, ComparesCombinationsAsMarkdownAndAsAFigure) {
+  const std::string methods = place_ + "/methods";
+  EXPECT_EQ(run("$S sweep " + file_ + " --samples 3 --vary parameters.slope=0.1,0.5 -o " + methods)
+                .status,
+            0);
+  const Ran table = run("$S merge " + methods + " --markdown");
+  EXPECT_EQ(table.status, 0) << table.err;
+  EXPECT_EQ(std::count(table.out.begin(), table.out.end(), '\n'), 4);
+  EXPECT_THAT(table.out, HasSubstr("| arrived |"));
+  EXPECT_THAT(table.out, HasSubstr("| slope=0.1 | 0 % "));
+  EXPECT_THAT(table.out, HasSubstr("| slope=0.5 | 100 % "));
+  const Ran plot =
+      run("$S plot --figure method-comparison " + methods + " -o " + place_ + "/m.svg");
+  EXPECT_EQ(plot.status, 0) << plot.err;
+  const std::string figure = run.Read("m.svg");
+  EXPECT_THAT(figure, HasSubstr("tiny: at the goal after"));
+  EXPECT_THAT(figure, HasSubstr("slope=0.5"));
+  // No run with 0.1 arrives, so it has no curve; no run has a distance, so there is no such panel.
+  EXPECT_EQ(figure.find("slope=0.1"), std::string::npos);
+  EXPECT_EQ(figure.find("came no nearer"), std::string::npos);
+  EXPECT_EQ(run("$S plot --figure method-comparison -o " + place_ + "/n.svg").status, 2);
+  const Ran missing =
+      run("$S plot --figure method-comparison " + place_ + "/none -o " + place_ + "/n.svg");
+  EXPECT_EQ(missing.status, 2);
+  EXPECT_THAT(missing.err, HasSubstr("none"));
+}
+
 TEST_F(SweepCommandTest, TellsTheStatusOfItsRuns) {
   EXPECT_EQ(run(sweep_ + "-s parameters.gain=word").status, 2);
   EXPECT_FALSE(std::filesystem::exists(place_ + "/campaign"));
