@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Runs every method of avoidance on the same random scenarios and writes tables and plots of
+# docs/methods.md. Usage: tools/compare_methods.sh [--samples N] [--seed S] [FAMILY...]
+# Without options: the samples and the seed that docs/methods.md states, all families. What a sweep
+# has left in build/methods is not run again; other numbers need a folder of their own (OUT=...).
+set -euo pipefail
+cd "$(dirname "$0")/.."
+declare -A samples=([random_static]=1000 [random_clutter]=300 [random_moving]=300)
+seed=2016
+families=()
+while [ $# -gt 0 ]; do
+  case $1 in
+    --samples) for family in "${!samples[@]}"; do samples[$family]=$2; done; shift 2 ;;
+    --seed) seed=$2; shift 2 ;;
+    --*) echo "compare_methods.sh: got '$1'; expected --samples N, --seed S or families" >&2; exit 64 ;;
+    *) families+=("$1"); shift ;;
+  esac
+done
+[ ${#families[@]} -gt 0 ] || families=(random_static random_clutter random_moving)
+out=${OUT:-build/methods}
+page=docs/methods.md
+simulator=build/release/tools/simulator
+[ -x "$simulator" ] || tools/setup.sh release simulator
+
+# The part of the page between <!-- NAME --> and <!-- end --> becomes standard input.
+splice() {
+  local part
+  part=$(mktemp)
+  cat > "$part"
+  awk -v name="<!-- $1 -->" -v part="$part" '
+    $0 == name { print; while ((getline line < part) > 0) print line; skip = 1 }
+    $0 == "<!-- end -->" { skip = 0 }
+    !skip && $0 != name' "$page" > "$page.new"
+  mv "$page.new" "$page"
+  rm "$part"
+}
+
+# Runs a campaign; that some runs miss what their file expects (exit status 3) is what it is for.
+sweep() {
+  local status=0
+  "$simulator" sweep "$@" > /dev/null || status=$?
+  [ "$status" -eq 0 ] || [ "$status" -eq 3 ] || [ "$status" -eq 1 ] || exit "$status"
+}
+
+methods=$(cd diagrams/parts && ls avoidance_*.yaml | sed 's/avoidance_\(.*\)\.yaml/\1/' | paste -sd,)
+for family in "${families[@]}"; do
+  file=diagrams/scenarios/$family.yaml
+  echo "$family: ${samples[$family]} scenarios, seed $seed, methods $methods" >&2
+  sweep "$file" --samples "${samples[$family]}" --seed "$seed" -o "$out/$family" \
+    --vary "parameters.avoidance=$methods"
+  "$simulator" merge "$out/$family" --markdown | splice "$family"
+  "$simulator" plot --figure method-comparison "$out/$family" -o "docs/methods-$family.svg"
+  [ "$family" = random_static ] || continue
+  sweep "$file" --samples "${samples[$family]}" --seed "$seed" -o "$out/mapping" \
+    -s parameters.avoidance=report --vary parameters.jacobian_transpose_method_classic=false,true
+  "$simulator" merge "$out/mapping" --markdown | splice mapping
+done
