@@ -19,6 +19,7 @@
 #include "systems/delta_relaxation.h"
 #include "systems/elastic_band.h"
 #include "systems/first_order_lag.h"
+#include "systems/flacco_de_luca.h"
 #include "systems/force_sum.h"
 #include "systems/gain.h"
 #include "systems/integrator.h"
@@ -36,13 +37,16 @@
 #include "systems/robot_kinematics.h"
 #include "systems/safety_filter.h"
 #include "systems/saturation.h"
+#include "systems/servo_scaling.h"
 #include "systems/sine_source.h"
 #include "systems/spline_generator.h"
 #include "systems/step_source.h"
 #include "systems/sum.h"
+#include "systems/task_priority.h"
 #include "systems/tip_error.h"
 #include "systems/tip_trajectory.h"
 #include "systems/velocity_aware_field.h"
+#include "systems/velocity_loop.h"
 #include "systems/vortex_field.h"
 #include "systems/wrench_transform.h"
 #include "systems/zero_order_hold.h"
@@ -117,6 +121,7 @@ const std::vector<CatalogueRow>& Catalogue() {
       Row<DeltaRelaxation>("DeltaRelaxation"),
       Row<ElasticBand>("ElasticBand"),
       Row<FirstOrderLag>("FirstOrderLag"),
+      Row<FlaccoDeLuca>("FlaccoDeLuca"),
       Row<ForceSum>("ForceSum"),
       Row<Gain>("Gain"),
       Row<systems::Integrator>("Integrator"),
@@ -134,13 +139,16 @@ const std::vector<CatalogueRow>& Catalogue() {
       Row<RobotKinematics>("RobotKinematics"),
       Row<SafetyFilter>("SafetyFilter"),
       Row<Saturation>("Saturation"),
+      Row<ServoScaling>("ServoScaling"),
       Row<SineSource>("SineSource"),
       Row<SplineGenerator>("SplineGenerator"),
       Row<StepSource>("StepSource"),
       Row<Sum>("Sum"),
+      Row<TaskPriority>("TaskPriority"),
       Row<TipError>("TipError"),
       Row<TipTrajectory>("TipTrajectory"),
       Row<VelocityAwareField>("VelocityAwareField"),
+      Row<VelocityLoop>("VelocityLoop"),
       Row<VortexField>("VortexField"),
       Row<WrenchTransform>("WrenchTransform"),
       Row<ZeroOrderHold>("ZeroOrderHold"),

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "systems/flacco_de_luca.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "models/robot/kinematics.h"
+#include "models/robot/robot_model.h"
+#include "models/robot/saturated_task.h"
+#include "systems/model_links.h"
+#include "systems/motion_limiter.h"
+#include "systems/require.h"
+#include "systems/velocity_methods.h"
+
+namespace oca::systems {
+namespace {
+
+// An entry of a row that is as good as none, m/rad.
+constexpr double kNoLever = 1e-9;
+
+FlaccoDeLuca::Params Checked(const FlaccoDeLuca::Params& params) {
+  RequireAtLeast("repulsion_speed", params.repulsion_speed, 0.0);
+  RequireAbove("influence_distance", params.influence_distance, 0.0);
+  RequireAbove("alpha", params.alpha, 0.0);
+  RequireAbove("max_joint_velocity", params.max_joint_velocity, 0.0);
+  RequireAbove("most_damping", params.most_damping, 0.0);
+  RequireAtLeast("damping_threshold", params.damping_threshold, params.most_damping);
+  return params;
+}
+
+}  // namespace
+
+struct FlaccoDeLuca::Motion {
+  models::JointMatrix M;  ///< sum J^T J of the repulsed points
+  models::JointVector b;  ///< sum J^T (J r + v)
+  models::JointVector lower;
+  models::JointVector upper;
+};
+
+void FlaccoDeLuca::Params::Describe(Fields<Params>& fields) {
+  fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
+  fields.Add("tip", &Params::tip, "", "link that is repulsed; may be left out if one is last");
+  fields.Add("repulsion", &Params::repulsion, "",
+             "which links are repulsed: tip, as published, or all");
+  fields.Add("repulsion_speed", &Params::repulsion_speed, "m/s", "of a repulsed point near contact")
+      .AtLeast(0.0);
+  fields
+      .Add("influence_distance", &Params::influence_distance, "m",
+           "up to which obstacles count; half of the effect is at half of it")
+      .Above(0.0);
+  fields.Add("alpha", &Params::alpha, "", "steepness of the risk over the distance").Above(0.0);
+  fields
+      .Add("max_joint_velocity", &Params::max_joint_velocity, "rad/s",
+           "bound on every joint's speed, beside the model's limits")
+      .Above(0.0);
+  fields.Add("most_damping", &Params::most_damping, "m/rad", "damping of a singular direction")
+      .Above(0.0);
+  fields
+      .Add("damping_threshold", &Params::damping_threshold, "m/rad",
+           "singular value below which there is damping; at least most_damping")
+      .Above(0.0);
+}
+
+FlaccoDeLuca::FlaccoDeLuca(const Params& params, const ModelSet& models)
+    : params_(Checked(params)),
+      model_(FilteredModel(models, params.model)),
+      tip_(TipNumber(*model_, params.tip)),
+      damping_{params.most_damping, params.damping_threshold},
+      proximities(DeclareInput<ProximitySet>("proximities")),
+      links(DeclareInput<LinkPoses>("links")),
+      wish(DeclareInput<Vector>("wish", RateSpec(*model_))),
+      solution(DeclareOutput<AvoidanceVelocity, &FlaccoDeLuca::CalcSolution>(
+          "solution", {}, proximities, links, wish)),
+      velocity(DeclareOutput<Vector, &FlaccoDeLuca::CalcVelocity>("velocity", RateSpec(*model_),
+                                                                  solution)) {}
+
+double FlaccoDeLuca::Risk(double distance) const {
+  return 1.0 / (1.0 + std::exp(params_.alpha * (2.0 * distance / params_.influence_distance - 1)));
+}
+
+bool FlaccoDeLuca::Repulsed(int link) const {
+  return params_.repulsion == Repulsion::kAll || model_->body(link) == model_->body(tip_);
+}
+
+void FlaccoDeLuca::AddLink(const ProximitySet& set, std::size_t first, int link,
+                           std::span<const Eigen::Isometry3d> X_WL, VectorView request,
+                           Motion& motion) const {
+  const Proximity* nearest = &set.proximities[first];
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  for (std::size_t i = first; i < set.proximities.size(); ++i) {
+    const Proximity& proximity = set.proximities[i];
+    if (proximity.link != nearest->link) continue;
+    if (proximity.distance < nearest->distance) nearest = &proximity;
+    if (proximity.distance > params_.influence_distance) continue;
+    direction += Risk(proximity.distance) * proximity.normal;
+  }
+  if (nearest->distance > params_.influence_distance) return;
+  const double risk = Risk(nearest->distance);
+  if (Repulsed(link)) {
+    Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, models::kMostFilteredJoints> J(
+        3, model_->num_positions());
+    models::PointJacobian(*model_, X_WL, link, nearest->point_on_link, J);
+    const double length = direction.norm();
+    const Eigen::Vector3d away = length > 1e-9 ? direction / length : nearest->normal;
+    const Eigen::Vector3d v = J.lazyProduct(request) + params_.repulsion_speed * risk * away;
+    motion.M += J.transpose().lazyProduct(J);
+    motion.b += J.transpose().lazyProduct(v);
+  }
+  if (model_->body(link) == model_->body(tip_)) return;
+  const models::JointVector row = RowOf(*model_, X_WL, *nearest);
+  for (Eigen::Index j = 0; j < row.size(); ++j) {
+    const double limit = std::min(LimitsOf(*model_, j).velocity, params_.max_joint_velocity);
+    if (row[j] < -kNoLever) motion.upper[j] = std::min(motion.upper[j], limit * (1.0 - risk));
+    if (row[j] > kNoLever) motion.lower[j] = std::max(motion.lower[j], -limit * (1.0 - risk));
+  }
+}
+
+void FlaccoDeLuca::CalcSolution(const ProximitySet& set, const LinkPoses& poses, VectorView request,
+                                AvoidanceVelocity& result) const {
+  const auto X_WL = PosesInOrder(*model_, poses, result.reordered);
+  const Eigen::Index n = request.size();
+  Motion motion{models::JointMatrix::Zero(n, n), models::JointVector::Zero(n),
+                models::JointVector(n), models::JointVector(n)};
+  for (Eigen::Index j = 0; j < n; ++j) {
+    motion.upper[j] = std::min(LimitsOf(*model_, j).velocity, params_.max_joint_velocity);
+  }
+  motion.lower = -motion.upper;
+  result.share = 0.0;
+  result.rows = 0;
+  const auto& all = set.proximities;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].distance <= params_.influence_distance) {
+      result.share = std::max(result.share, Risk(all[i].distance));
+      ++result.rows;
+    }
+    const auto same = [&](const Proximity& before) { return before.link == all[i].link; };
+    const auto here = all.begin() + static_cast<std::ptrdiff_t>(i);
+    if (std::any_of(all.begin(), here, same)) continue;
+    const int link = NumberOfLink(*model_, all[i].link);
+    AddLink(set, i, link, X_WL, request, motion);
+  }
+  result.velocity = models::SaturateInNullspace(motion.M, motion.b, models::JointVector(request),
+                                                motion.lower, motion.upper, damping_);
+}
+
+void FlaccoDeLuca::CalcVelocity(const AvoidanceVelocity& result, MutableVectorView out) const {
+  out = result.velocity;
+}
+
+}  // namespace oca::systems
