@@ -6,13 +6,15 @@
 #   REGEX    of rows, such as ^engine/d14; all without it
 # A time is the least of three repetitions, in ns of CPU an iteration (a block where the goal says
 # so; of the clock in rows with threads). A floor is the row's bare arithmetic, measured in the same
-# process as the release column; the ratio is release to floor.
+# process as the release column; the ratio is release to floor. `met` judges engine rows by the
+# release build, others by the bench build. A second table has the peers (FCL, KDL) of each row,
+# with their time over ours in the same process; a third how long single ticks take.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 quick=false
 [ "${1:-}" = --quick ] && quick=true && shift
 if [[ "${1:-}" == -* || $# -gt 1 ]]; then
-  sed -n 's/^# \?//p' "$0" | sed -n 3,9p >&2
+  sed -n 's/^# \?//p' "$0" | sed -n 3,11p >&2
   [ "${1:-}" = --help ] && exit 0
   exit 64
 fi
@@ -26,7 +28,7 @@ work=$(mktemp -d)
 trap 'rm -r "$work"' EXIT
 goals=tools/bench/goals.csv
 
-run() { # BUILD -> $work/BUILD: name, ns, allocations, failed
+run() { # BUILD -> $work/BUILD: name, ns, allocations, failed; p50, p99, p99.9, max in us
   local effort=(--benchmark_repetitions=3 --benchmark_min_time=0.05)
   $quick && effort=(--benchmark_repetitions=1 --benchmark_min_time=0.02)
   "build/$1/tools/bench/oca_bench" --benchmark_filter="$filter" "${effort[@]}" \
@@ -43,19 +45,27 @@ run() { # BUILD -> $work/BUILD: name, ns, allocations, failed
         if (blocks != "") time = blocks
         if (!(name in best) || time < best[name]) best[name] = time
         heap[name] = allocations; bad[name] += failed
+        # Of repetitions the one with the least median; its own maximum, for all are of one kind.
+        if (p50 != "" && (!(name in tail) || p50 < least[name])) {
+          least[name] = p50; tail[name] = p50 OFS p99 OFS p999 OFS max
+        }
       }
-      name = allocations = blocks = ""; failed = 0
+      name = allocations = blocks = p50 = p99 = p999 = max = ""; failed = 0
     }
     /^    \{/ { finish() }
-    /^      "name"/ { name = $2; gsub(/[",]/, "", name) }
+    /^      "name"/ { name = $2; gsub(/[",]|\/iterations:1"/, "", name) }
     /^      "run_type"/ { kind = $2; gsub(/[",]/, "", kind) }
     /^      "cpu_time"/ { cpu = number($2) }
     /^      "real_time"/ { real = number($2) }
     /^      "time_unit"/ { unit = $2; gsub(/[",]/, "", unit) }
     /^      "allocations"/ { allocations = number($2) }
-    /^      "ns_per_block"/ { blocks = number($2) }
+    /^      "per_block"/ { blocks = 1e9 * number($2) }
+    /^      "p50_us"/ { p50 = number($2) }
+    /^      "p99_us"/ { p99 = number($2) }
+    /^      "p99.9_us"/ { p999 = number($2) }
+    /^      "max_us"/ { max = number($2) }
     /^      "error_occurred": true/ { failed = 1 }
-    END { finish(); for (i = 1; i <= count; ++i) { n = order[i]; print n, best[n], heap[n], bad[n] } }
+    END { finish(); for (i = 1; i <= count; ++i) { n = order[i]; print n, best[n], heap[n], bad[n], tail[n] } }
   ' "$work/$1.json" >"$work/$1"
 }
 
@@ -118,25 +128,72 @@ awk -F';' '
     return sprintf(ns < 100 ? "%.1f" : "%.0f", ns)
   }
   function or_dash(text) { return text == "" ? "-" : text }
+  # What the row does beyond its goal, or fails to: "<= 2.5 us, 10 x fcl_kdl"; other goals are for
+  # the reader.
+  function verdict(row, text,  parts, n, i, word, limit, time, peer, said) {
+    n = split(text, parts, /, */)
+    for (i = 1; i <= n; ++i) {
+      split(parts[i], word, " ")
+      time = row ~ /^engine\// ? release[row] : bench[row]
+      if (parts[i] ~ /^<= /) {
+        limit = word[2] * (word[3] == "us" ? 1e3 : word[3] == "s" ? 1e9 : 1)
+        if (time == "") continue
+        if (time + 0 > limit) return "missed"
+        said = "yes"
+      } else if (parts[i] ~ /^[0-9]+ x /) {
+        peer = bench[row "/" word[3]]
+        if (time == "" || peer == "") continue
+        if (peer < word[1] * time) return "missed"
+        said = "yes"
+      }
+    }
+    return said == "" ? "-" : said
+  }
   FILENAME ~ /goals.csv$/ { goal[$1] = $2; drake[$1] = $3; next }
-  FILENAME ~ /bench$/ { bench[$1] = $2; next }
+  FILENAME ~ /bench$/ { bench[$1] = $2; if ($5 != "") tail[$1] = $0; next }
   FILENAME ~ /counts$/ { count[$1] = $2; next }
   { if (!($1 in release)) order[++rows] = $1; release[$1] = $2; heap[$1] = $3; bad[$1] = $4 }
   END {
-    line = "| %-44s | %-18s | %-20s | %8s | %8s | %8s | %5s | %11s | %12s |\n"
-    printf line, "row", "goal", "Drake v1.40", "release", "bench", "floor", "ratio", "allocations",
-           "instructions"
-    printf line, "---", "---", "---", "--:", "--:", "--:", "--:", "--:", "--:"
+    line = "| %-44s | %-23s | %-20s | %8s | %8s | %-6s | %8s | %5s | %11s | %12s |\n"
+    printf line, "row", "goal", "Drake v1.40", "release", "bench", "met", "floor", "ratio",
+           "allocations", "instructions"
+    printf line, "---", "---", "---", "--:", "--:", "---", "--:", "--:", "--:", "--:"
     for (i = 1; i <= rows; ++i) {
       row = order[i]
-      if (row ~ /\/floor$/) continue
+      if (row ~ /\/(floor|fcl|kdl|fcl_kdl|fcl_kdl_cull)$/) continue
       floor = release[row "/floor"]
       if (floor == "") { parent = row; sub(/\/[^\/]*$/, "", parent); floor = release[parent "/floor"] }
       printf line, row, or_dash(goal[row]), or_dash(drake[row]),
-             (bad[row] ? "failed" : show(release[row])), show(bench[row]), show(floor),
-             ((floor > 0) ? sprintf("%.1f", release[row] / floor) : "-"),
+             (bad[row] ? "failed" : show(release[row])), show(bench[row]), verdict(row, goal[row]),
+             show(floor), ((floor > 0) ? sprintf("%.1f", release[row] / floor) : "-"),
              (heap[row] == "" ? "-" : sprintf("%.3g", (heap[row] < 1e-3) ? 0 : heap[row])),
              or_dash(count[row])
+    }
+    line = "| %-44s | %8s | %8s | %8s | %9s |\n"
+    for (i = 1; i <= rows; ++i) {
+      row = order[i]; peer = row; sub(/.*\//, "", peer)
+      own = peer; if (peer !~ /^(fcl|kdl|fcl_kdl|fcl_kdl_cull)$/) continue
+      own = substr(row, 1, length(row) - length(peer) - 1)
+      if (!(bench[own] > 0) && !(release[own] > 0)) continue
+      if (!peers++) {
+        printf "\n" line, "peer", "release", "to ours", "bench", "to ours"
+        printf line, "---", "--:", "--:", "--:", "--:"
+      }
+      printf line, row, show(release[row]),
+             ((release[own] > 0) ? sprintf("%.1f", release[row] / release[own]) : "-"),
+             show(bench[row]), ((bench[own] > 0) ? sprintf("%.1f", bench[row] / bench[own]) : "-")
+    }
+    line = "| %-44s | %8s | %8s | %8s | %8s |\n"
+    for (i = 1; i <= rows; ++i) {
+      row = order[i]
+      if (!(row in tail)) continue
+      if (!tails++) {
+        printf "\n" line, "bench build, us", "p50", "p99", "p99.9", "max"
+        printf line, "---", "--:", "--:", "--:", "--:"
+      }
+      split(tail[row], part, ";")
+      printf line, row, sprintf("%.1f", part[5]), sprintf("%.1f", part[6]),
+             (part[7] == "" ? "-" : sprintf("%.1f", part[7])), sprintf("%.0f", part[8])
     }
   }
 ' "$goals" "$work/bench" "$work/counts" "$work/release"
