@@ -132,7 +132,8 @@ TEST(ElasticBandTest, NamesWhatBlocksAnArmThatDoesNotGetOn) {
   for (int k = 0; k < 900; ++k) {
     bench.AdvanceTo((k + 0.5) * 0.01);
     if (k < 100) bench.Measure(bench.Position());
-    if (k == 500) EXPECT_FALSE(bench.Plan().stuck);  // the request has just come to rest
+    if (k != 500) continue;
+    EXPECT_FALSE(bench.Plan().stuck);  // the request has just come to rest
   }
   EXPECT_TRUE(bench.Plan().stuck);
   EXPECT_EQ(bench.Plan().obstacle, models::Name("post"));
