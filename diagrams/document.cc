@@ -76,6 +76,7 @@ class Includer {
       return {};
     }
     open_.push_back(canonical);
+    AddSource(canonical);
     Value value;
     try {
       value = ReadYaml(ReadTextFile(file), file.string(), problems_);
@@ -88,9 +89,25 @@ class Includer {
     return merged;
   }
 
-  const std::vector<std::string>& choosing() const { return choosing_; }
+  const DocumentSources& sources() const { return sources_; }
 
  private:
+  void AddSource(const fs::path& file) {
+    auto& files = sources_.files;
+    if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
+  }
+
+  /// Every diagram file of a folder.
+  void AddCandidates(const fs::path& folder) {
+    std::error_code error;
+    std::vector<fs::path> found;
+    for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+      if (at->path().extension() == ".yaml") found.push_back(fs::weakly_canonical(at->path()));
+    }
+    std::sort(found.begin(), found.end());
+    for (const fs::path& file : found) AddSource(file);
+  }
+
   /// Texts among the parameters of a file, behind those that win over them.
   void AddTexts(const Value& file) {
     const Value* const parameters = file.Find("parameters");
@@ -125,7 +142,7 @@ class Includer {
         return {};
       }
       name += found->second;
-      choosing_.push_back(key);
+      sources_.choosing.push_back(key);
       from = close + 1;
     }
     return name;
@@ -155,6 +172,7 @@ class Includer {
         const std::string name = FileName(*item.string(), item.location());
         if (name.empty()) continue;
         Value included = Load(folder / name, item.location());
+        if (name != *item.string()) AddCandidates((folder / name).parent_path());
         if (included.map() != nullptr) {
           Merge(base, std::move(included));
         } else if (!included.null()) {
@@ -171,7 +189,7 @@ class Includer {
   static constexpr int kMostFiles = 200;
   std::vector<fs::path> open_;
   std::vector<std::pair<std::string, std::string>> texts_;  // parameters; the first one wins
-  std::vector<std::string> choosing_;
+  DocumentSources sources_;
   int files_{0};
 };
 
@@ -300,10 +318,10 @@ Override Override::Parse(const std::string& text) {
 }
 
 Value LoadFiles(const fs::path& file, const std::vector<Override>& overrides, Problems& problems,
-                std::vector<std::string>* choosing) {
+                DocumentSources* sources) {
   Includer includer(overrides, problems);
   Value root = includer.Load(file, {});
-  if (choosing != nullptr) *choosing = includer.choosing();
+  if (sources != nullptr) *sources = includer.sources();
   if (root.map() == nullptr && problems.empty()) {
     problems.Add({std::make_shared<const std::string>(file.string()), 1, 1},
                  root.null() ? "is empty; expected a map with systems"
@@ -317,8 +335,8 @@ void ApplyOverrides(const std::vector<Override>& overrides, Value& root, Problem
 }
 
 Value LoadDocument(const fs::path& file, const std::vector<Override>& overrides, Problems& problems,
-                   std::vector<std::string>* choosing) {
-  Value root = LoadFiles(file, overrides, problems, choosing);
+                   DocumentSources* sources) {
+  Value root = LoadFiles(file, overrides, problems, sources);
   if (problems.empty()) ApplyOverrides(overrides, root, problems);
   return root;
 }

@@ -17,19 +17,27 @@ struct Override {
   static Override Parse(const std::string& text);
 };
 
+/// The files behind a document.
+struct DocumentSources {
+  /// Those that were read, the first the diagram file; and what lies beside one that a parameter
+  /// chose, as the parameter may choose it next time.
+  std::vector<std::filesystem::path> files;
+  std::vector<std::string> choosing;  ///< parameters that chose files
+};
+
 /// A diagram file as one tree: the files it includes first, itself over them, overrides over all.
 ///
 /// Maps are merged key by key, `connections` are appended, everything else is replaced. Included
 /// paths are relative to the file that includes; `${name}` in one is replaced by the parameter of
 /// that name, a text, as overrides, the including files from the outermost on, or the file itself
-/// say first. Problems of all files are added to `problems`, and the parameters that chose files to
-/// `choosing`, if that is given.
+/// say first. Problems of all files are added to `problems`; `sources`, if given, is told what was
+/// read.
 Value LoadDocument(const std::filesystem::path& file, const std::vector<Override>& overrides,
-                   Problems& problems, std::vector<std::string>* choosing = nullptr);
+                   Problems& problems, DocumentSources* sources = nullptr);
 
 /// The two halves of it: the merged files, of which overrides only choose; and the overrides.
 Value LoadFiles(const std::filesystem::path& file, const std::vector<Override>& overrides,
-                Problems& problems, std::vector<std::string>* choosing = nullptr);
+                Problems& problems, DocumentSources* sources = nullptr);
 void ApplyOverrides(const std::vector<Override>& overrides, Value& root, Problems& problems);
 
 }  // namespace oca::diagrams

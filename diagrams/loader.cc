@@ -36,13 +36,15 @@ namespace fs = std::filesystem;
 /// Walks the resolved tree section by section and collects every problem on the way.
 class Loader {
  public:
-  explicit Loader(const fs::path& file, std::vector<std::string> part = {})
-      : part_(std::move(part)) {
+  explicit Loader(const fs::path& file, std::vector<std::string> part = {}, bool movable = false)
+      : part_(std::move(part)), movable_(movable) {
     loaded_.file = file.string();
   }
 
   LoadedDiagram Load(const fs::path& file, const std::vector<Override>& overrides) {
-    Value document = LoadFiles(file, overrides, problems_, &choosing_);
+    Value document = LoadFiles(file, overrides, problems_, &sources_);
+    loaded_.sources = sources_.files;
+    loaded_.overrides = overrides;
     problems_.Throw();
     Draw(overrides, document);
     ApplyOverrides(overrides, document, problems_);
@@ -111,7 +113,7 @@ class Loader {
                     fmt::format("parameters: got {}; expected a map", parameters->Show()));
     }
     Expressions expressions(parameters == nullptr ? Value() : *parameters, problems_);
-    for (const std::string& name : choosing_) expressions.MarkUsed(name);
+    for (const std::string& name : sources_.choosing) expressions.MarkUsed(name);
     Value::Map resolved;
     for (const Value::Entry& entry : *document.map()) {
       if (entry.key == "parameters") continue;
@@ -244,7 +246,8 @@ class Loader {
         std::erase_if(source, [](const Value::Entry& entry) { return entry.key == "type"; });
         sources.emplace_back(std::move(source), system.value.location());
       }
-      field.value.map()->push_back({"around", field.location, {std::move(sources), field.location}});
+      field.value.map()->push_back(
+          {"around", field.location, {std::move(sources), field.location}});
     }
   }
 
@@ -375,9 +378,19 @@ class Loader {
     }
   }
 
+  void ExportOffsets() {
+    for (const auto& block : loaded_.systems) {
+      if (block.type != "ObstacleSource") continue;
+      const InputHandle offsets = systems_.at(block.name)->FindInput("offsets");
+      const bool driven = connection_locations_.contains(block.name + ".offsets");
+      if (!driven) builder_.ExportInput(block.name + "_offsets", offsets);
+    }
+  }
+
   void Build() {
     try {
       if (!part_.empty()) ExportOutputs();
+      if (movable_) ExportOffsets();
       loaded_.diagram = builder_.Build();
     } catch (const WiringError& error) {
       for (const std::string& problem : error.problems) problems_.Add(Place(problem), problem);
@@ -412,8 +425,9 @@ class Loader {
   }
 
   const std::vector<std::string> part_;  // systems to build; empty: all
+  const bool movable_;
   LoadedDiagram loaded_;
-  std::vector<std::string> choosing_;  // parameters that chose included files
+  DocumentSources sources_;
   Problems problems_;
   Value root_;
   std::optional<ModelSection> models_;
@@ -430,6 +444,10 @@ class Loader {
 
 LoadedDiagram LoadDiagram(const fs::path& file, const std::vector<Override>& overrides) {
   return Loader(file).Load(file, overrides);
+}
+
+LoadedDiagram LoadMovable(const fs::path& file, const std::vector<Override>& overrides) {
+  return Loader(file, {}, true).Load(file, overrides);
 }
 
 LoadedDiagram LoadPart(const fs::path& file, const std::vector<std::string>& systems,

@@ -24,6 +24,8 @@ struct LoadedDiagram {
   };
 
   std::string file;
+  std::vector<std::filesystem::path> sources;  ///< as DocumentSources has them
+  std::vector<Override> overrides;             ///< that it was loaded with
   Value document;                     ///< includes merged, scenario drawn, overrides applied
   Scenario scenario;                  ///< what was drawn
   Value resolved;                     ///< the same without parameters, ${...} worked out
@@ -48,6 +50,11 @@ struct LoadedDiagram {
 /// `packages`, then in OCA_PACKAGE_PATH, then among the models that come with OCA.
 /// throws ConfigError with all problems of the file, a line each, `file:line:column: error: ...`.
 LoadedDiagram LoadDiagram(const std::filesystem::path& file,
+                          const std::vector<Override>& overrides = {});
+
+/// As LoadDiagram; obstacles can be moved: each ObstacleSource whose `offsets` nothing drives has
+/// them exported as `NAME_offsets`, which must be fixed before a run.
+LoadedDiagram LoadMovable(const std::filesystem::path& file,
                           const std::vector<Override>& overrides = {});
 
 /// The named systems of a diagram file alone, for a program that takes the place of the others, as

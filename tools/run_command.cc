@@ -70,7 +70,7 @@ diagrams::LoadedDiagram Load(const std::string& file,
                              std::optional<record::ExtractedRecord>& extracted) {
   if (!record::IsRecord(file)) return diagrams::LoadDiagram(file, overrides);
   extracted.emplace(record::McapFile::Read(file));
-  return diagrams::LoadDiagram(extracted->diagram(), overrides);
+  return extracted->Load(overrides);
 }
 
 /// Records a run into a file.
@@ -179,6 +179,12 @@ int RunCommand(const RunArguments& arguments) {
   }
   if (arguments.seed) overrides.push_back({"simulator.seed", std::to_string(*arguments.seed)});
   if (arguments.live) {
+    if (record::IsRecord(arguments.file)) {
+      throw ConfigError(
+          fmt::format("--live: file; got the record {}; expected a diagram file, or "
+                      "`simulator view` to look at a record",
+                      arguments.file));
+    }
     StderrLog live_log(arguments.log_level);
     std::signal(SIGINT, Interrupt);
     std::signal(SIGTERM, Interrupt);

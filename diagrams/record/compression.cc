@@ -45,6 +45,14 @@ std::string DecompressLz4(std::string_view bytes, std::size_t size) {
   return out;
 }
 
+/// As ZSTD_compress, with memory that stays from one chunk to the next.
+std::size_t CompressZstd(std::string_view bytes, char* out, std::size_t bound, int level) {
+  thread_local const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(),
+                                                                                  &ZSTD_freeCCtx);
+  if (context == nullptr) throw std::bad_alloc();
+  return ZSTD_compressCCtx(context.get(), out, bound, bytes.data(), bytes.size(), level);
+}
+
 }  // namespace
 
 Compression ParseCompression(const std::string& name) {
@@ -69,7 +77,7 @@ void Compress(Compression compression, int level, std::string_view bytes, std::s
       zstd ? ZSTD_compressBound(bytes.size()) : LZ4F_compressFrameBound(bytes.size(), nullptr);
   out.resize(start + bound);
   const std::size_t size =
-      zstd ? ZSTD_compress(out.data() + start, bound, bytes.data(), bytes.size(), level)
+      zstd ? CompressZstd(bytes, out.data() + start, bound, level)
            : LZ4F_compressFrame(out.data() + start, bound, bytes.data(), bytes.size(), nullptr);
   if (zstd ? ZSTD_isError(size) != 0 : LZ4F_isError(size) != 0) throw std::bad_alloc();
   out.resize(start + size);

@@ -65,6 +65,28 @@ TEST(RecordFilesTest, KeepsOverridesAndTheDurationOfTheRun) {
   EXPECT_THAT(FilesOf(again, 0.75)[0].data, HasSubstr("max_distance: 0.125"));
 }
 
+TEST(RecordFilesTest, ChoosesAnotherIncludedFileFromTheRecordAlone) {
+  const auto loaded = test::Load("static_test.yaml", {{"parameters.test_obstacle_height", "1.05"}});
+  const ExtractedRecord first(FileOf(FilesOf(loaded, 2.0)));
+  // A record of a replay can choose, too.
+  const ExtractedRecord second(FileOf(FilesOf(first.Load({}), 2.0)));
+  const auto chosen = second.Load({{"parameters.avoidance", "safety_filter"}});
+  EXPECT_NE(chosen.diagram->FindSystem("filter"), nullptr);
+  EXPECT_EQ(chosen.simulator.duration, 2.0);
+  const auto expected = test::Load("static_test.yaml", {{"parameters.test_obstacle_height", "1.05"},
+                                                        {"parameters.avoidance", "safety_filter"}});
+  EXPECT_EQ(diagrams::Run(chosen, {.duration = 2.0}).metrics,
+            diagrams::Run(expected, {.duration = 2.0}).metrics);
+}
+
+TEST(RecordFilesTest, TakesARobotThatTheRecordLacksFromThisMachine) {
+  const ExtractedRecord extracted(FileOf(FilesOf(test::Load("static_test.yaml"), 1.0)));
+  const auto meshed = extracted.Load({{"parameters.arm_meshes", "true"}});
+  const auto expected = test::Load("static_test.yaml", {{"parameters.arm_meshes", "true"}});
+  EXPECT_EQ(diagrams::Run(meshed, {.duration = 1.0}).metrics,
+            diagrams::Run(expected, {.duration = 1.0}).metrics);
+}
+
 /// A robot beside the diagram, its mesh beside the robot, a table of motion: none in a package.
 TEST(RecordFilesTest, CarriesFilesThatLieBesideTheDiagram) {
   const TemporaryFolder folder;
@@ -95,11 +117,13 @@ expect: {}
   const auto attachments = FilesOf(diagrams::LoadDiagram(file), 1.0);
   std::vector<std::string> names;
   for (const auto& attachment : attachments) names.push_back(attachment.name);
-  EXPECT_THAT(names, testing::UnorderedElementsAre("diagram.yaml", "files/up/motion.csv",
-                                                   "files/up/robots/one.urdf",
-                                                   "files/up/robots/meshes/part.obj"));
+  EXPECT_THAT(names, testing::UnorderedElementsAre(
+                         "diagram.yaml", "files/up/motion.csv", "files/up/robots/one.urdf",
+                         "files/up/robots/meshes/part.obj", "sources/one.yaml", "sources.yaml"));
   const ExtractedRecord extracted(FileOf(attachments));
   EXPECT_EQ(FilesOf(diagrams::LoadDiagram(extracted.diagram()), 1.0)[0].data, attachments[0].data);
+  // Its sources find the files, too.
+  EXPECT_EQ(extracted.Load({{"simulator.duration", "0.5"}}).simulator.duration, 0.5);
 }
 
 TEST(RecordFilesTest, RefusesAttachmentsThatWouldLeaveTheFolder) {
