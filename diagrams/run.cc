@@ -65,6 +65,7 @@ ordered_json WorstOf(const ordered_json& one, const ordered_json& other) {
       worst[key] = value;
     }
   }
+  if (worst["stuck_time"] != one["stuck_time"]) worst["stuck_pair"] = other["stuck_pair"];
   const auto first = other["first_contact_time"];
   if (first.is_number() && one["first_contact_time"].is_number()) {
     worst["first_contact_time"] =
@@ -80,17 +81,6 @@ ordered_json WorstOf(const ordered_json& one, const ordered_json& other) {
           ? ordered_json(std::min(certified.get<double>(), one[kCertified].get<double>()))
           : ordered_json();
   return worst;
-}
-
-std::string MetricsOf(const LoadedDiagram& loaded, const Context& context) {
-  ordered_json all = ordered_json::object();
-  for (const auto& [name, output] : loaded.metrics) {
-    std::string text;
-    EvalJson(output, context, text);
-    const auto metrics = ordered_json::parse(text);
-    all = all.empty() ? metrics : WorstOf(all, metrics);
-  }
-  return all.dump();
 }
 
 class Runner {
@@ -141,11 +131,7 @@ class Runner {
     result_.duration = simulator_.context().time();
     result_.statistics = simulator_.statistics();
     result_.profile = simulator_.profile();
-    try {
-      result_.metrics = MetricsOf(loaded_, simulator_.context());
-    } catch (const SimulationError&) {
-      result_.metrics = "{}";  // what failed the run fails here again
-    }
+    result_.metrics = MetricsOf(loaded_, simulator_.context());
     try {
       if (recorder_) recorder_->Finish();
     } catch (const ConfigError& error) {
@@ -216,6 +202,21 @@ class Runner {
 bool RunResult::ExpectationsMet() const {
   return std::all_of(expectations.begin(), expectations.end(),
                      [](const ExpectationResult& result) { return result.ok; });
+}
+
+std::string MetricsOf(const LoadedDiagram& loaded, const Context& context) {
+  ordered_json all = ordered_json::object();
+  try {
+    for (const auto& [name, output] : loaded.metrics) {
+      std::string text;
+      EvalJson(output, context, text);
+      const auto metrics = ordered_json::parse(text);
+      all = all.empty() ? metrics : WorstOf(all, metrics);
+    }
+  } catch (const SimulationError&) {
+    return "{}";  // what failed a run fails here again
+  }
+  return all.dump();
 }
 
 RunResult Run(const LoadedDiagram& loaded, const RunOptions& options) {

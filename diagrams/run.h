@@ -61,6 +61,11 @@ struct RunResult {
   bool ExpectationsMet() const;
 };
 
+/// What the diagram's MotionMetrics say by now, all arms as one: the nearest approach and the
+/// largest of everything else. A JSON object; `{}` without a MotionMetrics, or if it cannot be
+/// computed.
+std::string MetricsOf(const LoadedDiagram& loaded, const Context& context);
+
 /// Runs a loaded diagram from time 0. A calculation that fails ends the run with `failure`; what
 /// was recorded and measured up to there is kept.
 /// throws ConfigError if the realtime factor is negative or not finite, if a record cannot be

@@ -17,6 +17,7 @@ namespace oca::systems {
 namespace {
 
 constexpr const char* kWorld = "world";
+constexpr double kAnySpeed = 1e6;  // m/s; no proof of what happens between samples survives it
 
 using FramePoses = std::map<std::string, Eigen::Isometry3d>;
 
@@ -122,6 +123,8 @@ ObstacleSource::ObstacleSource(const Params& params)
       moving_(MakeMoving()),
       changes_(MakeChanges()),
       layout_(NewLayouts(changes_.size() + 1)),
+      offsets(DeclareOptionalInput<Vector>("offsets",
+                                           {static_cast<int>(3 * params.obstacles.size()), "m"})),
       obstacles(DeclareObstacles(params)) {}
 
 std::vector<ObstacleSource::Entry> ObstacleSource::MakeEntries(const Params& params) {
@@ -146,6 +149,7 @@ ObstacleSource::Entry ObstacleSource::MakeEntry(const ObstacleParams& params,
   const std::string where = fmt::format("obstacle '{}'", params.id);
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Entry entry{MakeObstacleBody(params.id, params.shape, where + ".shape", &warnings_),
+              nullptr,
               X_WF,
               {},
               params.appear.value_or(-kInfinity),
@@ -154,6 +158,9 @@ ObstacleSource::Entry ObstacleSource::MakeEntry(const ObstacleParams& params,
   entry.motion = MakeMotion(params.motion.value_or(MotionParams{}),
                             StartPose(params, where + ".pose"), where + ".motion");
   entry.body = WithSpeed(*entry.body, entry.motion);
+  const auto free = std::make_shared<ObstacleBody>(*entry.body);
+  free->fastest = kAnySpeed;
+  entry.free_body = free;
   if (!(entry.appear < entry.disappear)) {
     throw ConfigError(fmt::format("{}.disappear: got {} s; expected more than appear, {} s", where,
                                   entry.disappear, entry.appear));
@@ -167,8 +174,10 @@ Output<ObstacleSet> ObstacleSource::DeclareObstacles(const Params& params) {
         return (!o.motion || o.motion->type == MotionType::kStatic) && !o.appear && !o.disappear;
       });
   // What does not depend on the time is computed once.
-  if (stands) return DeclareOutput<ObstacleSet, &ObstacleSource::CalcStanding>("obstacles", {});
-  return DeclareOutput<ObstacleSet, &ObstacleSource::CalcObstacles>("obstacles", {}, kTime);
+  if (stands)
+    return DeclareOutput<ObstacleSet, &ObstacleSource::CalcStanding>("obstacles", {}, offsets);
+  return DeclareOutput<ObstacleSet, &ObstacleSource::CalcObstacles>("obstacles", {}, kTime,
+                                                                    offsets);
 }
 
 double ObstacleSource::SampleTime(double time) const {
@@ -202,12 +211,18 @@ std::vector<double> ObstacleSource::MakeChanges() const {
   return changes;
 }
 
-void ObstacleSource::CalcObstacles(double time, ObstacleSet& set) const {
+void ObstacleSource::CalcObstacles(double time, std::optional<VectorView> shifts,
+                                   ObstacleSet& set) const {
   const double sample_time = SampleTime(time);
+  if (shifts) {
+    FillIn(sample_time, &*shifts, set);
+    set.layout = 0;
+    return;
+  }
   const auto past = std::upper_bound(changes_.begin(), changes_.end(), sample_time);
   const std::uint64_t layout = layout_ + static_cast<std::uint64_t>(past - changes_.begin());
   if (set.layout != layout) {
-    FillIn(sample_time, set);
+    FillIn(sample_time, nullptr, set);
     set.layout = layout;
     return;
   }
@@ -219,22 +234,28 @@ void ObstacleSource::CalcObstacles(double time, ObstacleSet& set) const {
   }
 }
 
-void ObstacleSource::FillIn(double sample_time, ObstacleSet& set) const {
+void ObstacleSource::FillIn(double sample_time, const VectorView* shifts, ObstacleSet& set) const {
   set.obstacles.reserve(entries_.size());  // so that no obstacle that appears allocates
   set.moving.reserve(entries_.size());
   set.moving.clear();
   std::size_t count = 0;
-  for (const Entry& entry : entries_) {
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const Entry& entry = entries_[i];
     if (!entry.There(sample_time)) continue;
-    if (!entry.stands) set.moving.push_back(static_cast<int>(count));
+    if (!entry.stands || shifts != nullptr) set.moving.push_back(static_cast<int>(count));
     if (count == set.obstacles.size()) set.obstacles.emplace_back();
     Obstacle& obstacle = set.obstacles[count++];
-    if (obstacle.body != entry.body) obstacle.body = entry.body;
+    const auto& body = shifts == nullptr ? entry.body : entry.free_body;
+    if (obstacle.body != body) obstacle.body = body;
     Place(obstacle, entry.X_WF, entry.motion(sample_time));
+    if (shifts == nullptr) continue;
+    obstacle.X_WO.translation() += shifts->segment<3>(static_cast<Eigen::Index>(3 * i));
   }
   set.obstacles.resize(count);
 }
 
-void ObstacleSource::CalcStanding(ObstacleSet& set) const { CalcObstacles(0.0, set); }
+void ObstacleSource::CalcStanding(std::optional<VectorView> shifts, ObstacleSet& set) const {
+  CalcObstacles(0.0, shifts, set);
+}
 
 }  // namespace oca::systems

@@ -22,9 +22,11 @@ namespace oca::systems {
 ///
 /// s is computed from t alone and not stored: whatever else happens at a tick sees the obstacles
 /// of that tick, not of the one before. Poses and motions are given in a frame, by default the
-/// world; frames are at rest.
+/// world; frames are at rest. Whatever drives `offsets`, a hand for example, moves the obstacles on
+/// from there; how fast, nobody knows.
 ///
-/// in    -
+/// in    offsets    3 n  m       optional; added to the positions in the world, three numbers for
+///                               each of the n obstacles of the parameter
 /// out   obstacles  ObstacleSet  in the order of the parameter
 /// state -
 /// throws ConfigError for ids or frames that are empty or taken, unknown frames, bad shapes, poses,
@@ -68,6 +70,7 @@ class ObstacleSource final : public System {
  private:
   struct Entry {
     std::shared_ptr<const ObstacleBody> body;
+    std::shared_ptr<const ObstacleBody> free_body;  ///< the same, of any speed
     Eigen::Isometry3d X_WF;
     Motion motion;
     double appear;
@@ -89,11 +92,12 @@ class ObstacleSource final : public System {
   double SampleTime(double time) const;
   std::vector<int> MakeMoving() const;
   std::vector<double> MakeChanges() const;
-  void CalcObstacles(double time, ObstacleSet& set) const;
-  void FillIn(double sample_time, ObstacleSet& set) const;
-  void CalcStanding(ObstacleSet& set) const;
+  void CalcObstacles(double time, std::optional<VectorView> shifts, ObstacleSet& set) const;
+  void FillIn(double sample_time, const VectorView* shifts, ObstacleSet& set) const;
+  void CalcStanding(std::optional<VectorView> shifts, ObstacleSet& set) const;
 
  public:
+  const OptionalInput<Vector> offsets;
   const Output<ObstacleSet> obstacles;
 };
 

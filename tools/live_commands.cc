@@ -9,12 +9,19 @@
 #include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <optional>
+#include <sstream>
+#include <string>
 #include <string_view>
 #include <thread>
+#include <vector>
 
 #include "diagrams/live/live_run.h"
 #include "diagrams/live/live_server.h"
 #include "diagrams/live/page.h"
+#include "diagrams/record/csv_export.h"
+#include "diagrams/record/mcap_reader.h"
+#include "diagrams/record/record_sink.h"
 #include "framework/error.h"
 
 namespace oca::tools {
@@ -34,9 +41,6 @@ void SayWhere(const std::string& what, const std::string& address, int port) {
   std::fflush(stdout);
 }
 
-std::atomic<bool> ended{false};
-void End(int) { ended = true; }
-
 std::string ReadRecord(const std::string& file) {
   constexpr std::string_view kMagic("\x89MCAP", 5);
   std::ifstream stream(file, std::ios::binary);
@@ -46,6 +50,66 @@ std::string ReadRecord(const std::string& file) {
   }
   return bytes;
 }
+
+/// What is kept of a live run: a record in memory or in its file, and what is made of it at the
+/// end.
+class LiveFiles {
+ public:
+  /// throws ConfigError if a file cannot be written.
+  explicit LiveFiles(const RunArguments& arguments) : arguments_(arguments) {
+    if (!arguments.report.empty()) page_ = live::LoadPage();
+    for (const std::string& file : {arguments.record, arguments.report}) {
+      if (!file.empty() && !std::ofstream(file, std::ios::binary | std::ios::app)) {
+        throw ConfigError(fmt::format("{}: cannot be written", file));
+      }
+    }
+    if (!arguments.record.empty()) {
+      stream_.open(arguments.record,
+                   std::ios::in | std::ios::out | std::ios::binary | std::ios::trunc);
+      sink_.emplace(stream_, record::ParseCompression(arguments.record_compression));
+    } else if (!arguments.report.empty() || !arguments.csv_folder.empty()) {
+      sink_.emplace(memory_, record::Compression::kZstd);
+    }
+  }
+
+  std::vector<record::RecordSink*> sinks() {
+    return sink_ ? std::vector<record::RecordSink*>{&*sink_} : std::vector<record::RecordSink*>{};
+  }
+
+  /// After the run. throws ConfigError if a file could not be written to the end.
+  void Finish() {
+    if (!sink_) return;
+    sink_->End();
+    std::string bytes;
+    if (arguments_.record.empty()) {
+      bytes = memory_.str();
+    } else {
+      stream_.close();
+      bytes = ReadRecord(arguments_.record);
+    }
+    if (!arguments_.csv_folder.empty()) {
+      record::ExportCsv(record::McapFile::Parse(bytes, "live"), arguments_.csv_folder);
+    }
+    if (arguments_.report.empty()) return;
+    std::ofstream report(arguments_.report, std::ios::binary | std::ios::trunc);
+    report << live::PageWithRecord(page_, bytes);
+    report.close();
+    if (!report) {
+      throw ConfigError(
+          fmt::format("{}: could not be written to the end (disk full?)", arguments_.report));
+    }
+  }
+
+ private:
+  const RunArguments& arguments_;
+  std::string page_;
+  std::fstream stream_;
+  std::ostringstream memory_;
+  std::optional<record::McapSink> sink_;
+};
+
+std::atomic<bool> ended{false};
+void End(int) { ended = true; }
 
 }  // namespace
 
@@ -60,6 +124,7 @@ int RunLiveCommand(const RunArguments& arguments, const std::vector<diagrams::Ov
     fmt::print(stderr, "warning: {}\n", error.what());
     server_options.page = kNoPage;
   }
+  LiveFiles files(arguments);
   live::LiveServer server(server_options);
   live::LiveRunOptions options;
   options.file = arguments.file;
@@ -68,6 +133,7 @@ int RunLiveCommand(const RunArguments& arguments, const std::vector<diagrams::Ov
   options.realtime_factor = arguments.realtime.value_or(1.0);
   options.version = OCA_VERSION;
   options.log = log;
+  options.sinks = files.sinks();
   options.interrupted = interrupted;
   options.refused = [](const std::string& why) {
     fmt::print(stderr, "warning: change refused: {}\n", why);
@@ -75,6 +141,7 @@ int RunLiveCommand(const RunArguments& arguments, const std::vector<diagrams::Ov
   SayWhere("live, in a browser, Foxglove or Lichtblick; Ctrl-C ends it", arguments.live_address,
            server.port());
   const live::LiveRunResult result = live::RunLive(options, server);
+  files.Finish();
   const live::LiveStatistics statistics = server.statistics();
   fmt::print("{:.2f} s simulated, {} changes of parameters, {} messages sent\n", result.duration,
              result.changes, statistics.sent);

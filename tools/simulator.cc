@@ -92,15 +92,17 @@ class CommandLine {
     run->add_option("--record-compression", run_.record_compression, "none, lz4 or zstd")
         ->check(CLI::IsMember({"none", "lz4", "zstd"}));
     run->add_option("--report", run_.report, "HTML file of the run: opens in a browser, offline");
-    run->add_option("--live", run_.live,
-                    "show the run while it goes on, to browsers and Foxglove: =PORT, or 8765")
-        ->check(CLI::Range(0, 65535));
+    CLI::Option* const live =
+        run->add_option("--live", run_.live,
+                        "show the run while it goes on, to browsers and Foxglove: =PORT, or 8765")
+            ->check(CLI::Range(0, 65535));
     run->add_option("--live-address", run_.live_address, "address to show it on")
         ->capture_default_str();
     run->add_option("--realtime", run_.realtime,
                     "hold to the wall clock: =FACTOR simulated seconds a second, or 1");
-    run->add_flag("--profile", run_.profile, "print what each system took");
-    run->add_flag("--json", run_.json, "print one JSON object instead of the summary");
+    run->add_flag("--profile", run_.profile, "print what each system took")->excludes(live);
+    run->add_flag("--json", run_.json, "print one JSON object instead of the summary")
+        ->excludes(live);
     run->add_flag("--no-progress", run_.no_progress, "no progress bar");
     run->add_option("--log-level", run_.log_level, "least level that is logged")
         ->check(CLI::IsMember({"debug", "info", "warning", "off"}));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "diagrams/document.h"
+#include "diagrams/live/live_parameters.h"
 #include "diagrams/live/live_server.h"
 #include "diagrams/loader.h"
 #include "framework/log.h"
@@ -21,6 +22,8 @@ struct LiveRunOptions {
   double realtime_factor{1.0};     ///< simulated seconds a second
   std::string version;             ///< of the program
   Log* log{nullptr};
+  /// Receive the run too, as one: files that keep it. Must outlive it; End is the caller's.
+  std::vector<record::RecordSink*> sinks{};
   /// Asked after every step.
   std::function<bool()> interrupted;
   /// Told why a change was refused.
@@ -29,22 +32,15 @@ struct LiveRunOptions {
 
 struct LiveRunResult {
   double duration;  ///< s, that was simulated
-  int changes;      ///< of parameters, that took effect
+  int changes;      ///< of parameters and places, that took effect
   std::string failure;
 };
 
-/// What a user may change in a diagram while it runs: the numbers and switches of its section
-/// `parameters` by name, and the position (m, world) of each obstacle that stands still as
-/// `obstacles.ID.position`.
-std::vector<LiveParameter> LiveParametersOf(const diagrams::LoadedDiagram& loaded);
-/// The override that a change of such a parameter means.
-/// throws ConfigError if there is no such parameter.
-diagrams::Override OverrideOf(const diagrams::LoadedDiagram& loaded, const LiveParameter& change);
-
-/// Runs a diagram in step with the wall clock for whoever looks at `server`. A change of a
-/// parameter makes the diagram anew, on a thread of its own, and the run goes on with it from the
-/// state it has at the next tick after that. One that the diagram refuses is undone.
-/// throws ConfigError if the file cannot be loaded.
+/// Runs a diagram in step with the wall clock for whoever looks at `server`. An obstacle that is
+/// moved is so at the next tick, by the input `offsets` of its source. A change of a parameter
+/// makes the diagram anew, on a thread of its own, and the run goes on with it from the state it
+/// has at the next tick after that. One that the diagram refuses is undone. throws ConfigError if
+/// the file cannot be loaded.
 LiveRunResult RunLive(const LiveRunOptions& options, LiveServer& server);
 
 }  // namespace oca::live

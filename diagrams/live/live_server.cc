@@ -21,6 +21,7 @@
 #include <set>
 #include <thread>
 
+#include "diagrams/live/ws_protocol.h"
 #include "framework/error.h"
 
 namespace oca::live {
@@ -34,9 +35,6 @@ using asio::ip::tcp;
 using nlohmann::ordered_json;
 using Error = beast::error_code;
 
-constexpr char kProtocol[] = "foxglove.websocket.v1";
-constexpr std::uint8_t kMessageData = 1;
-constexpr std::size_t kHeaderSize = 1 + 4 + 8;       // opcode, subscription, time
 constexpr std::size_t kLargestRequest = 64 * 1024;   // bytes of a client's message
 constexpr std::size_t kLargestAnswers = 256 * 1024;  // bytes of answers that wait for one client
 constexpr std::size_t kKept = 1000;                  // messages for clients that come later
@@ -45,8 +43,6 @@ constexpr std::size_t kBytesInFlight = std::size_t{32} << 20;
 constexpr auto kHttpTimeout = std::chrono::seconds(10);
 constexpr auto kAcceptAgainAfter = std::chrono::milliseconds(100);
 constexpr auto kTellAgainAfter = std::chrono::seconds(1);
-
-enum class StatusLevel { kInfo = 0, kWarning = 1, kError = 2 };
 
 /// A message on its way to whoever subscribed to its channel.
 struct Message {
@@ -58,46 +54,11 @@ using SharedMessage = std::shared_ptr<const Message>;
 
 /// What waits for one client: a header of its own, and text or a message that clients share.
 struct Frame {
-  std::array<unsigned char, kHeaderSize> header{};
+  MessageHeader header{};
   std::string text;
   SharedMessage message;
-  std::size_t size() const { return message ? kHeaderSize + message->json.size() : text.size(); }
+  std::size_t size() const { return message ? header.size() + message->json.size() : text.size(); }
 };
-
-template <class Number>
-void PutLittleEndian(unsigned char* at, Number number) {
-  for (std::size_t i = 0; i < sizeof number; ++i) {
-    at[i] = static_cast<unsigned char>(number >> (8 * i));
-  }
-}
-
-ordered_json ToJson(const LiveParameter& parameter) {
-  ordered_json json{{"name", parameter.name}};
-  std::visit([&](const auto& value) { json["value"] = value; }, parameter.value);
-  if (std::holds_alternative<double>(parameter.value)) json["type"] = "float64";
-  if (std::holds_alternative<std::vector<double>>(parameter.value)) json["type"] = "float64_array";
-  return json;
-}
-
-std::string ParameterValues(const std::vector<LiveParameter>& parameters, const ordered_json& id) {
-  ordered_json json{{"op", "parameterValues"}, {"parameters", ordered_json::array()}};
-  for (const LiveParameter& parameter : parameters) json["parameters"].push_back(ToJson(parameter));
-  if (!id.is_null()) json["id"] = id;
-  return json.dump();
-}
-
-/// A JSON value as one of the type that `like` has. throws std::invalid_argument.
-LiveParameter::Value ReadValue(const ordered_json& json, const LiveParameter::Value& like) {
-  if (std::holds_alternative<bool>(like) && json.is_boolean()) return json.get<bool>();
-  if (std::holds_alternative<double>(like) && json.is_number()) return json.get<double>();
-  if (std::holds_alternative<std::string>(like) && json.is_string()) return json.get<std::string>();
-  if (const auto* const numbers = std::get_if<std::vector<double>>(&like);
-      numbers && json.is_array() && json.size() == numbers->size() &&
-      std::all_of(json.begin(), json.end(), [](const auto& item) { return item.is_number(); })) {
-    return json.get<std::vector<double>>();
-  }
-  throw std::invalid_argument("another type or length of the value");
-}
 
 }  // namespace
 
@@ -122,8 +83,6 @@ class LiveServer::Server {
   void Accept();
   void Publish(const SharedMessage& message);
   void ToAll(const std::string& text);
-  std::string Advertise() const;
-  std::string Info() const;
   std::vector<LiveParameter> Parameters() const;
   void Change(const std::string& name, const ordered_json& value);
 
@@ -185,9 +144,7 @@ class LiveServer::Server::Client : public std::enable_shared_from_this<Client> {
     }
     Frame frame;
     frame.message = message;
-    frame.header[0] = kMessageData;
-    PutLittleEndian(&frame.header[1], subscription->second);
-    PutLittleEndian(&frame.header[5], message->time);
+    frame.header = MakeHeader(subscription->second, message->time);
     Push(std::move(frame));
     ++server_.sent_;
   }
@@ -208,7 +165,8 @@ class LiveServer::Server::Client : public std::enable_shared_from_this<Client> {
   void Greet() {
     server_.clients_.insert(shared_from_this());
     ++server_.client_count_;
-    const std::string info = server_.Info(), channels = server_.Advertise();
+    const std::string info = ServerInfo(server_.about_, server_.session_),
+                      channels = Advertisement(server_.channels_);
     greeting_bytes_ = info.size() + channels.size();
     Send(info);
     Send(channels);
@@ -289,10 +247,7 @@ class LiveServer::Server::Client : public std::enable_shared_from_this<Client> {
     if (json.contains("id")) Send(ParameterValues(server_.Parameters(), json["id"]));
   }
 
-  void Tell(StatusLevel level, const std::string& text) {
-    Send(ordered_json{{"op", "status"}, {"level", static_cast<int>(level)}, {"message", text}}.dump(
-        -1, ' ', false, ordered_json::error_handler_t::replace));
-  }
+  void Tell(StatusLevel level, const std::string& text) { Send(StatusText(level, text)); }
 
   void Push(Frame frame) {
     if (closed_) return;
@@ -478,14 +433,12 @@ void LiveServer::Server::Begin(const std::vector<record::RecordChannel>& channel
         [](const auto& a, const auto& b) { return a.topic == b.topic && a.schema == b.schema; });
     kept_.clear();
     if (same) return;
-    ordered_json gone{{"op", "unadvertise"}, {"channelIds", ordered_json::array()}};
-    for (std::size_t i = 0; i < channels_.size(); ++i) gone["channelIds"].push_back(i);
-    if (!channels_.empty()) ToAll(gone.dump());
+    if (!channels_.empty()) ToAll(Unadvertisement(channels_.size()));
     for (const auto& client : clients_) client->Forget();
     channels_ = channels;
     ++session_;
-    ToAll(Info());
-    ToAll(Advertise());
+    ToAll(ServerInfo(about_, session_));
+    ToAll(Advertisement(channels_));
   });
 }
 
@@ -523,29 +476,6 @@ void LiveServer::Server::AddMetadata(const record::McapMetadata& metadata) {
       about_[metadata.name == "oca" ? key : metadata.name + "/" + key] = value;
     }
   });
-}
-
-std::string LiveServer::Server::Info() const {
-  return ordered_json{{"op", "serverInfo"},
-                      {"name", "OCA simulator"},
-                      {"capabilities", {"parameters", "parametersSubscribe"}},
-                      {"supportedEncodings", {"json"}},
-                      {"metadata", about_},
-                      {"sessionId", std::to_string(session_)}}
-      .dump();
-}
-
-std::string LiveServer::Server::Advertise() const {
-  ordered_json json{{"op", "advertise"}, {"channels", ordered_json::array()}};
-  for (std::size_t i = 0; i < channels_.size(); ++i) {
-    json["channels"].push_back({{"id", i},
-                                {"topic", channels_[i].topic},
-                                {"encoding", "json"},
-                                {"schemaName", channels_[i].schema_name},
-                                {"schema", channels_[i].schema},
-                                {"schemaEncoding", "jsonschema"}});
-  }
-  return json.dump();
 }
 
 std::vector<LiveParameter> LiveServer::Server::Parameters() const {

@@ -68,6 +68,14 @@ TEST_F(LiveRunTest, OffersNumbersSwitchesAndObstaclesThatStand) {
               ElementsAre(0.0, 0.6, 1.0));
 }
 
+TEST_F(LiveRunTest, KnowsHowFarTheFieldsBehindAParameterGo) {
+  const auto ranges =
+      RangesOf(LoadDiagram(std::filesystem::path(OCA_SOURCE_DIR) / "diagrams/static_test.yaml"));
+  EXPECT_EQ(ranges.at("force_gain"), "[0.0,null]");
+  EXPECT_EQ(ranges.at("relaxation_time"), "[0.0,null]");
+  EXPECT_EQ(ranges.count("test_joint_factor"), 0u);  // it stands in arithmetic
+}
+
 TEST_F(LiveRunTest, KnowsTheOverrideThatAChangeMeans) {
   const LoadedDiagram loaded =
       LoadDiagram(std::filesystem::path(OCA_SOURCE_DIR) / "diagrams/static_test.yaml");

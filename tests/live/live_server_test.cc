@@ -17,6 +17,7 @@
 #include <thread>
 
 #include "framework/error.h"
+#include "tests/live/ws_client.h"
 
 namespace oca::live {
 namespace {
@@ -41,12 +42,6 @@ LiveOptions AnyPort() {
   return options;
 }
 
-tcp::socket Connect(asio::io_context& io, int port) {
-  tcp::socket socket(io);
-  socket.connect({asio::ip::make_address("127.0.0.1"), static_cast<std::uint16_t>(port)});
-  return socket;
-}
-
 http::response<http::string_body> Fetch(int port, http::verb verb, const std::string& target) {
   asio::io_context io;
   tcp::socket socket = Connect(io, port);
@@ -59,60 +54,6 @@ http::response<http::string_body> Fetch(int port, http::verb verb, const std::st
   http::read(socket, buffer, parser);
   return parser.release();
 }
-
-/// A client of foxglove.websocket.v1 that waits for what it reads.
-class Client {
- public:
-  explicit Client(int port) : stream_(io_) {
-    stream_.next_layer() = Connect(io_, port);
-    stream_.set_option(websocket::stream_base::decorator([](websocket::request_type& request) {
-      request.set(http::field::sec_websocket_protocol, "foxglove.websocket.v1");
-    }));
-    stream_.handshake(response_, "localhost", "/");
-  }
-  std::string Protocol() const {
-    return std::string(response_[http::field::sec_websocket_protocol]);
-  }
-  std::string Read() {
-    beast::flat_buffer buffer;
-    stream_.read(buffer);
-    return beast::buffers_to_string(buffer.data());
-  }
-  json ReadJson() { return json::parse(Read()); }
-  /// Skips what is no answer of a kind.
-  json ReadOp(const std::string& op) {
-    for (;;) {
-      const std::string text = Read();
-      if (!stream_.got_text()) continue;
-      json answer = json::parse(text);
-      if (answer["op"] == op) return answer;
-    }
-  }
-  void Send(const std::string& text) {
-    stream_.text(true);
-    stream_.write(asio::buffer(text));
-  }
-  void SendBinary(const std::string& bytes) {
-    stream_.binary(true);
-    stream_.write(asio::buffer(bytes));
-  }
-  void Subscribe(int channel, int id) {
-    Send(json{{"op", "subscribe"}, {"subscriptions", {{{"id", id}, {"channelId", channel}}}}}
-             .dump());
-  }
-  /// Returns once the server has taken what was sent before.
-  void Settle() {
-    Send(R"({"op": "getParameters", "parameterNames": [], "id": "settle"})");
-    while (ReadOp("parameterValues").value("id", "") != "settle") {
-    }
-  }
-  void Close() { stream_.close(websocket::close_code::normal); }
-
- private:
-  asio::io_context io_;
-  websocket::stream<tcp::socket> stream_;
-  websocket::response_type response_;
-};
 
 ::testing::AssertionResult Eventually(const std::function<bool()>& holds) {
   const auto end = std::chrono::steady_clock::now() + 20s;

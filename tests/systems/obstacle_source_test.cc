@@ -320,5 +320,30 @@ TEST(ObstacleSourceTest, RefusesABadShapeNamingTheObstacle) {
   EXPECT_THAT(RefusalOf(params), HasSubstr("obstacle 'ball'.shape"));
 }
 
+TEST(ObstacleSourceTest, MovesOnByItsOffsetsFromWhereTheScriptsPutThem) {
+  ObstacleSource::Params params;
+  params.obstacles = {Ball("ball_1", Vector3d(0.5, 0.0, 1.0)), MovingBall()};
+  auto owned = std::make_unique<ObstacleSource>(params);
+  const ObstacleSource& source = *owned;
+  const auto diagram = MakeDiagramOf(std::move(owned), {{"offsets", -1}});
+  Simulator simulator(*diagram);
+  const auto offsets = diagram->GetInput<Vector>("offsets");
+  const auto position = [&](std::size_t i) {
+    const auto& obstacles = source.obstacles.Eval(simulator.context()).obstacles;
+    return Vector3d(obstacles.at(i).X_WO.translation());
+  };
+  Eigen::VectorXd shifts(6);
+  shifts << 0.1, 0.2, -0.3, 0.0, 0.0, 2.0;
+  offsets.Fix(simulator.context(), shifts);
+  simulator.AdvanceTo(3.0);
+  EXPECT_TRUE(position(0).isApprox(Vector3d(0.6, 0.2, 0.7), 1e-15));
+  EXPECT_TRUE(position(1).isApprox(Vector3d(3.0, 0.0, 2.0), 1e-15));
+  shifts << 0.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+  offsets.Fix(simulator.context(), shifts);
+  EXPECT_EQ(position(0), Vector3d(0.5, 0.0, 1.0));
+  EXPECT_GT(source.obstacles.Eval(simulator.context()).obstacles[0].body->fastest, 1e5);
+  EXPECT_THROW(offsets.Fix(simulator.context(), Eigen::VectorXd(Vector3d::Zero())), ConfigError);
+}
+
 }  // namespace
 }  // namespace oca::systems

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "diagrams/document.h"
+#include "diagrams/live/live_server.h"
+#include "diagrams/loader.h"
+
+namespace oca::live {
+
+/// An obstacle that stands still: where the file has its position, and what moves it.
+struct Standing {
+  std::string path;
+  std::vector<double> position;  ///< m, as the file has it
+  std::string input;             ///< exported, of its source
+  std::size_t first;             ///< of its three numbers there
+};
+
+/// Those of a diagram by their ids.
+std::vector<std::pair<std::string, Standing>> StandingObstacles(
+    const diagrams::LoadedDiagram& loaded);
+/// The parameter that says where an obstacle is: `obstacles.ID.position`.
+std::string PositionName(const std::string& id);
+
+/// What a user may change in a diagram while it runs: the numbers and switches of its section
+/// `parameters` by name, and the position (m, world) of each obstacle that stands still as
+/// `obstacles.ID.position`.
+std::vector<LiveParameter> LiveParametersOf(const diagrams::LoadedDiagram& loaded);
+/// How far parameters may go, by name, as `[lower, upper]` in JSON with null for no bound: as far
+/// as the fields of systems that are set to `${name}` and nothing else.
+record::McapTexts RangesOf(const diagrams::LoadedDiagram& loaded);
+/// The override that a change of such a parameter means.
+/// throws ConfigError if there is no such parameter.
+diagrams::Override OverrideOf(const diagrams::LoadedDiagram& loaded, const LiveParameter& change);
+
+}  // namespace oca::live

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "diagrams/live/continued_sink.h"
+#include "diagrams/live/live_run.h"
+#include "diagrams/record/mcap_reader.h"
+#include "tests/live/ws_client.h"
+#include "tests/temporary_folder.h"
+
+namespace oca::live {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr char kBall[] = R"(
+name: ball
+parameters: {slope: 2.0}
+systems:
+  obstacles:
+    type: ObstacleSource
+    obstacles: [{id: ball, shape: {type: sphere, radius: 0.1}, pose: {xyz: [0, 0, 1]}}]
+  rate: {type: Constant, value: ["${slope}"]}
+  x: {type: Integrator, initial: [0.0]}
+  hold: {type: ZeroOrderHold, period: 0.01, initial: [0.0]}
+connections:
+  - rate.value -> x.in
+  - x.out -> hold.in
+record: {signals: {"rate.value": 100}}
+)";
+
+/// A run on a thread of its own, recorded in memory, with a client that changes it.
+class LiveChangeTest : public testing::Test {
+ protected:
+  LiveChangeTest() : sink_(bytes_, record::Compression::kNone), server_(AnyPort()) {
+    options_.file = folder_.path() / "ball.yaml";
+    std::ofstream(options_.file) << kBall;
+    options_.interrupted = [this] { return stop_.load(); };
+    options_.sinks = {&sink_};
+    run_ = std::thread([this] { result_ = RunLive(options_, server_); });
+  }
+  ~LiveChangeTest() override {
+    if (run_.joinable()) Stop();
+  }
+  static LiveOptions AnyPort() {
+    LiveOptions options;
+    options.port = 0;
+    return options;
+  }
+  /// What was advertised to a client that came before the run is empty.
+  static int ChannelOf(Client& client, const std::string& topic) {
+    while (true) {
+      const json advertised = client.ReadOp("advertise");
+      for (const auto& channel : advertised["channels"]) {
+        if (channel["topic"] == topic) return channel["id"];
+      }
+    }
+  }
+  /// Reads messages of a topic until one has `text` in it.
+  static void WaitFor(Client& client, const std::string& text) {
+    while (client.Read().find(text) == std::string::npos) {
+    }
+  }
+  record::McapFile Stop() {
+    stop_ = true;
+    run_.join();
+    sink_.End();
+    return record::McapFile::Parse(bytes_.str(), "live");
+  }
+
+  test::TemporaryFolder folder_;
+  std::ostringstream bytes_;
+  record::McapSink sink_;
+  std::atomic<bool> stop_{false};
+  LiveServer server_;
+  LiveRunOptions options_;
+  LiveRunResult result_{};
+  std::thread run_;
+};
+
+TEST_F(LiveChangeTest, AMovedObstacleIsAnInputAndKeepsItsPlaceWhenAParameterMakesTheDiagramAnew) {
+  Client client(server_.port());
+  const int rate = ChannelOf(client, "/rate/value");
+  Client other(server_.port());
+  client.Subscribe(ChannelOf(other, "/tf"), 1);
+  WaitFor(client, R"("translation":{"x":0,"y":0,"z":1})");
+  client.Send(R"({"op": "setParameters", "parameters":
+      [{"name": "obstacles.ball.position", "value": [0.5, 2, 3]}]})");
+  WaitFor(client, R"("translation":{"x":0.5,"y":2,"z":3})");
+  client.Subscribe(rate, 2);
+  client.Send(R"({"op": "setParameters", "parameters": [{"name": "slope", "value": 7.25}]})");
+  WaitFor(client, R"([7.25])");
+  WaitFor(client, R"("translation":{"x":0.5,"y":2,"z":3})");
+  const record::McapFile file = Stop();
+  EXPECT_EQ(result_.failure, "");
+  EXPECT_EQ(result_.changes, 2);
+  // One record of it all.
+  EXPECT_TRUE(file.complete()) << file.problem();
+  EXPECT_NE(file.FindAttachment("diagram.yaml"), nullptr);
+  EXPECT_EQ(file.MessagesOf("/metrics").size(), 1u);
+  const auto values = file.MessagesOf("/rate/value");
+  ASSERT_FALSE(values.empty());
+  EXPECT_THAT(values.front()->data, HasSubstr("[2]"));
+  EXPECT_THAT(values.back()->data, HasSubstr("[7.25]"));
+  EXPECT_EQ(file.FindMetadata("oca")->at("outcome"), "interrupted");
+}
+
+/// Notes where messages go.
+class NotingSink final : public record::RecordSink {
+ public:
+  void Begin(const std::vector<record::RecordChannel>& channels) override {
+    notes += "begin " + std::to_string(channels.size()) + ";";
+  }
+  void Write(int channel, std::uint64_t, std::string_view json) override {
+    notes += std::to_string(channel) + " " + std::string(json) + ";";
+  }
+  void End() override { notes += "end;"; }
+  std::string notes;
+};
+
+TEST(ContinuedSinkTest, GivesLaterRecordersTheChannelsOfTheFirst) {
+  NotingSink noting;
+  ContinuedSink sink(noting);
+  sink.Begin({{"/a", "", ""}, {"/b", "", ""}});
+  sink.Write(1, 0, "x");
+  sink.End();
+  sink.Begin({{"/new", "", ""}, {"/b", "", ""}, {"/a", "", ""}});
+  sink.Write(0, 0, "nowhere");
+  sink.Write(1, 0, "y");
+  sink.Write(2, 0, "z");
+  EXPECT_EQ(noting.notes, "begin 2;1 x;1 y;0 z;");
+}
+
+}  // namespace
+}  // namespace oca::live
