@@ -4,6 +4,7 @@
 # docs/methods.md. Usage: tools/compare_methods.sh [--samples N] [--seed S] [FAMILY...]
 # Without options: the samples and the seed that docs/methods.md states, all families. What a sweep
 # has left in build/methods is not run again; other numbers need a folder of their own (OUT=...).
+# FORESIGHT=N: so many moving scenarios are also given to an optimiser that knows the whole script.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 declare -A samples=([random_static]=1000 [random_clutter]=300 [random_moving]=300)
@@ -43,6 +44,28 @@ sweep() {
   [ "$status" -eq 0 ] || [ "$status" -eq 3 ] || [ "$status" -eq 1 ] || exit "$status"
 }
 
+# Which of the first scenarios of a family foresight clears, and which of those each method does.
+foresight() {
+  local results=$out/$1/results.jsonl plans=$out/$1/foresight.jsonl seed
+  touch "$plans"
+  for seed in $(grep '"combination":0,' "$results" | head -n "$2" | sed 's/.*"seed":\([0-9]*\).*/\1/'); do
+    grep -q "\"seed\":$seed," "$plans" || "$simulator" plan "diagrams/scenarios/$1.yaml" --seed "$seed" >> "$plans"
+  done
+  awk '
+    function number(key) { return match($0, "\"" key "\":-?[0-9.e-]+") ? substr($0, RSTART + length(key) + 3, RLENGTH - length(key) - 3) : "" }
+    FNR == NR { all++; seed[number("seed")] = /"clear":true/; clearable += /"clear":true/; next }
+    /"outcome"/ && number("seed") in seed {
+      name = $0; sub(/.*"parameters.avoidance":"/, "", name); sub(/".*/, "", name)
+      if (!(name in known)) { known[name] = 1; order[++methods] = name }
+      clear = /"outcome":"finished"/ && (/"min_distance":null/ || number("min_distance") + 0 > 0)
+      if (seed[number("seed")]) of_clearable[name] += clear; else others[name] += clear
+    }
+    END {
+      printf "Foresight clears %d of the first %d scenarios.\n\n| method | of those, free of contact | of the other %d |\n|---|---|---|\n", clearable, all, all - clearable
+      for (i = 1; i <= methods; i++) printf "| %s | %d of %d | %d |\n", order[i], of_clearable[order[i]], clearable, others[order[i]]
+    }' "$plans" "$results"
+}
+
 methods=$(cd diagrams/parts && ls avoidance_*.yaml | sed 's/avoidance_\(.*\)\.yaml/\1/' | paste -sd,)
 for family in "${families[@]}"; do
   file=diagrams/scenarios/$family.yaml
@@ -51,6 +74,7 @@ for family in "${families[@]}"; do
     --vary "parameters.avoidance=$methods"
   "$simulator" merge "$out/$family" --markdown | splice "$family"
   "$simulator" plot --figure method-comparison "$out/$family" -o "docs/methods-$family.svg"
+  [ "$family" != random_moving ] || foresight "$family" "${FORESIGHT:-60}" | splice foresight
   [ "$family" = random_static ] || continue
   sweep "$file" --samples "${samples[$family]}" --seed "$seed" -o "$out/mapping" \
     -s parameters.avoidance=report --vary parameters.jacobian_transpose_method_classic=false,true
