@@ -24,7 +24,7 @@ struct NumberField {
   Member member;
 };
 
-// In the order of the JSON; the pair stands after the first.
+// In the order of the JSON; the pairs stand after the first and the last.
 constexpr std::array kNumbers{
     NumberField{"min_distance", &MotionMetricsValue::min_distance},
     NumberField{"min_distance_time", &MotionMetricsValue::min_distance_time},
@@ -39,9 +39,23 @@ constexpr std::array kNumbers{
     NumberField{"total_variation_ratio", &MotionMetricsValue::total_variation_ratio},
     NumberField{"max_joint_speed", &MotionMetricsValue::max_joint_speed},
     NumberField{"max_joint_acceleration", &MotionMetricsValue::max_joint_acceleration},
-    NumberField{"limit_violations", &MotionMetricsValue::limit_violations}};
+    NumberField{"limit_violations", &MotionMetricsValue::limit_violations},
+    NumberField{"stuck_time", &MotionMetricsValue::stuck_time}};
 
 constexpr const char* kPair = "min_distance_pair";
+constexpr const char* kStuckPair = "stuck_pair";
+
+void ReadPair(const JsonReader& pair, models::Name& link, models::Name& obstacle) {
+  std::array<std::string, 2> names;
+  std::size_t count = 0;
+  pair.ForEach([&](const JsonReader& item) {
+    if (count < names.size()) names[count] = item.Label();
+    ++count;
+  });
+  if (count != names.size()) pair.Fail("another length", "[link, obstacle]");
+  link = models::Name(names[0]);
+  obstacle = models::Name(names[1]);
+}
 
 }  // namespace
 
@@ -61,6 +75,9 @@ void Signal<MotionMetricsValue>::WriteJson(const MotionMetricsValue& value, std:
     json[kPair] =
         number ? Json{value.min_distance_link.text(), value.min_distance_obstacle.text()} : Json();
   }
+  json[kStuckPair] = value.stuck_link.empty()
+                         ? Json()
+                         : Json{value.stuck_link.text(), value.stuck_obstacle.text()};
   out += json.dump();
 }
 
@@ -70,21 +87,17 @@ MotionMetricsValue Signal<MotionMetricsValue>::ReadJson(std::string_view text) {
   reader.CheckKeys({"min_distance", kPair, "min_distance_time", "certified_min_distance",
                     "contact_time", "first_contact_time", "max_abs_delta", "final_error",
                     "time_to_goal", "delta_sign_changes_per_second", "total_variation_ratio",
-                    "max_joint_speed", "max_joint_acceleration", "limit_violations"});
+                    "max_joint_speed", "max_joint_acceleration", "limit_violations", "stuck_time",
+                    kStuckPair});
   MotionMetricsValue value;
   for (const auto& [key, member] : kNumbers) {
     if (!json[key].is_null()) value.*member = reader.At(key).Number();
   }
   if (!json[kPair].is_null()) {
-    std::array<std::string, 2> names;
-    std::size_t count = 0;
-    reader.At(kPair).ForEach([&](const JsonReader& item) {
-      if (count < names.size()) names[count] = item.Label();
-      ++count;
-    });
-    if (count != names.size()) reader.At(kPair).Fail("another length", "[link, obstacle]");
-    value.min_distance_link = models::Name(names[0]);
-    value.min_distance_obstacle = models::Name(names[1]);
+    ReadPair(reader.At(kPair), value.min_distance_link, value.min_distance_obstacle);
+  }
+  if (!json[kStuckPair].is_null()) {
+    ReadPair(reader.At(kStuckPair), value.stuck_link, value.stuck_obstacle);
   }
   return value;
 }
@@ -105,7 +118,8 @@ bool Signal<MotionTally>::Finite(const MotionTally& value) {
                            value.max_speed_,
                            value.max_acceleration_,
                            value.limit_violations_,
-                           value.goal_time_.value_or(0.0)};
+                           value.goal_time_.value_or(0.0),
+                           value.stuck_time_};
   return AllFinite(numbers.data(), numbers.size()) && finite(value.position_) &&
          finite(value.velocity_) && finite(value.request_) && finite(value.delta_);
 }

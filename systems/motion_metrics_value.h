@@ -16,23 +16,27 @@
 namespace oca::systems {
 
 /// What a run has been like so far; a metric without a source has no value. JSON: an object with
-/// every metric, null where there is no value; min_distance_pair is [link, obstacle].
+/// every metric, null where there is no value; min_distance_pair and stuck_pair are [link,
+/// obstacle].
 struct MotionMetricsValue {
   std::optional<double> min_distance;  ///< signed, m
   models::Name min_distance_link;
   models::Name min_distance_obstacle;
-  std::optional<double> min_distance_time;              ///< s
-  std::optional<double> certified_min_distance;         ///< not above the distance at any time, m
-  std::optional<double> contact_time;                   ///< total time at distance <= 0, s
-  std::optional<double> first_contact_time;             ///< s; none if there was no contact
-  std::optional<double> max_abs_delta;                  ///< of the applied delta; rad, m
-  std::optional<double> final_error;                    ///< max norm against the goal; rad, m
+  std::optional<double> min_distance_time;       ///< s
+  std::optional<double> certified_min_distance;  ///< not above the distance at any time, m
+  std::optional<double> contact_time;            ///< total time at distance <= 0, s
+  std::optional<double> first_contact_time;      ///< s; none if there was no contact
+  std::optional<double> max_abs_delta;           ///< of the applied delta; rad, m
+  std::optional<double> final_error;             ///< max norm against the goal; rad, m
   std::optional<double> time_to_goal;  ///< since the first sample, s; none unless it is there
   std::optional<double> delta_sign_changes_per_second;  ///< mean over joints; 1/s
   std::optional<double> total_variation_ratio;  ///< path of q over path of the request, joint space
   std::optional<double> max_joint_speed;        ///< rad/s, m/s
   std::optional<double> max_joint_acceleration;  ///< rad/s^2, m/s^2
   std::optional<double> limit_violations;        ///< joints beyond a limit, summed over samples
+  std::optional<double> stuck_time;              ///< longest standstill off the goal, s; 0: none
+  models::Name stuck_link;                       ///< nearest then; empty if nothing was near
+  models::Name stuck_obstacle;
 };
 
 /// What the signals were at one instant; those that do not exist are empty.
@@ -87,6 +91,7 @@ class MotionTally {
   void AddPosition(VectorView position, const models::RobotModel* model, double step);
   void CountViolations(VectorView position, const models::RobotModel& model, double step);
   void AddDelta(VectorView delta);
+  void AddStandstill(const MotionSample& sample);
 
   int samples_{0};
   double first_time_{0.0};
@@ -113,6 +118,11 @@ class MotionTally {
   double max_speed_{0.0};
   double max_acceleration_{0.0};
   double limit_violations_{0.0};
+  std::vector<double> still_;  // where the arm has stood since still_since_
+  double still_since_{0.0};
+  double stuck_time_{0.0};
+  models::Name stuck_link_;
+  models::Name stuck_obstacle_;
   std::optional<double> goal_time_;      // when it came to the goal, if it is there
   std::vector<double> position_;         // of the last sample
   std::vector<double> velocity_;         // between the last two samples

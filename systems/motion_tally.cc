@@ -12,6 +12,9 @@ constexpr double kLeastChange = 1e-6;
 
 // As near to the goal as this it is reached; rad, m.
 constexpr double kArrived = 0.01;
+// An arm that turns no joint by more than kStill, rad or m, in kPatience seconds stands.
+constexpr double kStill = 0.02;
+constexpr double kPatience = 2.0;
 // What rounding may take a joint beyond its limits: rad or m, and shares of the others.
 constexpr double kRounding = 1e-6;
 
@@ -26,6 +29,14 @@ double PathLength(VectorView now, const std::vector<double>& before) {
     length += std::fabs(now[static_cast<Eigen::Index>(i)] - before[i]);
   }
   return length;
+}
+
+double Farthest(VectorView one, VectorView other) {
+  return one.size() == 0 ? 0.0 : (one - other).cwiseAbs().maxCoeff();
+}
+
+VectorView View(const std::vector<double>& values) {
+  return VectorView(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
 /// Standard vectors keep their capacity where Eigen's let it go.
@@ -58,6 +69,7 @@ void MotionTally::Add(const MotionSample& sample) {
     } else if (!goal_time_) {
       goal_time_ = sample.time - first_time_;
     }
+    AddStandstill(sample);
   }
   if (sample.request) {
     if (samples_ > 0) request_path_ += PathLength(*sample.request, request_);
@@ -132,11 +144,38 @@ void MotionTally::AddDelta(VectorView delta) {
   Keep(delta, delta_);
 }
 
+void MotionTally::AddStandstill(const MotionSample& sample) {
+  const VectorView q = *sample.position;
+  const bool as_requested = sample.request && Farthest(q, *sample.request) <= kArrived;
+  if (samples_ == 0 || as_requested || Farthest(q, *sample.goal) <= kArrived ||
+      Farthest(q, View(still_)) > kStill) {
+    Keep(q, still_);
+    still_since_ = sample.time;
+    return;
+  }
+  const double stood = sample.time - still_since_;
+  if (stood < kPatience * (1.0 - kRounding) || stood <= stuck_time_) return;
+  stuck_time_ = stood;
+  stuck_link_ = stuck_obstacle_ = models::Name();
+  if (sample.proximities == nullptr || sample.proximities->proximities.empty()) return;
+  const auto& near = sample.proximities->proximities;
+  const auto nearest = std::min_element(
+      near.begin(), near.end(),
+      [](const Proximity& a, const Proximity& b) { return a.distance < b.distance; });
+  stuck_link_ = nearest->link;
+  stuck_obstacle_ = nearest->obstacle;
+}
+
 MotionMetricsValue MotionTally::At(const MotionSample& now) const {
   MotionMetricsValue value;
   value.final_error = FinalError(now);
   if (samples_ == 0) return value;
-  if (now.position && now.goal) value.time_to_goal = goal_time_;
+  if (now.position && now.goal) {
+    value.time_to_goal = goal_time_;
+    value.stuck_time = stuck_time_;
+    value.stuck_link = stuck_link_;
+    value.stuck_obstacle = stuck_obstacle_;
+  }
   if (now.position && now.model != nullptr) value.limit_violations = limit_violations_;
   const double duration = now.time - first_time_;
   value.min_distance = min_distance_;

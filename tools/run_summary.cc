@@ -55,13 +55,25 @@ std::string ClearanceLine(const ordered_json& metrics, bool colour) {
                   fmt::format("; {:.2f} s in contact", metrics.value("contact_time", 0.0)));
 }
 
+/// Where the arm stood for long, if it did: at the goal it need not have ended.
+std::string Standstill(const ordered_json& metrics) {
+  const auto& time = metrics.value("stuck_time", ordered_json());
+  if (!time.is_number() || time.get<double>() == 0.0) return "";
+  const auto& pair = metrics["stuck_pair"];
+  return fmt::format("; STUCK for {:.3g} s, {}", time.get<double>(),
+                     pair.is_array() ? fmt::format("nearest {} to {}", pair[0].get<std::string>(),
+                                                   pair[1].get<std::string>())
+                                     : std::string("nothing within reach"));
+}
+
 std::string GoalLine(const ordered_json& metrics, bool colour) {
   const auto& error = metrics.value("final_error", ordered_json());
   if (!error.is_number()) return "";
   const double off = error.get<double>();
-  return Line("goal", off < kArrived
-                          ? Good("reached", colour) + fmt::format(": {:.2g} rad off", off)
-                          : Bad("NOT REACHED", colour) + fmt::format(": {:.3g} rad off", off));
+  const std::string arrival =
+      off < kArrived ? Good("reached", colour) + fmt::format(": {:.2g} rad off", off)
+                     : Bad("NOT REACHED", colour) + fmt::format(": {:.3g} rad off", off);
+  return Line("goal", arrival + Standstill(metrics));
 }
 
 std::string MotionLine(const ordered_json& metrics) {

@@ -105,7 +105,8 @@ TEST(MotionMetricsTest, HasNoValueWithoutASource) {
       R"("certified_min_distance":null,"contact_time":null,"first_contact_time":null,"max_abs_delta":null,)"
       R"("final_error":null,"time_to_goal":null,"delta_sign_changes_per_second":null,)"
       R"("total_variation_ratio":null,"max_joint_speed":null,)"
-      R"("max_joint_acceleration":null,"limit_violations":null})");
+      R"("max_joint_acceleration":null,"limit_violations":null,)"
+      R"("stuck_time":null,"stuck_pair":null})");
 }
 
 TEST(MotionMetricsTest, FindsTheLeastDistanceItsPairAndItsTime) {
@@ -219,6 +220,46 @@ TEST(MotionMetricsTest, TellsWhenTheGoalWasReachedForGood) {
   EXPECT_NEAR(bench.At(0.9).time_to_goal.value(), 0.6, 1e-12);
   EXPECT_FALSE(bench.At(1.0).time_to_goal.has_value());
   EXPECT_FALSE(Bench({.position = position, .request = goal}).At(0.9).time_to_goal.has_value());
+}
+
+// Before the goal, off the request, from 1 s to `end`; a joint creeps by less than counts.
+Scripts StandsUntil(double end) {
+  const auto position = [end](double t) {
+    return Vector2d(t > 0.95 && t < end - 0.05 ? 0.4 + 0.004 * (t - 1.0) : 0.4 * t, 0.0);
+  };
+  return {.position = position,
+          .request = [](double t) { return Vector2d(0.5 * t, 0.0); },
+          .goal = [](double) { return Vector2d(10.0, 0.0); },
+          .distance = [](double) { return 0.03; }};
+}
+
+TEST(MotionMetricsTest, TellsHowLongTheArmWasStuckAndAtWhat) {
+  Bench bench(StandsUntil(4.0));
+  EXPECT_EQ(bench.At(2.9).stuck_time, 0.0);
+  EXPECT_TRUE(bench.At(2.9).stuck_link.empty());
+  EXPECT_NEAR(bench.At(3.0).stuck_time.value(), 2.0, 1e-9);
+  const MotionMetricsValue value = bench.At(5.0);
+  EXPECT_NEAR(value.stuck_time.value(), 2.9, 1e-9);
+  EXPECT_EQ(value.stuck_link, models::Name("hand"));
+  EXPECT_EQ(value.stuck_obstacle, models::Name("box"));
+  std::string text;
+  Signal<MotionMetricsValue>::WriteJson(value, text);
+  EXPECT_NE(text.find(R"("stuck_pair":["hand","box"])"), std::string::npos) << text;
+  EXPECT_EQ(Signal<MotionMetricsValue>::ReadJson(text).stuck_obstacle, models::Name("box"));
+}
+
+TEST(MotionMetricsTest, IsNotStuckWhereItStandsAsRequestedOrForAShortTime) {
+  EXPECT_EQ(Bench(StandsUntil(2.9)).At(5.0).stuck_time, 0.0);
+  Scripts waits = StandsUntil(4.0);
+  waits.request = waits.position;
+  EXPECT_EQ(Bench(waits).At(5.0).stuck_time, 0.0);
+  Scripts arrived = StandsUntil(4.0);
+  arrived.goal = arrived.position;
+  EXPECT_EQ(Bench(arrived).At(5.0).stuck_time, 0.0);
+  Scripts alone = StandsUntil(4.0);
+  alone.distance = {};
+  EXPECT_TRUE(Bench(alone).At(3.5).stuck_link.empty());
+  EXPECT_GT(Bench(alone).At(3.5).stuck_time.value(), 2.0);
 }
 
 TEST(MotionMetricsTest, CountsTheJointsBeyondALimitAtEachSample) {
