@@ -3,6 +3,7 @@ list(APPEND headers
   robot/attach_objects.h
   robot/collision_check.h
   robot/jacobian_mapping.h
+  robot/joint_axis.h
   robot/kinematics.h
   robot/pseudo_inverse.h
   robot/robot_model.h

@@ -3,6 +3,8 @@
 
 #include <cassert>
 
+#include "models/robot/joint_axis.h"
+
 namespace oca::models {
 namespace {
 
@@ -79,7 +81,7 @@ void MultiplyTransposed(const RobotModel& model, std::span<const Eigen::Isometry
     const KinematicStep& step = model.steps()[link - 1];
     const BodyWrench& sum = sums[link];
     if (step.column >= 0) {
-      const Eigen::Vector3d axis_W = X_WL[link].linear() * step.axis;
+      const Eigen::Vector3d axis_W = internal::JointAxis(step, X_WL[link]);
       Jt_w[step.column] += Along(step, axis_W, sum.force, sum.torque);
     }
     const Eigen::Vector3d d = X_WL[link].translation() - X_WL[step.parent_link].translation();
@@ -99,7 +101,7 @@ void ComputeNormalMatrix(const RobotModel& model, std::span<const Eigen::Isometr
     if (step.column < 0) continue;
     // Momentum of the composite when this joint moves at unit rate, about this link's origin.
     const auto& composite = workspace.composites[link];
-    const Eigen::Vector3d axis_W = step.multiplier * (X_WL[link].linear() * step.axis);
+    const Eigen::Vector3d axis_W = step.multiplier * internal::JointAxis(step, X_WL[link]);
     const bool slides = step.type == JointType::kPrismatic;
     const Eigen::Vector3d linear = slides ? Eigen::Vector3d(composite.count * axis_W)
                                           : Eigen::Vector3d(axis_W.cross(composite.first));
@@ -111,7 +113,7 @@ void ComputeNormalMatrix(const RobotModel& model, std::span<const Eigen::Isometr
       angular += (X_WL[below].translation() - X_WL[at].translation()).cross(linear);
       const KinematicStep& other = model.steps()[at - 1];
       if (other.column < 0) continue;
-      const Eigen::Vector3d other_axis_W = X_WL[at].linear() * other.axis;
+      const Eigen::Vector3d other_axis_W = internal::JointAxis(other, X_WL[at]);
       const double entry = Along(other, other_axis_W, linear, angular);
       // A mimic joint and its master on one path share a column, which then gets both terms.
       normal(step.column, other.column) += entry;

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "models/error.h"
+#include "models/robot/joint_axis.h"
 
 namespace oca::models {
 namespace {
@@ -45,7 +46,7 @@ void TurnAbout(Rotation&& R, const Eigen::Vector3d& axis, double angle) {
 template <typename Linear, typename Angular>
 void AddColumn(const KinematicStep& step, const Eigen::Isometry3d& X_WL, const Eigen::Vector3d& p_W,
                Linear&& J_v, Angular* J_w) {
-  const Eigen::Vector3d axis_W = step.multiplier * (X_WL.linear() * step.axis);
+  const Eigen::Vector3d axis_W = step.multiplier * internal::JointAxis(step, X_WL);
   if (step.type == JointType::kPrismatic) {
     J_v += axis_W;
     return;
@@ -223,7 +224,8 @@ void StackedJacobian(const RobotModel& model, std::span<const Eigen::Isometry3d>
       }
     }
     const int half = step.type == JointType::kPrismatic ? 0 : 3;
-    J.block<3, 1>(6 * b + half, step.column) += step.multiplier * (X_WL[link].linear() * step.axis);
+    J.block<3, 1>(6 * b + half, step.column) +=
+        step.multiplier * internal::JointAxis(step, X_WL[link]);
   }
 }
 
