@@ -7,7 +7,7 @@
 # FORESIGHT=N: so many moving scenarios are also given to an optimiser that knows the whole script.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-declare -A samples=([random_static]=1000 [random_clutter]=300 [random_moving]=300)
+declare -A samples=([random_static]=1000 [random_clutter]=300 [random_moving]=200)
 seed=2016
 families=()
 while [ $# -gt 0 ]; do
