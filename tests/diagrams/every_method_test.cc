@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Each diagram file that leaves the method of avoidance open loads and runs with each method.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "diagrams/loader.h"
+#include "diagrams/run.h"
+
+namespace oca::diagrams {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kFolder = OCA_SOURCE_DIR "/diagrams";
+const std::string kPrefix = "avoidance_";
+
+std::vector<std::string> Methods() {
+  std::vector<std::string> methods;
+  for (const auto& entry : fs::directory_iterator(kFolder / "parts")) {
+    const std::string name = entry.path().stem().string();
+    if (name.starts_with(kPrefix)) methods.push_back(name.substr(kPrefix.size()));
+  }
+  std::sort(methods.begin(), methods.end());
+  return methods;
+}
+
+std::vector<std::string> Files() {
+  std::vector<std::string> files;
+  for (const fs::path& folder : {kFolder, kFolder / "scenarios"}) {
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      if (entry.path().extension() != ".yaml") continue;
+      files.push_back(entry.path().lexically_relative(kFolder).string());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// Files that are not about methods: a pure potential field, and two loops side by side.
+bool LeavesTheMethodOpen(const std::string& file) {
+  return file != "attractive_goal.yaml" && file != "dual_arm.yaml";
+}
+
+class EveryMethodTest : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryMethodTest, RunsInEveryFile) {
+  for (const std::string& file : Files()) {
+    if (!LeavesTheMethodOpen(file)) continue;
+    SCOPED_TRACE(file);
+    try {
+      const LoadedDiagram loaded =
+          LoadDiagram(kFolder / file, {{"parameters.avoidance", GetParam()}});
+      RunOptions options;
+      options.duration = 0.05;
+      EXPECT_EQ(diagrams::Run(loaded, options).failure, "");
+    } catch (const std::exception& error) {
+      ADD_FAILURE() << error.what();
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, EveryMethodTest, testing::ValuesIn(Methods()),
+                         [](const auto& method) { return method.param; });
+
+}  // namespace
+}  // namespace oca::diagrams
