@@ -82,7 +82,7 @@ class Includer {
       value = ReadYaml(ReadTextFile(file), file.string(), problems_);
     } catch (const ConfigError& error) {
       if (from.line == 0) throw;
-      problems_.Add(from, fmt::format("include: {}", error.what()));
+      problems_.Add(from, fmt::format("include: {}{}", error.what(), Kin(file)));
     }
     Value merged = Expand(std::move(value), file.parent_path());
     open_.pop_back();
@@ -95,6 +95,25 @@ class Includer {
   void AddSource(const fs::path& file) {
     auto& files = sources_.files;
     if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
+  }
+
+  /// What there is in place of a file that is not there: those of its folder whose names begin
+  /// alike, up to the first underscore, as methods of avoidance do.
+  static std::string Kin(const fs::path& file) {
+    const std::string name = file.filename().string();
+    std::error_code error;
+    const std::size_t end = name.find('_');
+    if (fs::exists(file, error) || end == std::string::npos) return "";
+    std::vector<std::string> kin;
+    for (fs::directory_iterator at(file.parent_path(), error), last; !error && at != last;
+         at.increment(error)) {
+      const std::string other = at->path().filename().string();
+      if (other.starts_with(name.substr(0, end + 1)) && other.ends_with(".yaml")) {
+        kin.push_back(other);
+      }
+    }
+    std::sort(kin.begin(), kin.end());
+    return kin.empty() ? "" : fmt::format("; expected one of {}", fmt::join(kin, ", "));
   }
 
   /// Every diagram file of a folder.

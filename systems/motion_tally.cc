@@ -156,7 +156,7 @@ void MotionTally::AddStandstill(const MotionSample& sample) {
   const double stood = sample.time - still_since_;
   if (stood < kPatience * (1.0 - kRounding) || stood <= stuck_time_) return;
   stuck_time_ = stood;
-  stuck_link_ = stuck_obstacle_ = models::Name();
+  // What blocked may be gone by the time that the arm goes on.
   if (sample.proximities == nullptr || sample.proximities->proximities.empty()) return;
   const auto& near = sample.proximities->proximities;
   const auto nearest = std::min_element(

@@ -37,10 +37,10 @@ splice() {
   rm "$part"
 }
 
-# Runs a campaign; that some runs miss what their file expects (exit status 3) is what it is for.
-sweep() {
+# That some runs fail or miss what their file expects (exit status 1, 3) is what it is for.
+simulate() {
   local status=0
-  "$simulator" sweep "$@" > /dev/null || status=$?
+  "$simulator" "$@" || status=$?
   [ "$status" -eq 0 ] || [ "$status" -eq 3 ] || [ "$status" -eq 1 ] || exit "$status"
 }
 
@@ -49,7 +49,7 @@ foresight() {
   local results=$out/$1/results.jsonl plans=$out/$1/foresight.jsonl seed
   touch "$plans"
   for seed in $(grep '"combination":0,' "$results" | head -n "$2" | sed 's/.*"seed":\([0-9]*\).*/\1/'); do
-    grep -q "\"seed\":$seed," "$plans" || "$simulator" plan "diagrams/scenarios/$1.yaml" --seed "$seed" >> "$plans"
+    grep -q "\"seed\":$seed," "$plans" || "$simulator" plan "diagrams/scenarios/$1.yaml" -s "simulator.seed=$seed" -s parameters.avoidance=recommended >> "$plans"
   done
   awk '
     function number(key) { return match($0, "\"" key "\":-?[0-9.e-]+") ? substr($0, RSTART + length(key) + 3, RLENGTH - length(key) - 3) : "" }
@@ -70,13 +70,14 @@ methods=$(cd diagrams/parts && ls avoidance_*.yaml | sed 's/avoidance_\(.*\)\.ya
 for family in "${families[@]}"; do
   file=diagrams/scenarios/$family.yaml
   echo "$family: ${samples[$family]} scenarios, seed $seed, methods $methods" >&2
-  sweep "$file" --samples "${samples[$family]}" --seed "$seed" -o "$out/$family" \
-    --vary "parameters.avoidance=$methods"
-  "$simulator" merge "$out/$family" --markdown | splice "$family"
+  simulate sweep "$file" --samples "${samples[$family]}" --seed "$seed" -o "$out/$family" \
+    --vary "parameters.avoidance=$methods" > /dev/null
+  simulate merge "$out/$family" --markdown | splice "$family"
   "$simulator" plot --figure method-comparison "$out/$family" -o "docs/methods-$family.svg"
   [ "$family" != random_moving ] || foresight "$family" "${FORESIGHT:-60}" | splice foresight
   [ "$family" = random_static ] || continue
-  sweep "$file" --samples "${samples[$family]}" --seed "$seed" -o "$out/mapping" \
-    -s parameters.avoidance=report --vary parameters.jacobian_transpose_method_classic=false,true
-  "$simulator" merge "$out/mapping" --markdown | splice mapping
+  simulate sweep "$file" --samples "${samples[$family]}" --seed "$seed" -o "$out/mapping" \
+    -s parameters.avoidance=report \
+    --vary parameters.jacobian_transpose_method_classic=false,true > /dev/null
+  simulate merge "$out/mapping" --markdown | splice mapping
 done

@@ -56,11 +56,11 @@ std::string ClearanceLine(const ordered_json& metrics, bool colour) {
 }
 
 /// Where the arm stood for long, if it did: at the goal it need not have ended.
-std::string Standstill(const ordered_json& metrics) {
+std::string Standstill(const ordered_json& metrics, bool reached) {
   const auto& time = metrics.value("stuck_time", ordered_json());
   if (!time.is_number() || time.get<double>() == 0.0) return "";
   const auto& pair = metrics["stuck_pair"];
-  return fmt::format("; STUCK for {:.3g} s, {}", time.get<double>(),
+  return fmt::format("; {} for {:.3g} s, {}", reached ? "held up" : "STUCK", time.get<double>(),
                      pair.is_array() ? fmt::format("nearest {} to {}", pair[0].get<std::string>(),
                                                    pair[1].get<std::string>())
                                      : std::string("nothing within reach"));
@@ -73,7 +73,7 @@ std::string GoalLine(const ordered_json& metrics, bool colour) {
   const std::string arrival =
       off < kArrived ? Good("reached", colour) + fmt::format(": {:.2g} rad off", off)
                      : Bad("NOT REACHED", colour) + fmt::format(": {:.3g} rad off", off);
-  return Line("goal", arrival + Standstill(metrics));
+  return Line("goal", arrival + Standstill(metrics, off < kArrived));
 }
 
 std::string MotionLine(const ordered_json& metrics) {

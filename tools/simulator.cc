@@ -86,7 +86,8 @@ class CommandLine {
     run->add_option("-s,--set", run_.overrides, "PATH=VALUE: override a value of the file")
         ->allow_extra_args(false);
     run->add_option("-t,--duration", run_.duration, "seconds to simulate, instead of the file's");
-    run->add_option("--seed", run_.seed, "seed of everything random")->check(WholeNumber(19));
+    run->add_option("--seed", run_.seed, "seed of everything random")
+        ->check(WholeNumber(10) & CLI::Range(0.0, 2147483647.0));
     run->add_option("--csv", run_.csv_folder, "folder to write the recorded signals to");
     run->add_option("--record", run_.record, "MCAP file to record the run into");
     run->add_option("--record-compression", run_.record_compression, "none, lz4 or zstd")
@@ -131,9 +132,9 @@ class CommandLine {
     plan->add_option("-s,--set", plan_.overrides, "PATH=VALUE: override a value of the file")
         ->allow_extra_args(false);
     plan->add_option("--seed", plan_.seed, "of the scenario, instead of the file's")
-        ->check(WholeNumber(9));
+        ->check(WholeNumber(10) & CLI::Range(0.0, 2147483647.0));
     plan->add_option("--samples", plan_.samples, "scenarios with this seed and those after it")
-        ->check(WholeNumber(9));
+        ->check(WholeNumber(9) & CLI::PositiveNumber);
     plan->add_option("--starts", plan_.starts, "starts that are relaxed")->check(WholeNumber(5));
     plan->add_option("--model", plan_.model, "the robot");
     plan->add_option("-t,--duration", plan_.duration, "s, instead of the file's");

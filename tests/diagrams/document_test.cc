@@ -137,6 +137,11 @@ TEST_F(DocumentTest, WrongIncludesAreRefused) {
   Load();
   EXPECT_THAT(problems, HasSubstr("main.yaml:1:11: error: include: "));
   EXPECT_THAT(problems, HasSubstr("missing.yaml: error: cannot be read"));
+  folder.Write("method_one.yaml", "");
+  folder.Write("method_two.yaml", "");
+  folder.Write("main.yaml", "include: [method_tow.yaml]\n");
+  Load();
+  EXPECT_THAT(problems, HasSubstr("expected one of method_one.yaml, method_two.yaml"));
   folder.Write("main.yaml", "include: list.yaml\n");
   Load();
   EXPECT_THAT(problems, HasSubstr("expected a list of files"));
