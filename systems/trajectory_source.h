@@ -55,9 +55,10 @@ class TrajectorySource final : public System {
         kTime);
   }
   /// Of requests that speak of a robot.
-  TrajectorySource(const Params& params, const ModelSet& models)
-    requires requires { Request::Resolved(params, models); }
-      : TrajectorySource(Request::Resolved(params, models)) {}
+  TrajectorySource(const Params& params, const ModelSet& models) requires requires {
+    Request::Resolved(params, models);
+  } : TrajectorySource(Request::Resolved(params, models)) {
+  }
 
  private:
   bool sampled() const { return params_.period.positive(); }
