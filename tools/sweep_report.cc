@@ -101,7 +101,7 @@ std::string Rows(const std::vector<CombinationSummary>& columns) {
     before = cells;
     if (!known || repeats) continue;
     text += fmt::format("  {:<24}", measure.name);
-    for (const std::string& cell : cells) text += fmt::format("{:<28}", cell);
+    for (const std::string& cell : cells) text += fmt::format("{:<27} ", cell);
     text.erase(text.find_last_not_of(' ') + 1);
     text += '\n';
   }
