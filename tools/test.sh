@@ -1,20 +1,27 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Sets up a fresh Debian 12 machine and runs all tests as users build them, then those that read
-# foreign files (diagrams, robots, meshes) once more under the address and undefined-behaviour
-# sanitizers. `ctest --preset debug` runs everything under them.
+# foreign files once more: robots and meshes under the address and undefined-behaviour sanitizers,
+# diagrams under valgrind, which needs no second build. `ctest --preset debug` runs everything under
+# the sanitizers.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 jobs=$(nproc)
 
-EXTRA_PACKAGES="chromium fonts-dejavu-core" tools/setup.sh release
+EXTRA_PACKAGES="chromium fonts-dejavu-core libc6-dbg valgrind" tools/setup.sh release
 ctest --preset release -j "$jobs"
 
-hostile=(yaml_reader_test expression_test document_test loader_test models_robot_test models_geometry_test)
+hostile=(models_robot_test models_geometry_test)
 tools/setup.sh debug "${hostile[@]}"
 for test in "${hostile[@]}"; do
   echo "$test under sanitizers"
   "$(find build/debug/tests -type f -name "$test")" --gtest_brief=1
+done
+
+for test in expression_test document_test loader_test; do
+  echo "$test under valgrind"
+  valgrind -q --error-exitcode=1 \
+    "$(find build/release/tests -type f -name "$test")" --gtest_brief=1
 done
 
 if command -v chromium > /dev/null && [ -f build/release/tools/viewer/viewer.html ]; then
