@@ -8,6 +8,7 @@
 #include <memory>
 #include <numbers>
 #include <span>
+#include <string>
 
 #include "models/error.h"
 #include "models/planning/clearance.h"
@@ -23,6 +24,12 @@ namespace {
 using testing::HasSubstr;
 
 constexpr double kPi = std::numbers::pi;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr int kManyPoses = 300;  // each takes milliseconds
+#else
+constexpr int kManyPoses = 10000;
+#endif
 
 RobotModel Arm(const std::string& name) {
   return LoadUrdf(ProductFile("robots/" + name + "/" + name + ".urdf"));
@@ -98,8 +105,9 @@ TEST_P(ArmTest, ReachesWhatItReachedBefore) {
   const RobotModel model = Arm(GetParam());
   Random random(3);
   const Eigen::VectorXd start = Eigen::VectorXd::Constant(model.num_positions(), 0.3);
+  const int poses = std::string(GetParam()) == "lwr4" ? kManyPoses : 300;
   int reached = 0;
-  for (int trial = 0; trial < 300; ++trial) {
+  for (int trial = 0; trial < poses; ++trial) {
     const Eigen::Isometry3d X_WG = TipPose(model, PostureWithin(model, random));
     const PostureSolution found = SolveTip(model, X_WG, start);
     ExpectWithinLimits(model, found.q);
@@ -110,7 +118,7 @@ TEST_P(ArmTest, ReachesWhatItReachedBefore) {
     EXPECT_EQ(found.reached, found.position_error <= 1e-6 && found.rotation_error <= 1e-6);
     if (found.reached) ++reached;
   }
-  EXPECT_GE(reached, 297);
+  EXPECT_GE(reached, 0.99 * poses);
 }
 
 TEST_P(ArmTest, ReachesPosesAtItsLimits) {
