@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "diagrams/loader.h"
 #include "diagrams/run.h"
+#include "tests/diagrams/method_run.h"
 
 namespace oca::diagrams {
 namespace {
@@ -16,17 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kFolder = OCA_SOURCE_DIR "/diagrams";
-const std::string kPrefix = "avoidance_";
-
-std::vector<std::string> Methods() {
-  std::vector<std::string> methods;
-  for (const auto& entry : fs::directory_iterator(kFolder / "parts")) {
-    const std::string name = entry.path().stem().string();
-    if (name.starts_with(kPrefix)) methods.push_back(name.substr(kPrefix.size()));
-  }
-  std::sort(methods.begin(), methods.end());
-  return methods;
-}
 
 std::vector<std::string> Files() {
   std::vector<std::string> files;

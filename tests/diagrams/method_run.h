@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "diagrams/loader.h"
+#include "framework/dynamic_port.h"
+#include "framework/port_access.h"
+#include "framework/simulator.h"
+
+namespace oca::diagrams {
+
+/// The METHOD of every parts/avoidance_METHOD.yaml: a new one inherits the tests of all.
+inline std::vector<std::string> Methods() {
+  const std::string prefix = "avoidance_";
+  std::vector<std::string> methods;
+  for (const auto& entry : std::filesystem::directory_iterator(OCA_SOURCE_DIR "/diagrams/parts")) {
+    const std::string name = entry.path().stem().string();
+    if (name.starts_with(prefix)) methods.push_back(name.substr(prefix.size()));
+  }
+  std::sort(methods.begin(), methods.end());
+  return methods;
+}
+
+/// A run of a diagram file with a method, tick by tick.
+class MethodRun {
+ public:
+  MethodRun(const std::string& file, const std::string& method, std::vector<Override> overrides)
+      : loaded_(Load(file, method, std::move(overrides))),
+        simulator_(*loaded_.diagram, loaded_.integrator) {}
+
+  void Initialize() { simulator_.Initialize(); }
+  void AdvanceTo(double time) { simulator_.AdvanceTo(time); }
+  OutputHandle Find(const std::string& system, const std::string& output) const {
+    return loaded_.diagram->FindSystem(system)->FindOutput(output);
+  }
+  Eigen::VectorXd Vector(const std::string& system, const std::string& output) const {
+    const auto numbers = EvalVector(Find(system, output), simulator_.context());
+    return Eigen::Map<const Eigen::VectorXd>(numbers.data(), std::ssize(numbers));
+  }
+  template <class T>
+  const T& Eval(const std::string& system, const std::string& output) const {
+    return Output<T>{Find(system, output)}.Eval(simulator_.context());
+  }
+  const LoadedDiagram& loaded() const { return loaded_; }
+
+ private:
+  static LoadedDiagram Load(const std::string& file, const std::string& method,
+                            std::vector<Override> overrides) {
+    overrides.push_back({"parameters.avoidance", method});
+    return LoadDiagram(OCA_SOURCE_DIR "/diagrams/" + file + ".yaml", overrides);
+  }
+  LoadedDiagram loaded_;
+  Simulator simulator_;
+};
+
+}  // namespace oca::diagrams
