@@ -10,6 +10,7 @@
 #include "framework/dynamic_port.h"
 #include "framework/port_access.h"
 #include "framework/simulator.h"
+#include "systems/signals.h"
 
 namespace oca::diagrams {
 
@@ -44,6 +45,11 @@ class MethodRun {
   template <class T>
   const T& Eval(const std::string& system, const std::string& output) const {
     return Output<T>{Find(system, output)}.Eval(simulator_.context());
+  }
+  systems::Proximity Nearest() const {
+    const auto& all = Eval<systems::ProximitySet>("distance", "proximities").proximities;
+    return *std::min_element(all.begin(), all.end(),
+                             [](const auto& a, const auto& b) { return a.distance < b.distance; });
   }
   const LoadedDiagram& loaded() const { return loaded_; }
 
