@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -46,8 +47,10 @@ class MethodRun {
   const T& Eval(const std::string& system, const std::string& output) const {
     return Output<T>{Find(system, output)}.Eval(simulator_.context());
   }
+  /// throws std::out_of_range if there is nothing near
   systems::Proximity Nearest() const {
     const auto& all = Eval<systems::ProximitySet>("distance", "proximities").proximities;
+    if (all.empty()) throw std::out_of_range("distance.proximities: got none");
     return *std::min_element(all.begin(), all.end(),
                              [](const auto& a, const auto& b) { return a.distance < b.distance; });
   }
