@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "framework/error.h"
+#include "models/motion/following.h"
 #include "models/robot/kinematics.h"
 #include "systems/link_colliders.h"
 #include "systems/motion_limiter.h"
@@ -14,8 +15,6 @@
 namespace oca::systems {
 namespace {
 
-// Share of the acceleration limit that the return to the request brakes with.
-constexpr double kArrivalShare = 0.5;
 // A way that is as good as none (rad, m).
 constexpr double kNoWay = 0.05;
 // Bounds a velocity that nothing else does, so that the problem is finite (rad/s, m/s).
@@ -70,13 +69,10 @@ void SafetyFilter::FillWish(VectorView request, OptionalVector rate, OptionalVec
   FilterSolution::Workspace& work = *result.workspace;
   const double dt = params_.period.seconds();
   for (Eigen::Index j = 0; j < request.size(); ++j) {
-    const double away = request[j] - work.command[j];
-    const double a = kArrivalShare * model_->acceleration_limits()[j];
-    const double fastest = models::LargestStoppableVelocity(std::fabs(away), a, dt);
-    double wish = std::copysign(std::min(params_.position_gain * std::fabs(away), fastest), away);
-    if (rate) wish += (*rate)[j];
-    if (rate_rate) wish += 0.5 * dt * (*rate_rate)[j];
-    work.qp.wish[j] = wish;
+    const models::JointRequest joint{request[j], rate ? (*rate)[j] : 0.0,
+                                     rate_rate ? (*rate_rate)[j] : 0.0};
+    work.qp.wish[j] = models::FollowingVelocity(joint, work.command[j], params_.position_gain,
+                                                model_->acceleration_limits()[j], dt);
   }
   const double most = l.maxCoeff() + kNoWay;
   for (Eigen::Index j = 0; j < request.size(); ++j) {

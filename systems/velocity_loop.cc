@@ -3,21 +3,16 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "framework/error.h"
-#include "models/motion/stoppable_motion.h"
+#include "models/motion/following.h"
 #include "models/robot/robot_model.h"
 #include "systems/model_links.h"
 #include "systems/require.h"
 
 namespace oca::systems {
 namespace {
-
-// Share of the acceleration limit that the return to the request brakes with.
-constexpr double kArrivalShare = 0.5;
 
 VelocityLoop::Params Checked(const VelocityLoop::Params& params) {
   RequirePositive("period", params.period);
@@ -68,12 +63,10 @@ void VelocityLoop::CalcWish(VectorView request, OptionalVector rate, OptionalVec
                             MutableVectorView out) const {
   const double dt = params_.period.seconds();
   for (Eigen::Index j = 0; j < request.size(); ++j) {
-    const double away = request[j] - (sent ? (*sent)[j] : c[j] + dt * u[j]);
-    const double a = kArrivalShare * model_->acceleration_limits()[j];
-    const double fastest = models::LargestStoppableVelocity(std::fabs(away), a, dt);
-    out[j] = std::copysign(std::min(params_.position_gain * std::fabs(away), fastest), away);
-    if (rate) out[j] += (*rate)[j];
-    if (rate_rate) out[j] += 0.5 * dt * (*rate_rate)[j];
+    const models::JointRequest joint{request[j], rate ? (*rate)[j] : 0.0,
+                                     rate_rate ? (*rate_rate)[j] : 0.0};
+    out[j] = models::FollowingVelocity(joint, sent ? (*sent)[j] : c[j] + dt * u[j],
+                                       params_.position_gain, model_->acceleration_limits()[j], dt);
   }
 }
 
