@@ -63,6 +63,19 @@ std::unique_ptr<System> Make(const typename S::Params& params, const systems::Mo
   }
 }
 
+/// A value is missing, as that of an expression which could not be worked out.
+bool HasGap(const Value& value) {
+  if (value.null()) return true;
+  if (const Value::List* const list = value.list()) {
+    return std::any_of(list->begin(), list->end(), HasGap);
+  }
+  if (const Value::Map* const map = value.map()) {
+    return std::any_of(map->begin(), map->end(),
+                       [](const Value::Entry& entry) { return HasGap(entry.value); });
+  }
+  return false;
+}
+
 template <class S>
 CatalogueRow Row(const char* type) {
   using Params = typename S::Params;
@@ -77,12 +90,16 @@ CatalogueRow Row(const char* type) {
     ReadFields(value, FieldsOf<Params>(), where, &params, own);
     problems.Add(own);
     if (!own.empty()) return nullptr;
+    const auto refuse = [&](const std::exception& error) {
+      if (!problems.empty() && HasGap(value)) return;  // which has been reported
+      problems.Add(value.location(), (where.empty() ? "" : where + ": ") + error.what());
+    };
     try {
       return Make<S>(params, models);
     } catch (const ConfigError& error) {
-      problems.Add(value.location(), (where.empty() ? "" : where + ": ") + error.what());
+      refuse(error);
     } catch (const models::ModelError& error) {
-      problems.Add(value.location(), (where.empty() ? "" : where + ": ") + error.what());
+      refuse(error);
     }
     return nullptr;
   };

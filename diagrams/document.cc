@@ -116,15 +116,23 @@ class Includer {
     return kin.empty() ? "" : fmt::format("; expected one of {}", fmt::join(kin, ", "));
   }
 
-  /// Every diagram file of a folder.
-  void AddCandidates(const fs::path& folder) {
+  /// Every diagram file of a folder; those that fit `pattern`, the name of one with `${...}` in it,
+  /// are alternatives.
+  void AddCandidates(const fs::path& folder, const std::string& pattern) {
     std::error_code error;
     std::vector<fs::path> found;
     for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
       if (at->path().extension() == ".yaml") found.push_back(fs::weakly_canonical(at->path()));
     }
     std::sort(found.begin(), found.end());
-    for (const fs::path& file : found) AddSource(file);
+    const std::string head = pattern.substr(0, pattern.find("${"));
+    const std::string tail = pattern.substr(pattern.rfind('}') + 1);
+    for (const fs::path& file : found) {
+      AddSource(file);
+      const std::string name = file.filename().string();
+      if (head == pattern || !name.starts_with(head) || !name.ends_with(tail)) continue;
+      sources_.alternatives.push_back(file);
+    }
   }
 
   /// Texts among the parameters of a file, behind those that win over them.
@@ -191,7 +199,9 @@ class Includer {
         const std::string name = FileName(*item.string(), item.location());
         if (name.empty()) continue;
         Value included = Load(folder / name, item.location());
-        if (name != *item.string()) AddCandidates((folder / name).parent_path());
+        if (name != *item.string()) {
+          AddCandidates((folder / name).parent_path(), fs::path(*item.string()).filename());
+        }
         if (included.map() != nullptr) {
           Merge(base, std::move(included));
         } else if (!included.null()) {

@@ -22,7 +22,8 @@ struct DocumentSources {
   /// Those that were read, the first the diagram file; and what lies beside one that a parameter
   /// chose, as the parameter may choose it next time.
   std::vector<std::filesystem::path> files;
-  std::vector<std::string> choosing;  ///< parameters that chose files
+  std::vector<std::string> choosing;                ///< parameters that chose files
+  std::vector<std::filesystem::path> alternatives;  ///< what they could have chosen, and chose
 };
 
 /// A diagram file as one tree: the files it includes first, itself over them, overrides over all.

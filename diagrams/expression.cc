@@ -39,6 +39,10 @@ bool IsName(const std::string& text) {
   return true;
 }
 
+bool IsQuoted(const std::string& text) {
+  return text.size() >= 2 && text.front() == '\'' && text.find('\'', 1) == text.size() - 1;
+}
+
 /// Position of `c` outside of parentheses, quotes and nested ternaries; npos if there is none.
 std::size_t FindTop(const std::string& text, char c, std::size_t from = 0) {
   int depth = 0, ternaries = 0;
@@ -123,7 +127,7 @@ Expressions::Expressions(const Value& parameters, Problems& problems) : problems
       continue;
     }
     written_[entry.key] = &entry.value;
-    places_[entry.key] = entry.location;
+    places_[entry.key] = {entry.location, entry.value.location()};
   }
   for (const auto& [name, value] : written_) Parameter(name, value->location());
 }
@@ -164,13 +168,21 @@ const Value* Expressions::Use(const std::string& name, const Location& location)
   return nullptr;
 }
 
-std::vector<std::string> Expressions::Unused() const {
+std::vector<std::string> Expressions::Unused(const std::set<std::string>& known) const {
   std::vector<std::string> lines;
-  const std::vector<std::string> used(used_.begin(), used_.end());
+  std::vector<std::string> used(used_.begin(), used_.end());
+  used.insert(used.end(), known.begin(), known.end());
   for (const auto& [name, place] : places_) {
     if (used_.contains(name)) continue;
-    lines.push_back(fmt::format("{}: warning: parameters.{}: nothing uses it{}", place.ToString(),
-                                name, DidYouMean(name, used)));
+    const auto& source = place.value.file;
+    const bool overridden = source && source->starts_with("-s ");
+    if (!known.contains(name)) {
+      lines.push_back(fmt::format("{}: warning: parameters.{}: nothing uses it{}",
+                                  place.key.ToString(), name, DidYouMean(name, used)));
+    } else if (overridden) {
+      lines.push_back(
+          fmt::format("{}: warning: nothing uses it with the parts that are chosen", *source));
+    }
   }
   return lines;
 }
@@ -244,8 +256,7 @@ Value Expressions::Evaluate(const std::string& expression, const Location& locat
                              : expression.substr(colon + 1)),
                     location, depth + 1);
   }
-  if (expression.size() >= 2 && expression.front() == '\'' &&
-      expression.find('\'', 1) == expression.size() - 1) {
+  if (IsQuoted(expression)) {
     return Value(expression.substr(1, expression.size() - 2), location);
   }
   if (expression == "true" || expression == "false") return Value(expression == "true", location);
@@ -253,7 +264,45 @@ Value Expressions::Evaluate(const std::string& expression, const Location& locat
     const Value* const value = Use(expression, location);
     return value == nullptr ? Value({}, location) : Value(value->data(), location);
   }
+  if (const auto compared = Comparison(expression, location, depth)) return *compared;
   return Arithmetic(expression, location);
+}
+
+std::optional<Value> Expressions::Comparison(const std::string& expression,
+                                             const Location& location, int depth) {
+  for (const char* const sign : {"==", "!="}) {
+    const std::size_t at = FindTop(expression, sign[0]);
+    if (at == std::string::npos || expression.compare(at, 2, sign) != 0) continue;
+    const std::string left = Trim(expression.substr(0, at));
+    const std::string right = Trim(expression.substr(at + 2));
+    if (!IsQuoted(left) && !IsQuoted(right)) continue;
+    const Value a = Evaluate(left, location, depth + 1);
+    const Value b = Evaluate(right, location, depth + 1);
+    if (a.null() || b.null()) return Value({}, location);
+    if (a.string() != nullptr && b.string() != nullptr) {
+      return Value((*a.string() == *b.string()) == (sign[0] == '='), location);
+    }
+    problems_.Add(location, fmt::format("${{{}}}: got {}; expected a text", expression,
+                                        (a.string() == nullptr ? a : b).Show()));
+    return Value({}, location);
+  }
+  return std::nullopt;
+}
+
+void Expressions::SayOnce(const Location& location, const std::string& what) {
+  if (said_.insert(what).second) problems_.Add(location, what);
+}
+
+void Expressions::SayNotFinite(const std::string& expression, const std::set<std::string>& names,
+                               const Location& location) {
+  std::string causes;
+  for (const std::string& name : names) {
+    const auto value = resolved_.find(name);
+    if (value == resolved_.end()) continue;
+    causes += fmt::format("; {} is {} ({})", name, value->second.Show(),
+                          value->second.location().ToString());
+  }
+  SayOnce(location, fmt::format("${{{}}}: the result is not finite{}", expression, causes));
 }
 
 Value Expressions::Arithmetic(const std::string& expression, const Location& location) {
@@ -282,8 +331,8 @@ Value Expressions::Arithmetic(const std::string& expression, const Location& loc
       double number = 0.0;
       if (value->boolean() != nullptr) number = *value->boolean() ? 1.0 : 0.0;
       if (value->boolean() == nullptr && !value->number(number)) {
-        problems_.Add(location, fmt::format("${{{}}}: '{}' is {}; expected a number", expression,
-                                            name, value->Show()));
+        SayOnce(location, fmt::format("${{{}}}: '{}' is {}; expected a number", expression, name,
+                                      value->Show()));
         return Value({}, location);
       }
       parser.DefineConst(name, number);
@@ -298,7 +347,7 @@ Value Expressions::Arithmetic(const std::string& expression, const Location& loc
       return Value({}, location);
     }
     if (!std::isfinite(result)) {
-      problems_.Add(location, fmt::format("${{{}}}: the result is not finite", expression));
+      SayNotFinite(expression, names, location);
       return Value({}, location);
     }
     if (IsLogical(expression)) return Value(result != 0.0, location);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "diagrams/catalogue.h"
@@ -120,7 +121,29 @@ class Loader {
       resolved.push_back({entry.key, entry.location, expressions.Resolve(entry.value)});
     }
     loaded_.warnings = expressions.Unused();
+    if (!loaded_.warnings.empty()) loaded_.warnings = expressions.Unused(KnownToAlternatives());
     return Value(std::move(resolved), document.location());
+  }
+
+  /// Parameters that a part knows which the file could have chosen, as one of avoidance_*.yaml: a
+  /// file says for all of them what each may need, and need not use all that they offer.
+  std::set<std::string> KnownToAlternatives() const {
+    std::set<std::string> known;
+    for (const fs::path& file : sources_.alternatives) {
+      Problems ignored;  // of a part on its own
+      try {
+        const Value part = LoadFiles(file, {}, ignored);
+        const Value* const parameters = part.Find("parameters");
+        Expressions expressions(parameters == nullptr ? Value() : *parameters, ignored);
+        expressions.Resolve(part);
+        known.insert(expressions.used().begin(), expressions.used().end());
+        for (const Value::Entry& entry : SectionOf(part, "parameters", ignored)) {
+          known.insert(entry.key);
+        }
+      } catch (const ConfigError&) {  // not to be read; whoever chooses it is told
+      }
+    }
+    return known;
   }
 
   const Value::Map& Map(const char* key) { return SectionOf(root_, key, problems_); }

@@ -213,6 +213,33 @@ TEST(ExpressionTest, ResultsThatAreNotFiniteAreRefused) {
   }
 }
 
+TEST(ExpressionTest, AResultThatIsNotFiniteIsToldOnceWithWhatItComesFrom) {
+  const YamlText document(
+      "parameters: {rate: 0, reach: 2}\nx: [\"${reach / rate}\", \"${reach / rate}\"]\n");
+  Problems problems;
+  Expressions expressions(At(document.value, "parameters"), problems);
+  expressions.Resolve(At(document.value, "x"));
+  ASSERT_EQ(problems.all().size(), 1u);
+  EXPECT_THAT(problems.all().front(),
+              HasSubstr("f.yaml:2:5: error: ${reach / rate}: the result is not finite; rate is 0 "
+                        "(f.yaml:1:20); reach is 2 (f.yaml:1:30)"));
+}
+
+TEST(ExpressionTest, TextsAreComparedWhole) {
+  const std::string parameters = "{method: report, other: \"${method}\", speed: 3}";
+  for (const char* text :
+       {"${method == 'report'}", "${'report' == method}", "${method != 'reports'}",
+        "${other=='report' ? true : false}", "${(method == 'report')}", "${'a' != 'b'}"}) {
+    const Resolved resolved(parameters, text);
+    EXPECT_EQ(resolved.problems, "") << text;
+    ASSERT_NE(resolved.value.boolean(), nullptr) << text;
+    EXPECT_TRUE(*resolved.value.boolean()) << text;
+  }
+  EXPECT_EQ(NumberOf("${method == 'relaxed' ? 1 : 2}", parameters), 2.0);
+  EXPECT_THAT(ProblemOf("${speed == 'report'}", parameters), HasSubstr("got 3; expected a text"));
+  EXPECT_THAT(ProblemOf("${spede == 'report'}", parameters), HasSubstr("did you mean 'speed'?"));
+}
+
 TEST(ExpressionTest, WhatIsNoExpressionIsRefused) {
   for (const char* text :
        {"${", "${a", "${a + ", "${}", "${ }", "${(a}", "${a)}", "${a b}", "${a ? 1}", "${'a}",
@@ -281,6 +308,8 @@ TEST(ExpressionTest, AParameterThatNothingUsesIsNamedWithItsNearest) {
   ASSERT_EQ(expressions.Unused().size(), 1u);
   EXPECT_THAT(expressions.Unused()[0],
               HasSubstr("parameters.raech: nothing uses it; did you mean 'reach'?"));
+  EXPECT_THAT(expressions.Unused({"raech"}), testing::IsEmpty());
+  EXPECT_EQ(expressions.Unused({"raeching"}).size(), 1u);
 }
 
 }  // namespace

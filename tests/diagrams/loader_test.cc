@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <algorithm>
+
 #include "diagrams/run.h"
 #include "framework/error.h"
 #include "models/robot/robot_model.h"
@@ -62,6 +64,55 @@ std::string Chain(const std::string& from = "", const std::string& to = "") {
 
 const char* const kArm =
     "models: {arm: {urdf: package://lwr4/lwr4.urdf, srdf: package://lwr4/lwr4.srdf}}\n";
+
+/// Chain() with its gain from part_low.yaml or part_high.yaml, which know `low`, and `high` and
+/// `spare`.
+std::string ChosenChain(const test::TemporaryFolder& folder, const std::string& parameters) {
+  folder.Write("part_low.yaml", "parameters: {low: 3}\nsystems: {gain: {gain: \"${low}\"}}\n");
+  folder.Write("part_high.yaml",
+               "parameters: {high: 9, spare: 1}\nsystems: {gain: {gain: \"${high}\"}}\n");
+  return "include: [\"part_${part}.yaml\"]\nparameters: {part: low, " + parameters + "}\n" +
+         Chain(", gain: 3", "");
+}
+
+TEST_F(LoaderTest, AParameterOfAPartThatIsNotChosenIsNoMistakeButAMisspeltOneIs) {
+  for (const char* known : {"low: 4", "high: 4", "spare: 4", "low: 4, high: 5"}) {
+    EXPECT_THAT(Load(ChosenChain(folder, known)).warnings, testing::IsEmpty()) << known;
+  }
+  const auto warnings = Load(ChosenChain(folder, "hihg: 4")).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_THAT(warnings[0], HasSubstr("d.yaml:2:25: warning: parameters.hihg: nothing uses it; did "
+                                     "you mean 'high'?"));
+}
+
+TEST_F(LoaderTest, AnOverrideOfAParameterThatOnlyAnotherPartUsesIsToldToHaveNoEffect) {
+  const std::string text = ChosenChain(folder, "high: 4");
+  EXPECT_THAT(Load(text, {{"parameters.low", "5"}}).warnings, testing::IsEmpty());
+  const auto warnings = Load(text, {{"parameters.high", "5"}}).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0],
+            "-s parameters.high: warning: nothing uses it with the parts that are chosen");
+}
+
+TEST_F(LoaderTest, OneWrongParameterIsOneErrorHoweverManySystemsUseIt) {
+  const std::string text =
+      "parameters: {rate: 0}\n"
+      "systems:\n"
+      "  a: {type: ZeroOrderHold, period: \"${1 / rate}\"}\n"
+      "  b: {type: ZeroOrderHold, period: \"${1 / rate}\"}\n"
+      "  c: {type: ZeroOrderHold, period: 0}\n"
+      "connections:\n"
+      "  - a.out -> b.in\n";
+  const std::string refusal = Refusal(text);
+  EXPECT_THAT(refusal, HasSubstr("d.yaml:3:36: error: ${1 / rate}: the result is not finite; rate "
+                                 "is 0 (d.yaml:1:20)"));
+  EXPECT_THAT(refusal, HasSubstr("systems.c"));  // has an error of its own
+  EXPECT_EQ(std::count(refusal.begin(), refusal.end(), '\n'), 1) << refusal;
+  std::string word = text;
+  word.replace(word.find("rate: 0"), 7, "rate: x");
+  EXPECT_THAT(Refusal(word), HasSubstr("${1 / rate}: 'rate' is 'x'; expected a number\n"));
+  EXPECT_EQ(Refusal(word).find("rate}"), Refusal(word).rfind("rate}"));
+}
 
 TEST_F(LoaderTest, LoadsWhatIsRight) {
   const LoadedDiagram loaded = Load(Chain());
