@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include "diagrams/live/page.h"
@@ -11,12 +12,15 @@
 namespace oca::tools {
 namespace {
 
-/// Before the run, so that nobody waits for a report that cannot be written.
+/// Before the run, so that nobody waits for a report that cannot be written; leaves no empty file.
 std::string Writable(const std::string& file) {
+  std::error_code ignored;
+  const bool there = std::filesystem::exists(file, ignored);
   if (!std::ofstream(file, std::ios::binary | std::ios::app)) {
     throw ConfigError(fmt::format(
         "--report: file; got {}, which cannot be written; expected one that can", file));
   }
+  if (!there) std::filesystem::remove(file, ignored);
   return file;
 }
 
@@ -24,8 +28,8 @@ std::string Writable(const std::string& file) {
 
 ReportWriter::ReportWriter(const std::string& file, const diagrams::LoadedDiagram& loaded,
                            const std::vector<diagrams::Override>& overrides, Log* log)
-    : file_(Writable(file)),
-      page_(live::LoadPage()),
+    : page_(live::LoadPage()),
+      file_(Writable(file)),
       sink_(bytes_, record::Compression::kZstd),
       recorder_(loaded,
                 {.version = OCA_VERSION,

@@ -25,8 +25,8 @@ class ReportWriter {
   void Finish();
 
  private:
-  std::string file_;
   std::string page_;
+  std::string file_;
   std::ostringstream bytes_;
   record::McapSink sink_;
   record::RunRecorder recorder_;
