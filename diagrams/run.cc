@@ -36,8 +36,8 @@ std::optional<double> ValueOf(const Expectation& expectation, const Context& con
 
 std::string BoundText(const ExpectParams& bound) {
   std::vector<std::string> parts;
-  if (bound.at_least) parts.push_back(fmt::format(">= {}", *bound.at_least));
-  if (bound.at_most) parts.push_back(fmt::format("<= {}", *bound.at_most));
+  if (bound.at_least) parts.push_back(fmt::format(">= {:.6g}", *bound.at_least));
+  if (bound.at_most) parts.push_back(fmt::format("<= {:.6g}", *bound.at_most));
   if (bound.equal) parts.push_back(fmt::format("= {} within {}", *bound.equal, bound.within));
   std::string text;
   for (const std::string& part : parts) text += (text.empty() ? "" : " and ") + part;

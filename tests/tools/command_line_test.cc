@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -42,6 +43,36 @@ TEST_F(CommandLineTest, ARunThatMeetsItsExpectationsEndsWithZero) {
   for (const char* part : {"static_test", "clear", "reached", "met", "times real time"}) {
     EXPECT_THAT(ran.out, HasSubstr(part));
   }
+}
+
+TEST_F(CommandLineTest, AMethodIsJudgedByWhatItKeeps) {
+  const Ran filter = run("$S run diagrams/static_test.yaml -s parameters.avoidance=safety_filter");
+  EXPECT_EQ(filter.status, 0);
+  EXPECT_EQ(filter.err, "");
+  EXPECT_THAT(filter.out, HasSubstr("met min_distance >= 0.0446 "));  // 0.05 less its margin
+  const Ran wider =
+      run("$S run diagrams/static_test.yaml -s parameters.avoidance=safety_filter "
+          "-s parameters.safe_distance=0.1");
+  EXPECT_EQ(wider.status, 0);
+  EXPECT_THAT(wider.out, HasSubstr("met min_distance >= 0.0946 "));
+}
+
+TEST_F(CommandLineTest, ARateOfZeroIsOneError) {
+  const Ran ran = run("$S run diagrams/static_test.yaml -s parameters.rate=0");
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_THAT(ran.err, HasSubstr("${1 / rate}: the result is not finite; rate is 0 (-s "));
+  EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+}
+
+TEST_F(CommandLineTest, AReportWithoutItsPageLeavesNoFile) {
+  const std::string file = (run.folder().path() / "r.html").string();
+  std::filesystem::create_directory(run.folder().path() / "bin");  // with no page beside it
+  const Ran ran = run("cp $S " + (run.folder().path() / "bin").string() + " && " +
+                      (run.folder().path() / "bin/simulator").string() +
+                      " run diagrams/static_test.yaml -t 0.1 --report " + file);
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_THAT(ran.err, HasSubstr("viewer page: file; got none of"));
+  EXPECT_FALSE(std::filesystem::exists(file));
 }
 
 TEST_F(CommandLineTest, WarnsOfALoopThatMustChatterInOneLineAndRuns) {
