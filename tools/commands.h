@@ -54,11 +54,14 @@ struct PlanArguments {
   std::optional<int> seed;         ///< of the first sample; none: the file's
   int samples{1};                  ///< seeds seed, seed + 1, ...
   int starts{30};
-  std::string model{"arm"};
+  std::string model;               ///< empty: the only one that is judged
   std::optional<double> duration;  ///< s; instead of the file's
 };
-/// Whether an optimiser that knows the whole script finds a clear motion: a JSON object a line.
+/// Whether an optimiser that knows the whole script finds a clear motion: a JSON object a line,
+/// as docs/plan.md says. kExpectationNotMet if it finds none for any of the samples.
 int PlanCommand(const PlanArguments& arguments);
+/// What it prints and how it ends, for its help.
+const char* PlanFooter();
 
 struct GraphArguments {
   std::string file;

@@ -37,7 +37,8 @@ splice() {
   rm "$part"
 }
 
-# That some runs fail or miss what their file expects (exit status 1, 3) is what it is for.
+# That some runs fail, miss what their file expects or find no clear motion (exit status 1, 3) is
+# what it is for.
 simulate() {
   local status=0
   "$simulator" "$@" || status=$?
@@ -49,7 +50,7 @@ foresight() {
   local results=$out/$1/results.jsonl plans=$out/$1/foresight.jsonl seed
   touch "$plans"
   for seed in $(grep '"combination":0,' "$results" | head -n "$2" | sed 's/.*"seed":\([0-9]*\).*/\1/'); do
-    grep -q "\"seed\":$seed," "$plans" || "$simulator" plan "diagrams/scenarios/$1.yaml" -s "simulator.seed=$seed" -s parameters.avoidance=recommended >> "$plans"
+    grep -q "\"seed\":$seed," "$plans" || simulate plan "diagrams/scenarios/$1.yaml" -s "simulator.seed=$seed" -s parameters.avoidance=recommended >> "$plans"
   done
   awk '
     function number(key) { return match($0, "\"" key "\":-?[0-9.e-]+") ? substr($0, RSTART + length(key) + 3, RLENGTH - length(key) - 3) : "" }

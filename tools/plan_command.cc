@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <iostream>
@@ -9,84 +6,43 @@
 
 #include "diagrams/loader.h"
 #include "framework/error.h"
-#include "framework/port_access.h"
+#include "models/error.h"
 #include "models/planning/clairvoyant.h"
-#include "systems/request_ahead.h"
-#include "systems/signals.h"
 #include "tools/commands.h"
+#include "tools/plan_scene.h"
 
 namespace oca::tools {
 namespace {
 
-using Eigen::VectorXd;
+using nlohmann::ordered_json;
 
-/// What the systems `spline` and `obstacles` of a loaded file say about all its time.
-class Script {
- public:
-  explicit Script(const diagrams::LoadedDiagram& loaded)
-      : context_(loaded.diagram->MakeContext()),
-        ahead_{Port(loaded, "spline", "ahead")},
-        obstacles_{Port(loaded, "obstacles", "obstacles")} {
-    request_ = ahead_.Eval(context_).trajectory;
-    const double duration = loaded.simulator.duration;
-    for (int k = 0; k * kStep <= duration; ++k) Look(k * kStep);
+constexpr double kArrived = 0.01;  // rad, m; of all joints
+
+ordered_json Describe(const models::RobotModel& model, const models::ClairvoyantPlan& plan) {
+  const models::MotionVerdict& verdict = plan.verdict;
+  const bool near = verdict.min_distance < models::kClairvoyantReach;
+  ordered_json json{{"clear", verdict.clear()},
+                    {"min_distance", verdict.min_distance},
+                    {"min_distance_pair", nullptr},
+                    {"min_distance_time", nullptr},
+                    {"arrived", verdict.final_error <= kArrived},
+                    {"final_error", verdict.final_error},
+                    {"position", verdict.position},
+                    {"speed", verdict.speed},
+                    {"acceleration", verdict.acceleration},
+                    {"speed_judged", model.velocity_limits().allFinite()},
+                    {"acceleration_judged", model.acceleration_limits().allFinite()}};
+  if (model.jerk_limits().array().isFinite().any()) json["jerk_judged"] = false;
+  if (near) {
+    json["min_distance_pair"] = {verdict.link.text(), verdict.body.text()};
+    json["min_distance_time"] = verdict.time;
   }
+  json["start"] = models::kBandStartNames[static_cast<std::size_t>(plan.start)];
+  json["tries"] = plan.tries;
+  return json;
+}
 
-  const systems::Trajectory& request() const { return *request_; }
-
-  std::vector<models::BandBody> Bodies() {
-    std::vector<models::BandBody> bodies;
-    for (const auto& [body, moves] : seen_) {
-      bodies.push_back({body->id, body->collider,
-                        [this, body](double time) { return PoseOf(*body, time); }, !moves});
-    }
-    return bodies;
-  }
-
- private:
-  static constexpr double kStep = 0.05;  // s, at which the script is searched for bodies
-
-  static OutputHandle Port(const diagrams::LoadedDiagram& loaded, const char* system,
-                           const char* port) {
-    const System* const found = loaded.diagram->FindSystem(system);
-    if (found == nullptr) {
-      throw ConfigError(
-          fmt::format("{}: no system of that name; expected one with the output {}", system, port));
-    }
-    return found->FindOutput(port);
-  }
-  void Look(double time) {
-    context_.SetTime(time);
-    for (const systems::Obstacle& obstacle : obstacles_.Eval(context_).obstacles) {
-      const auto same = std::find_if(seen_.begin(), seen_.end(), [&](const auto& entry) {
-        return entry.first == obstacle.body;
-      });
-      const bool moves = obstacle.linear.norm() + obstacle.angular.norm() > 0.0;
-      if (same == seen_.end()) {
-        seen_.emplace_back(obstacle.body, moves || time > 0.0);
-      } else {
-        same->second = same->second || moves;
-      }
-    }
-  }
-  Eigen::Isometry3d PoseOf(const systems::ObstacleBody& body, double time) {
-    context_.SetTime(time);
-    for (const systems::Obstacle& obstacle : obstacles_.Eval(context_).obstacles) {
-      if (obstacle.body.get() == &body) return obstacle.X_WO;
-    }
-    Eigen::Isometry3d nowhere = Eigen::Isometry3d::Identity();
-    nowhere.translation().x() = 1e4;
-    return nowhere;
-  }
-
-  Context context_;
-  const Output<systems::RequestAhead> ahead_;
-  const Output<systems::ObstacleSet> obstacles_;
-  std::shared_ptr<const systems::Trajectory> request_;
-  std::vector<std::pair<std::shared_ptr<const systems::ObstacleBody>, bool>> seen_;
-};
-
-nlohmann::ordered_json Plan(const PlanArguments& arguments, int seed) {
+ordered_json Plan(const PlanArguments& arguments, int seed) {
   const auto start = std::chrono::steady_clock::now();
   std::vector<diagrams::Override> overrides;
   for (const std::string& text : arguments.overrides) {
@@ -94,41 +50,61 @@ nlohmann::ordered_json Plan(const PlanArguments& arguments, int seed) {
   }
   if (seed >= 0) overrides.push_back({"simulator.seed", std::to_string(seed)});
   const auto loaded = diagrams::LoadDiagram(arguments.file, overrides);
-  Script script(loaded);
-  const auto bodies = script.Bodies();
-  models::ClairvoyantTask task;
-  task.request = [&](double time, int derivative, Eigen::Ref<VectorXd> out) {
-    script.request().Evaluate(time, derivative, out);
-  };
-  task.request_end = script.request().times().back();
-  task.duration = arguments.duration.value_or(loaded.simulator.duration);
-  task.bodies = bodies;
-  task.seed = static_cast<std::uint64_t>(loaded.simulator.seed);
+  const double duration = arguments.duration.value_or(loaded.simulator.duration);
+  const PlanScene scene(loaded, arguments.model, duration);
+  models::ClairvoyantTask task = scene.Task();
   task.starts = arguments.starts;
-  const auto plan = models::PlanClairvoyantly(loaded.models.Get(arguments.model), task);
+  const auto plan = models::PlanClairvoyantly(scene.model(), task);
+  ordered_json json{{"seed", loaded.simulator.seed}};
+  json.update(Describe(*scene.model(), plan));
+  json["model"] = scene.model_name();
+  json["judge"] = scene.judge();
+  json["sees"] = scene.sees();
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-  return {{"seed", loaded.simulator.seed},
-          {"clear", plan.clear},
-          {"min_distance", plan.min_distance},
-          {"speed", plan.speed},
-          {"acceleration", plan.acceleration},
-          {"start", models::kBandStartNames[static_cast<std::size_t>(plan.start)]},
-          {"seconds", wall.count()}};
+  json["seconds"] = wall.count();
+  return json;
 }
 
 }  // namespace
 
+const char* PlanFooter() {
+  return R"(Prints a JSON object a line, one for each sample:
+  seed                 of the scenario
+  clear                a motion was found that touches nothing and keeps the limits of the joints
+  min_distance         m, of that motion, or of the best one found; every millisecond, 0.05 at most
+  min_distance_pair    [link, obstacle]; null if everything is farther
+  min_distance_time    s
+  arrived              it ends within 0.01 of the request
+  final_error          rad, m; largest distance of a joint from the request at the end
+  position             largest share of the way from the middle of a joint's range to its limit
+  speed, acceleration  largest shares of the limits; 1 is at the limit
+  speed_judged, acceleration_judged
+                       all joints of the model have such limits; false: judged without
+  jerk_judged          false, if the model has limits of the jerk: they are not looked at
+  start                what the motion was made from: request, pause, detour, random, path
+  tries                motions that it took; 0: the request itself is clear
+  model, judge         the robot, and the MotionMetrics by which a run of the file is judged
+  sees                 what was looked at: all that the judge's distance block sees, and no more
+  seconds              of computing
+
+Exit status: 0 if all samples are clear, 3 if for one of them no clear motion was found, 2 if the
+file is bad or holds what nobody can know beforehand, 64 for wrong usage. docs/plan.md has more.)";
+}
+
 int PlanCommand(const PlanArguments& arguments) {
+  bool all_clear = true;
   try {
     const int first = arguments.seed.value_or(-1);
     for (int i = 0; i < arguments.samples; ++i) {
-      std::cout << Plan(arguments, first < 0 ? first : first + i).dump() << std::endl;
+      const auto plan = Plan(arguments, first < 0 ? first : first + i);
+      std::cout << plan.dump() << std::endl;
+      all_clear = all_clear && plan.at("clear").get<bool>();
     }
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';
     return kBadInput;
   }
-  return kFine;
+  return all_clear ? kFine : kExpectationNotMet;
 }
 
 }  // namespace oca::tools

@@ -127,7 +127,7 @@ class CommandLine {
 
     CLI::App* const plan = app_.add_subcommand(
         "plan", "say whether an optimiser that knows the whole script finds a clear motion");
-    plan->add_option("FILE", plan_.file, "diagram file with the systems spline and obstacles")
+    plan->add_option("FILE", plan_.file, "diagram file with a request that is known ahead")
         ->required();
     plan->add_option("-s,--set", plan_.overrides, "PATH=VALUE: override a value of the file")
         ->allow_extra_args(false);
@@ -135,9 +135,12 @@ class CommandLine {
         ->check(WholeNumber(10) & CLI::Range(0.0, 2147483647.0));
     plan->add_option("--samples", plan_.samples, "scenarios with this seed and those after it")
         ->check(WholeNumber(9) & CLI::PositiveNumber);
-    plan->add_option("--starts", plan_.starts, "starts that are relaxed")->check(WholeNumber(5));
-    plan->add_option("--model", plan_.model, "the robot");
+    plan->add_option("--starts", plan_.starts, "motions that it tries beside the request")
+        ->check(WholeNumber(5))
+        ->capture_default_str();
+    plan->add_option("--model", plan_.model, "the robot; needed if the file judges several");
     plan->add_option("-t,--duration", plan_.duration, "s, instead of the file's");
+    plan->footer(PlanFooter());
     plan->callback([this] { command_ = [this] { return PlanCommand(plan_); }; });
 
     CLI::App* const graph = app_.add_subcommand("graph", "draw a diagram file");

@@ -39,6 +39,11 @@ void Clearance::MoveTo(const Eigen::Ref<const Eigen::VectorXd>& q) {
   ForwardKinematics(*model_, q, X_WL_);
 }
 
+bool Clearance::Ignored(int link, int body) const {
+  return !ignored_.empty() &&
+         std::find(ignored_.begin(), ignored_.end(), std::pair(link, body)) != ignored_.end();
+}
+
 // Calls visit(distance, link, body, other link) for each pair within the limit, which visit returns
 // anew: below 0 ends the walk.
 template <class Visit>
@@ -47,6 +52,7 @@ void Clearance::ForEach(double max_distance, const Visit& visit) const {
   for (const LinkCollider& link : links_) {
     if (model_->body(link.number) < 0) continue;
     for (int body = 0; body < std::ssize(bodies_); ++body) {
+      if (Ignored(link.number, body)) continue;
       const PlacedBody& other = bodies_[body];
       const SignedDistance found =
           DistanceToBody(link, X_WL_[link.number], *other.collider, other.X_WO, limit);
@@ -100,9 +106,10 @@ void Clearance::LinkDistances(double max_distance, std::span<double> least) cons
   for (const LinkCollider& link : links_) {
     if (model_->body(link.number) < 0) continue;
     double& nearest = least[link.number];
-    for (const PlacedBody& body : bodies_) {
-      const SignedDistance found = DistanceToBody(link, X_WL_[link.number], *body.collider,
-                                                  body.X_WO, std::max(nearest, 0.0));
+    for (int b = 0; b < std::ssize(bodies_); ++b) {
+      if (Ignored(link.number, b)) continue;
+      const SignedDistance found = DistanceToBody(link, X_WL_[link.number], *bodies_[b].collider,
+                                                  bodies_[b].X_WO, std::max(nearest, 0.0));
       if (found.status != DistanceStatus::kBeyond) nearest = std::min(nearest, found.distance);
     }
   }

@@ -44,7 +44,12 @@ class Clearance {
 
   const RobotModel& model() const { return *model_; }
   const std::vector<PlacedBody>& bodies() const { return bodies_; }
-  void SetBodies(std::vector<PlacedBody> bodies) { bodies_ = std::move(bodies); }
+  void SetBodies(std::vector<PlacedBody> bodies) {
+    bodies_ = std::move(bodies);
+    ignored_.clear();
+  }
+  /// Leaves a pair out from now on: a link and a body, by their numbers.
+  void Ignore(int link, int body) { ignored_.emplace_back(link, body); }
   /// Moves body number `body`, of a scene in which time goes on.
   void MoveBody(int body, const Eigen::Isometry3d& X_WO) { bodies_[body].X_WO = X_WO; }
 
@@ -72,12 +77,14 @@ class Clearance {
   template <class Visit>
   void ForEach(double max_distance, const Visit& visit) const;
   SignedDistance OwnDistance(std::size_t pair, double max_distance) const;
+  bool Ignored(int link, int body) const;
 
   std::shared_ptr<const RobotModel> model_;
   std::vector<LinkCollider> links_;
   std::vector<std::pair<int, int>> own_pairs_;   // numbers of links
   std::vector<std::pair<int, int>> own_places_;  // the same as places in links_
   std::vector<PlacedBody> bodies_;
+  std::vector<std::pair<int, int>> ignored_;  // link, body
   std::vector<Eigen::Isometry3d> X_WL_;
 };
 

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "diagrams/loader.h"
+#include "models/planning/clairvoyant.h"
+#include "systems/bullet_distance.h"
+#include "systems/trajectory.h"
+
+namespace oca::tools {
+
+/// What a loaded file says about one robot for all its time: what is requested of it, and
+/// everything that the distance block sees by which a run of the file is judged.
+///
+/// - judge: the MotionMetrics of the model, and the BulletDistance that drives its `proximities`
+/// - request: the nearest system up the line from the judge's `request` that knows it ahead
+/// - start: where the judge's `position` is at time 0
+/// - obstacles: what drives the distance block's `obstacles`, at every time; an ObstacleSource
+///   between its samples too
+/// - own links, if the block has `self_collision`
+/// - links of `others`, if it has `calculate_link_forces`: where they stand, along what their
+///   kinematics are given, or else along what is requested of them
+///
+/// Left out is what the block leaves out: pairs of `ignore`, and the lowest pair of two arms.
+/// Whatever nobody can know beforehand is refused by name.
+class PlanScene {
+ public:
+  /// `model` may be empty if only one robot is judged. `loaded` must outlive this.
+  /// throws ConfigError
+  PlanScene(const diagrams::LoadedDiagram& loaded, const std::string& model, double duration);
+
+  const std::string& model_name() const { return name_; }
+  /// As the file has it; own links that may touch are disabled.
+  const std::shared_ptr<const models::RobotModel>& model() const { return model_; }
+  /// The system that a run is judged by.
+  const std::string& judge() const { return judge_; }
+  /// What it looks at: systems and models by name.
+  const std::vector<std::string>& sees() const { return sees_; }
+  /// All but `starts`; must not outlive this.
+  models::ClairvoyantTask Task() const;
+
+ private:
+  const System& FindJudge(const std::string& model);
+  void FindMotion(const System& judge);
+  void AddObstacles();
+  void AddOther(const std::string& name);
+  void AddLinks(const std::string& name, const std::shared_ptr<const models::RobotModel>& other,
+                std::function<Eigen::VectorXd(double time)> positions);
+  void Ignore();
+  void IgnoreLowest(const models::RobotModel& other, int other_link, std::size_t first_body);
+
+  const diagrams::LoadedDiagram& loaded_;
+  const double duration_;
+  std::string name_;
+  std::shared_ptr<const models::RobotModel> model_;
+  std::string judge_;
+  const System* distance_{nullptr};
+  systems::BulletDistance::Params params_;
+  std::shared_ptr<const systems::Trajectory> request_;
+  Eigen::VectorXd start_;
+  std::vector<models::BandBody> bodies_;
+  std::vector<std::pair<int, int>> ignored_;
+  std::vector<std::string> sees_;
+};
+
+}  // namespace oca::tools
