@@ -7,8 +7,8 @@
 # A time is the least of three repetitions, in ns of CPU an iteration (a block where the goal says
 # so; of the clock in rows with threads). A floor is the row's bare arithmetic, measured in the same
 # process as the release column; the ratio is release to floor. `met` judges engine rows by the
-# release build, others by the bench build. A second table has the peers (FCL, KDL) of each row,
-# with their time over ours in the same process; a third how long single ticks take.
+# release build, others by the bench build. A second table has the peers (Ceres, FCL, KDL) of
+# each row, with their time over ours in the same process; a third how long single ticks take.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 quick=false
@@ -172,7 +172,7 @@ awk -F';' '
     line = "| %-44s | %8s | %8s | %8s | %9s |\n"
     for (i = 1; i <= rows; ++i) {
       row = order[i]; peer = row; sub(/.*\//, "", peer)
-      own = peer; if (peer !~ /^(fcl|kdl|fcl_kdl|fcl_kdl_cull)$/) continue
+      own = peer; if (peer !~ /^(ceres|fcl|kdl|fcl_kdl|fcl_kdl_cull)$/) continue
       own = substr(row, 1, length(row) - length(peer) - 1)
       if (!(bench[own] > 0) && !(release[own] > 0)) continue
       if (!peers++) {
