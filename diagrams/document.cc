@@ -77,6 +77,7 @@ class Includer {
     }
     open_.push_back(canonical);
     AddSource(canonical);
+    if (choices_ > 0) sources_.chosen.insert(file.string());
     Value value;
     try {
       value = ReadYaml(ReadTextFile(file), file.string(), problems_);
@@ -198,8 +199,11 @@ class Includer {
         }
         const std::string name = FileName(*item.string(), item.location());
         if (name.empty()) continue;
+        const bool choice = name != *item.string();
+        choices_ += choice ? 1 : 0;
         Value included = Load(folder / name, item.location());
-        if (name != *item.string()) {
+        choices_ -= choice ? 1 : 0;
+        if (choice) {
           AddCandidates((folder / name).parent_path(), fs::path(*item.string()).filename());
         }
         if (included.map() != nullptr) {
@@ -220,6 +224,7 @@ class Includer {
   std::vector<std::pair<std::string, std::string>> texts_;  // parameters; the first one wins
   DocumentSources sources_;
   int files_{0};
+  int choices_{0};  // that led to the file at hand
 };
 
 std::vector<std::string> SplitPath(const std::string& path) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,8 @@ struct DocumentSources {
   /// Those that were read, the first the diagram file; and what lies beside one that a parameter
   /// chose, as the parameter may choose it next time.
   std::vector<std::filesystem::path> files;
-  std::vector<std::string> choosing;                ///< parameters that chose files
+  std::vector<std::string> choosing;  ///< parameters that chose files
+  std::set<std::string> chosen;       ///< files, as locations name them, that came by such a choice
   std::vector<std::filesystem::path> alternatives;  ///< what they could have chosen, and chose
 };
 

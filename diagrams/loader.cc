@@ -120,13 +120,28 @@ class Loader {
       if (entry.key == "parameters") continue;
       resolved.push_back({entry.key, entry.location, expressions.Resolve(entry.value)});
     }
-    loaded_.warnings = expressions.Unused();
-    if (!loaded_.warnings.empty()) loaded_.warnings = expressions.Unused(KnownToAlternatives());
+    std::set<std::string> known = KnownToParts(document);
+    loaded_.warnings = expressions.Unused(known);
+    if (!loaded_.warnings.empty()) {  // read the others only where it matters
+      known.merge(KnownToAlternatives());
+      loaded_.warnings = expressions.Unused(known);
+    }
     return Value(std::move(resolved), document.location());
   }
 
-  /// Parameters that a part knows which the file could have chosen, as one of avoidance_*.yaml: a
-  /// file says for all of them what each may need, and need not use all that they offer.
+  /// Parameters of the parts that were chosen: the file need not use all that they offer.
+  std::set<std::string> KnownToParts(const Value& document) const {
+    std::set<std::string> known;
+    Problems ignored;  // reported above
+    for (const Value::Entry& entry : SectionOf(document, "parameters", ignored)) {
+      const auto& file = entry.location.file;
+      if (file && sources_.chosen.contains(*file)) known.insert(entry.key);
+    }
+    return known;
+  }
+
+  /// The same of all parts that could have been chosen, as one of avoidance_*.yaml, with what they
+  /// use: a file says for all of them what each may need.
   std::set<std::string> KnownToAlternatives() const {
     std::set<std::string> known;
     for (const fs::path& file : sources_.alternatives) {

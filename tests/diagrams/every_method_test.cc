@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Each diagram file that leaves the method of avoidance open loads and runs with each method.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -43,6 +44,7 @@ TEST_P(EveryMethodTest, RunsInEveryFile) {
     try {
       const LoadedDiagram loaded =
           LoadDiagram(kFolder / file, {{"parameters.avoidance", GetParam()}});
+      EXPECT_THAT(loaded.warnings, testing::IsEmpty());
       RunOptions options;
       options.duration = 0.05;
       EXPECT_EQ(diagrams::Run(loaded, options).failure, "");
