@@ -6,104 +6,19 @@
 
 #include <algorithm>
 #include <functional>
-#include <set>
 
 #include "framework/dynamic_port.h"
 #include "framework/error.h"
-#include "framework/port_access.h"
 #include "systems/motion_metrics.h"
 #include "systems/obstacle_source.h"
-#include "systems/request_ahead.h"
 #include "systems/robot_kinematics.h"
 #include "tools/plan_bodies.h"
+#include "tools/plan_wiring.h"
 
 namespace oca::tools {
 namespace {
 
 using Eigen::VectorXd;
-
-/// Looks around in the wiring of a loaded file.
-class Wiring {
- public:
-  explicit Wiring(const diagrams::LoadedDiagram& loaded) : loaded_(loaded) {}
-
-  std::string NameOf(const System& system) const {
-    for (const Diagram::Child& child : loaded_.diagram->children()) {
-      if (child.system.get() == &system) return child.name;
-    }
-    return "?";
-  }
-  const diagrams::LoadedDiagram::Block& BlockOf(const System& system) const {
-    const std::string name = NameOf(system);
-    return *std::find_if(loaded_.systems.begin(), loaded_.systems.end(),
-                         [&](const auto& block) { return block.name == name; });
-  }
-  /// What drives an input; without a system: nothing.
-  OutputHandle DriverOf(const InputHandle& input) const {
-    for (const auto& [from, to] : loaded_.diagram->connections()) {
-      if (to.system == input.system && to.index == input.index) return from;
-    }
-    return {};
-  }
-  OutputHandle DriverOf(const System& system, const char* input) const {
-    return DriverOf(system.FindInput(input));
-  }
-  std::vector<const System*> Drivers(const System& system) const {
-    std::vector<const System*> drivers;
-    for (const auto& [from, to] : loaded_.diagram->connections()) {
-      if (to.system == &system) drivers.push_back(from.system);
-    }
-    return drivers;
-  }
-  /// Whether nothing up the line has a state.
-  bool TimeAlone(const OutputHandle& output) const {
-    std::set<const System*> seen;
-    std::vector<const System*> open{output.system};
-    while (!open.empty()) {
-      const System* const system = open.back();
-      open.pop_back();
-      if (!seen.insert(system).second) continue;
-      if (!system->states().empty()) return false;
-      for (const System* driver : Drivers(*system)) open.push_back(driver);
-    }
-    return true;
-  }
-  /// The motion that the nearest system up the line knows ahead, and which system that is.
-  std::pair<std::shared_ptr<const systems::Trajectory>, std::string> AheadOf(
-      const OutputHandle& output, const std::string& where) const {
-    std::set<const System*> seen;
-    std::vector<const System*> level{output.system};
-    while (!level.empty()) {
-      std::vector<const System*> next;
-      std::vector<OutputHandle> found;
-      for (const System* const system : level) {
-        if (!seen.insert(system).second) continue;
-        const auto& outputs = system->outputs();
-        for (int i = 0; i < std::ssize(outputs); ++i) {
-          if (outputs[i].type == &TypeOf<systems::RequestAhead>()) found.push_back({{system, i}});
-        }
-        for (const System* driver : Drivers(*system)) next.push_back(driver);
-      }
-      if (found.size() > 1) {
-        throw ConfigError(fmt::format("{}: motion ahead; got both of '{}' and '{}'; expected one",
-                                      where, NameOf(*found[0].system), NameOf(*found[1].system)));
-      }
-      if (found.size() == 1) {
-        const Context context = loaded_.diagram->MakeContext();
-        auto motion = Output<systems::RequestAhead>{found[0]}.Eval(context).trajectory;
-        if (motion) return {std::move(motion), NameOf(*found[0].system)};
-      }
-      level = std::move(next);
-    }
-    throw ConfigError(fmt::format(
-        "{}: motion ahead; got '{}', up the line from which nobody knows it; expected a source "
-        "with the output `ahead`, as a SplineGenerator",
-        where, NameOf(*output.system)));
-  }
-
- private:
-  const diagrams::LoadedDiagram& loaded_;
-};
 
 /// An empty name stands for the only model there is.
 std::string FullName(const systems::ModelSet& models, const std::string& name) {
@@ -132,7 +47,7 @@ PlanScene::PlanScene(const diagrams::LoadedDiagram& loaded, const std::string& m
 }
 
 const System& PlanScene::FindJudge(const std::string& model) {
-  const Wiring wiring(loaded_);
+  const PlanWiring wiring(loaded_);
   std::vector<std::pair<std::string, const System*>> judges;  // model, system
   std::vector<std::string> judged;
   for (const auto& block : loaded_.systems) {
@@ -171,7 +86,7 @@ const System& PlanScene::FindJudge(const std::string& model) {
 }
 
 void PlanScene::FindMotion(const System& judge) {
-  const Wiring wiring(loaded_);
+  const PlanWiring wiring(loaded_);
   const OutputHandle request = wiring.DriverOf(judge, "request");
   const OutputHandle position = wiring.DriverOf(judge, "position");
   for (const auto& [port, driver] : {std::pair("request", request), {"position", position}}) {
@@ -190,7 +105,7 @@ void PlanScene::FindMotion(const System& judge) {
 }
 
 void PlanScene::AddObstacles() {
-  const Wiring wiring(loaded_);
+  const PlanWiring wiring(loaded_);
   const OutputHandle driver = wiring.DriverOf(*distance_, "obstacles");
   const std::string where = wiring.NameOf(*distance_) + ".obstacles";
   const auto& block = wiring.BlockOf(*driver.system);
@@ -223,10 +138,10 @@ void PlanScene::AddOther(const std::string& name) {
     sees_.push_back(name);
     return;
   }
-  const Wiring wiring(loaded_);
+  const PlanWiring wiring(loaded_);
   const std::string port = "links_" + name;
   const std::string where = wiring.NameOf(*distance_) + "." + port;
-  const System* const kinematics = wiring.DriverOf(*distance_, port.c_str()).system;
+  const System* const kinematics = wiring.DriverOf(*distance_, port).system;
   const auto& block = wiring.BlockOf(*kinematics);
   if (block.type != "RobotKinematics") {
     throw ConfigError(fmt::format("{}: driver; got '{}', a {}; expected a RobotKinematics", where,

@@ -173,7 +173,7 @@ class Search {
   /// Relaxes a motion under one set of prices after the other.
   bool Improve(BandCurve curve, BandStart start) {
     ++best_.tries;
-    if (curve.controls().cols() != zero_.controls().cols()) curve = OnOwnGrid(curve);
+    if (curve.times() != zero_.times()) curve = OnOwnGrid(curve);
     if (end_fixed_) curve.controls().rightCols(3).setZero();
     for (const auto& band : bands_) {
       band->Relax(curve, kSteps);
