@@ -221,6 +221,38 @@ TEST(SafetyFilterTest, TurnsWithTheWorld) {
   EXPECT_NEAR((loop.velocity() - u).norm(), 0.0, 1e-12);
 }
 
+TEST(SafetyFilterTest, ChangesByABoundedAmountAsAnObstacleComesNear) {
+  for (const auto form : {SafetyFilter::Form::kLinear, SafetyFilter::Form::kBraking}) {
+    SafetyFilter::Params params = Hundred();
+    params.form = form;
+    // The steepest of what a distance allows, over the lever of the row; braking ends within a
+    // tick.
+    const double slope = form == SafetyFilter::Form::kLinear ? params.approach_gain : 1.0 / kDt;
+    constexpr double kStep = 2e-4;
+    Eigen::VectorXd last = Answer(params, {1, 0}, BesideTheTip(0.15, 0.3));
+    for (double distance = 0.15 - kStep; distance > -0.02; distance -= kStep) {
+      const Eigen::VectorXd u = Answer(params, {1, 0}, BesideTheTip(distance, 0.3));
+      ASSERT_LE((u - last).norm(), 1.01 * slope / std::hypot(0.9, 0.4) * kStep) << distance;
+      last = u;
+    }
+    EXPECT_LT(last[0], 0.0);
+  }
+}
+
+TEST(SafetyFilterTest, DoesNotChangeAsTheListOfObstaclesDoesWithoutNeed) {
+  ProximitySet set = BesideTheTip(0.08, 0.0);
+  const Eigen::VectorXd alone = Answer(Hundred(), {1, 0}, set);
+  for (const double distance : {1.0, 0.5}) {  // whatever enters at the end of the sensors' reach
+    set.proximities.push_back(BesideTheTip(distance, 0.0).proximities[0]);
+    EXPECT_NEAR((Answer(Hundred(), {1, 0}, set) - alone).norm(), 0.0, 1e-12);
+  }
+  set.proximities.push_back(BesideTheTip(0.06, 0.1).proximities[0]);
+  const Eigen::VectorXd u = Answer(Hundred(), {1, 0}, set);
+  EXPECT_GT((u - alone).norm(), 1e-2);
+  std::reverse(set.proximities.begin(), set.proximities.end());
+  EXPECT_NEAR((Answer(Hundred(), {1, 0}, set) - u).norm(), 0.0, 1e-12);
+}
+
 TEST(SafetyFilterTest, RefusesGainsThatAPeriodCannotCarry) {
   const auto make = [](auto&& change) {
     SafetyFilter::Params params = Hundred();
