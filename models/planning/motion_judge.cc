@@ -61,6 +61,9 @@ NearPair MotionJudge::Nearest(const VectorXd& q, double time) {
 }
 
 double MotionJudge::Excess(const VectorXd motion[3], MotionVerdict& verdict) const {
+  for (int d = 0; d < 3; ++d) {
+    if (!motion[d].allFinite()) return verdict.position = kUnlimited;
+  }
   double excess = 0.0;
   const auto count = [&](double share, double& largest) {
     excess += std::max(share - kRounding, 0.0);

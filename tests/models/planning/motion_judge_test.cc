@@ -144,6 +144,19 @@ TEST_F(MotionJudgeTest, TakesAMotionToItsLimitOfPositionAndNotAbove) {
   EXPECT_FALSE(Judge(3.2).clear());
 }
 
+TEST_F(MotionJudgeTest, DoesNotTakeWhatIsNoNumberForClear) {
+  request = [](double time, int derivative, Eigen::Ref<VectorXd> out) {
+    out.setZero();
+    if (derivative == 1 && time > 0.5) out[1] = std::nan("");
+  };
+  EXPECT_FALSE(Judge().clear());
+  request = [](double time, int derivative, Eigen::Ref<VectorXd> out) {
+    out.setZero();
+    if (derivative == 0 && time > 0.5) out[1] = std::nan("");
+  };
+  EXPECT_FALSE(Judge().clear());
+}
+
 TEST_F(MotionJudgeTest, NamesTheTimesAtWhichSomethingLacks) {
   bodies = {BallAt(0.0, 0.0)};  // in the arm from 0.2 to 0.4 s and from 2 to 2.2 s
   bodies[0].stands = false;
