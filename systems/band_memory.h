@@ -23,6 +23,10 @@ struct BandMemory {
   models::BandCurve next{};  ///< from then on; empty: held goes on
   double change{0.0};        ///< s
   std::vector<Obstacle> seen{};
+  double seen_at{0.0};     ///< s
+  double sure_from{0.0};   ///< s; from then on the bands were made for what is seen
+  double held_until{0.0};  ///< s; at which held or next leave less than trust_distance
+  double next_until{0.0};
   double moved{0.0};          ///< s; when the arm was last seen to get on
   Eigen::VectorXd resting{};  ///< where it was then
   Eigen::VectorXd planned{};  ///< where it should be at the last plan

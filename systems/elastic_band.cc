@@ -17,10 +17,15 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kArrived = 0.01;    // rad, m; of all joints
-constexpr double kSameSpeed = 1e-6;  // m/s, rad/s: stands
-constexpr double kSamePlace = 1e-4;  // m, of an obstacle that stands
-constexpr int kMostPause = 20;       // plans between two searches that fail
+constexpr double kArrived = 0.01;         // rad, m; of all joints
+constexpr double kSameSpeed = 1e-6;       // m/s, rad/s: stands
+constexpr double kSamePlace = 1e-4;       // m, of an obstacle that stands
+constexpr double kOnPlan = 0.02;          // rad, m; of the arm
+constexpr double kForeseen = 0.01;        // m; that what was foreseen may be wrong by,
+constexpr double kForeseenSpan = 0.3;     // s; after so long too
+constexpr double kForeseenLever = 0.1;    // m; at which a turn counts
+constexpr std::uint64_t kFreshPlans = 8;  // that look for a better way though theirs is clear
+constexpr int kMostPause = 20;            // plans between two searches that fail
 
 ElasticBand::Params Checked(const ElasticBand::Params& params) {
   RequirePositive("period", params.period);
@@ -90,6 +95,10 @@ void ElasticBand::Params::Describe(Fields<Params>& fields) {
       .Add("clear_distance", &Params::clear_distance, "m",
            "distance that a band keeps that counts as clear; above the filter's safe_distance")
       .Above(0.0);
+  fields
+      .Add("trust_distance", &Params::trust_distance, "m",
+           "distance that a band keeps that a filter need not correct")
+      .AtLeast(0.0);
   fields.Add("clearance", &Params::clearance, "1/m^2", "price of a missing margin").Above(0.0);
   fields
       .Add("smoothness", &Params::smoothness, "s^4/rad^2", "price of the deviation's acceleration")
@@ -102,6 +111,14 @@ void ElasticBand::Params::Describe(Fields<Params>& fields) {
       .Above(0.0);
   fields.Add("prediction", &Params::prediction, "s", "how long obstacles are taken to go on as now")
       .AtLeast(0.0);
+  fields
+      .Add("most_evaluations", &Params::most_evaluations, "",
+           "configurations that a plan may look at, about")
+      .AtLeast(0.0);
+  fields
+      .Add("moving_horizon", &Params::moving_horizon, "s",
+           "largest time that a plan looks ahead while something moves")
+      .AtLeast(0.5);
   fields.Add("least_horizon", &Params::least_horizon, "s", "least time that a plan looks ahead")
       .AtLeast(0.5);
   fields.Add("most_horizon", &Params::most_horizon, "s", "largest time that a plan looks ahead")
@@ -122,11 +139,14 @@ models::BandPlannerSettings ElasticBand::SettingsOf(const Params& params) {
   models::BandPlannerSettings settings;
   settings.band.margin = params.margin;
   settings.band.clear_distance = params.clear_distance;
+  settings.band.trust_distance = params.trust_distance;
   settings.band.clearance = params.clearance;
   settings.band.smoothness = params.smoothness;
   settings.band.calm = params.calm;
   settings.band.nearness = params.nearness;
   settings.band.limit_share = params.limit_share;
+  settings.most_evaluations = params.most_evaluations;
+  settings.moving_horizon = params.moving_horizon;
   settings.least_horizon = params.least_horizon;
   settings.most_horizon = params.most_horizon;
   return settings;
@@ -147,7 +167,9 @@ ElasticBand::ElasticBand(const Params& params, const ModelSet& models)
       position(DeclareStateOutput("position", position_)),
       velocity(DeclareStateOutput("velocity", velocity_)),
       acceleration(DeclareStateOutput("acceleration", acceleration_)),
-      plan(DeclareStateOutput("plan", memory_)) {
+      plan(DeclareStateOutput("plan", memory_)),
+      clear(DeclareOutput<ClearMotion, &ElasticBand::CalcClear>(
+          "clear", {}, kTime, obstacles, measured_position, position_, memory_)) {
   DeclareInitialization<&ElasticBand::Start>(Writes(position_), measured_position);
   DeclareUpdate<&ElasticBand::Sample>(
       Every{params_.period}, Writes(position_, velocity_, acceleration_), kTime, ahead, memory_);
@@ -177,6 +199,35 @@ void ElasticBand::Sample(double time, const RequestAhead& request, const BandMem
   }
 }
 
+bool ElasticBand::AsForeseen(double time, const ObstacleSet& set, const BandMemory& memory) const {
+  const double since = std::clamp(time - memory.seen_at, 0.0, params_.prediction);
+  return std::equal(memory.seen.begin(), memory.seen.end(), set.obstacles.begin(),
+                    set.obstacles.end(), [&](const Obstacle& seen, const Obstacle& now) {
+                      const Eigen::Isometry3d X = Foreseen(seen, since);
+                      const double away = (X.translation() - now.X_WO.translation()).norm() +
+                                          (X.linear() - now.X_WO.linear()).norm() * kForeseenLever;
+                      const double faster = (seen.linear - now.linear).norm() +
+                                            (seen.angular - now.angular).norm() * kForeseenLever;
+                      return seen.body == now.body && away + kForeseenSpan * faster < kForeseen;
+                    });
+}
+
+void ElasticBand::CalcClear(double time, const ObstacleSet& set, VectorView measured,
+                            VectorView planned, const BandMemory& memory,
+                            ClearMotion& motion) const {
+  motion.clear_for = 0.0;
+  motion.own_links = params_.self_collision;
+  motion.bodies.clear();
+  for (const Obstacle& seen : memory.seen) motion.bodies.push_back(seen.body->id);
+  const bool followed = (measured - planned).cwiseAbs().maxCoeff() <= kOnPlan;
+  if (memory.plans == 0 || time < memory.sure_from || !followed || !AsForeseen(time, set, memory)) {
+    return;
+  }
+  const bool next = !memory.next.empty() && time >= memory.change;
+  const double until = next ? memory.next_until : memory.held_until;
+  motion.clear_for = std::clamp(until - time, 0.0, params_.most_horizon);
+}
+
 std::vector<models::BandBody> ElasticBand::MakeBodies(double time, const ObstacleSet& set) const {
   std::vector<models::BandBody> bodies;
   for (const Obstacle& obstacle : set.obstacles) {
@@ -203,7 +254,9 @@ bool ElasticBand::Kept(double time, const Trajectory* request, const ObstacleSet
       memory.next.empty()) {
     return true;
   }
-  return memory.plans > 0 && memory.clear && SameStanding(memory.seen, set.obstacles) &&
+  return (memory.plans >= kFreshPlans ||
+          (memory.plans > 0 && memory.start == models::BandStart::kRequest)) &&
+         memory.clear && SameStanding(memory.seen, set.obstacles) &&
          !Astray(time, request, measured, memory);
 }
 
@@ -253,8 +306,10 @@ models::BandTask ElasticBand::MakeTask(double time, const Trajectory* request,
     task.deviation[2].setZero();
   }
   const int pause = std::min(memory.failures, kMostPause);
-  task.fresh = memory.plans == 0;
-  task.explore = pause < 3 || memory.plans % static_cast<std::uint64_t>(pause) == 0;
+  task.search = memory.plans;
+  task.fresh = memory.plans < kFreshPlans;
+  task.explore =
+      models::Moves(bodies) || pause < 3 || memory.plans % static_cast<std::uint64_t>(pause) == 0;
   return task;
 }
 
@@ -266,7 +321,12 @@ void ElasticBand::Plan(double time, Log& log, const RequestAhead& request, const
   Follow(time, request.trajectory.get(), measured, memory);
   if (memory.stuck && !was_stuck) Report(time, memory, log);
   if (Kept(time, request.trajectory.get(), set, measured, memory)) return;
-  if (!memory.next.empty()) memory.held = memory.next;
+  const bool foreseen = memory.plans > 0 && AsForeseen(time, set, memory) &&
+                        !Astray(time, request.trajectory.get(), measured, memory);
+  if (!memory.next.empty()) {
+    memory.held = memory.next;
+    memory.held_until = memory.next_until;
+  }
   const auto bodies = MakeBodies(time, set);
   const models::BandTask task =
       MakeTask(time, request.trajectory.get(), bodies, measured, rate, memory);
@@ -274,6 +334,9 @@ void ElasticBand::Plan(double time, Log& log, const RequestAhead& request, const
   models::BandPlan found = planner.Plan(task, memory.held.empty() ? nullptr : &memory.held);
   memory.next = std::move(found.curve);
   memory.change = task.start;
+  memory.next_until = found.check.touch;
+  if (!foreseen) memory.sure_from = task.start;
+  memory.seen_at = time;
   memory.seen = set.obstacles;
   memory.plans += 1;
   memory.start = found.start;

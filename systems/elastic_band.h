@@ -9,6 +9,7 @@
 #include "framework/system.h"
 #include "models/planning/band_planner.h"
 #include "systems/band_memory.h"
+#include "systems/clear_motion.h"
 #include "systems/model_set.h"
 #include "systems/request_ahead.h"
 #include "systems/signals.h"
@@ -59,15 +60,18 @@ class ElasticBand final : public System {
   struct Params {
     std::string model{};
     Period period{};
-    Period plan_period{1, 20};
-    double margin{0.1};
+    Period plan_period{1, 50};
+    double margin{0.12};
     double clear_distance{0.045};
+    double trust_distance{0.02};
     double clearance{1e4};
     double smoothness{0.02};
     double nearness{0.1};
     double calm{0.1};
-    double limit_share{0.85};
+    double limit_share{0.95};
     double prediction{2.0};
+    int most_evaluations{4000};
+    double moving_horizon{3.0};
     double least_horizon{2.0};
     double most_horizon{30.0};
     double restart_distance{0.1};
@@ -96,6 +100,10 @@ class ElasticBand final : public System {
   void Follow(double time, const Trajectory* request, VectorView measured,
               BandMemory& memory) const;
 
+  bool AsForeseen(double time, const ObstacleSet& set, const BandMemory& memory) const;
+  void CalcClear(double time, const ObstacleSet& set, VectorView measured, VectorView planned,
+                 const BandMemory& memory, ClearMotion& motion) const;
+
   void Start(VectorView measured, MutableVectorView position_out) const;
   void Report(double time, const BandMemory& memory, Log& log) const;
   void Plan(double time, Log& log, const RequestAhead& request, const ObstacleSet& set,
@@ -120,6 +128,7 @@ class ElasticBand final : public System {
   const Output<Vector> velocity;
   const Output<Vector> acceleration;
   const Output<BandMemory> plan;
+  const Output<ClearMotion> clear;
 };
 
 }  // namespace oca::systems

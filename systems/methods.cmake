@@ -2,6 +2,7 @@
 set(methods
   avoidance_velocity
   band_memory
+  clear_motion
   elastic_band
   filter_activity
   flacco_de_luca

@@ -79,6 +79,10 @@ void SafetyFilter::Params::Describe(Fields<Params>& fields) {
            "price of a distance that is not kept; too low a one gives way early")
       .Above(0.0);
   fields
+      .Add("trust_time", &Params::trust_time, "s",
+           "a request that is clear for longer is let through")
+      .AtLeast(0.0);
+  fields
       .Add("recovery_gain", &Params::recovery_gain, "1/s",
            "how fast a distance below safe_distance should grow; at most 1 / period")
       .Above(0.0);
@@ -109,9 +113,10 @@ SafetyFilter::SafetyFilter(const Params& params, const ModelSet& models)
           "acceleration", {model_->num_positions(), RateSpec(*model_).unit.Rate()})),
       measured_position(DeclareInput<Vector>("measured_position", PositionSpec(*model_))),
       command(DeclareOptionalInput<Vector>("command", PositionSpec(*model_))),
+      clear(DeclareOptionalInput<ClearMotion>("clear")),
       solution(DeclareOutput<FilterSolution, &SafetyFilter::CalcSolution>(
-          "solution", {}, proximities, links, position, velocity, acceleration, command, c_, u_, l_,
-          activity_)),
+          "solution", {}, proximities, links, position, velocity, acceleration, command, clear, c_,
+          u_, l_, activity_)),
       delta(DeclareOutput<Vector, &SafetyFilter::CalcDelta>("delta", PositionSpec(*model_),
                                                             position, c_, u_)),
       activity(DeclareStateOutput("activity", activity_)) {
@@ -149,8 +154,9 @@ void SafetyFilter::CalcDelta(VectorView request, VectorView c, VectorView u,
 
 void SafetyFilter::CalcSolution(const ProximitySet& set, const LinkPoses& poses, VectorView request,
                                 OptionalVector rate, OptionalVector rate_rate, OptionalVector sent,
-                                VectorView c, VectorView u, VectorView l,
-                                const FilterActivity& last, FilterSolution& result) const {
+                                const ClearMotion* clear_motion, VectorView c, VectorView u,
+                                VectorView l, const FilterActivity& last,
+                                FilterSolution& result) const {
   if (!result.workspace) {
     result.workspace.emplace(model_->num_positions(), params_.most_rows);
     result.velocity.resize(model_->num_positions());
@@ -167,7 +173,7 @@ void SafetyFilter::CalcSolution(const ProximitySet& set, const LinkPoses& poses,
   const auto X_WL = PosesInOrder(*model_, poses, work.reordered);
   FillBox(result);
   FillWish(request, rate, rate_rate, l, result);
-  FillRows(set, X_WL, result);
+  FillRows(set, X_WL, clear_motion, result);
   FillGuess(set, last, result);
   work.solver.Solve(work.qp, work.solution);
   result.velocity = work.solution.u;

@@ -12,6 +12,7 @@
 #include "framework/params.h"
 #include "framework/system.h"
 #include "models/qp/projection_solver.h"
+#include "systems/clear_motion.h"
 #include "systems/filter_activity.h"
 #include "systems/model_set.h"
 #include "systems/signals.h"
@@ -64,6 +65,10 @@ struct FilterSolution {
 /// within 10 s. With a progress_weight the joints that are to get somewhere are dear, so that the
 /// others evade and the arm does not stop in front of what it could pass.
 ///
+/// A request that is known to be clear for more than trust_time is let through: a row about what it
+/// was planned with asks for no more than r gives, a_i^T u >= min(..., a_i^T r). So the filter does
+/// not push the arm off a way past what comes near fast.
+///
 /// Where h < 0 a second row asks for h to grow by min(-recovery_gain h, recovery_speed), at the
 /// price recovery_penalty: a wish that may be denied, so that a slow retreat is never forbidden.
 /// An answer always exists; which rows are active, and what slack they take, is on `activity`.
@@ -81,6 +86,7 @@ struct FilterSolution {
 ///       measured_position  n  u       where the command starts
 ///       command            n  u       optional; the command that is really sent, if a later stage
 ///                                     may change it, else c follows from u
+///       clear              ClearMotion    of the request; optional, absent: not known
 /// out   delta     n  u
 ///       activity  FilterActivity      of the last tick
 ///       solution  FilterSolution      what the filter would do at this instant
@@ -116,6 +122,7 @@ class SafetyFilter final : public System {
     PerComponent weights{1.0};
     double progress_weight{0.0};
     double slack_penalty{1e4};
+    double trust_time{0.0};
     double recovery_gain{5.0};
     double recovery_speed{0.5};
     double recovery_penalty{10.0};
@@ -152,7 +159,8 @@ class SafetyFilter final : public System {
   void FillBox(FilterSolution& result) const;
   void FillWish(VectorView request, OptionalVector rate, OptionalVector rate_rate, VectorView l,
                 FilterSolution& result) const;
-  void FillRows(const ProximitySet& set, Poses X_WL, FilterSolution& result) const;
+  void FillRows(const ProximitySet& set, Poses X_WL, const ClearMotion* clear_motion,
+                FilterSolution& result) const;
   void AddRow(const FilterRow& source, double bound, FilterSolution& result) const;
   void FillGuess(const ProximitySet& set, const FilterActivity& last, FilterSolution& result) const;
   void Report(const ProximitySet& set, Poses X_WL, FilterSolution& result) const;
@@ -160,8 +168,8 @@ class SafetyFilter final : public System {
   void Start(VectorView measured, MutableVectorView c) const;
   void CalcSolution(const ProximitySet& set, const LinkPoses& poses, VectorView request,
                     OptionalVector rate, OptionalVector rate_rate, OptionalVector sent,
-                    VectorView c, VectorView u, VectorView l, const FilterActivity& last,
-                    FilterSolution& result) const;
+                    const ClearMotion* clear_motion, VectorView c, VectorView u, VectorView l,
+                    const FilterActivity& last, FilterSolution& result) const;
   void Update(const FilterSolution& result, OptionalVector sent, OptionalVector rate,
               MutableVectorView c, MutableVectorView u, MutableVectorView l,
               FilterActivity& last) const;
@@ -175,6 +183,7 @@ class SafetyFilter final : public System {
   const OptionalInput<Vector> acceleration;
   const Input<Vector> measured_position;
   const OptionalInput<Vector> command;
+  const OptionalInput<ClearMotion> clear;
   const Output<FilterSolution> solution;
   const Output<Vector> delta;
   const Output<FilterActivity> activity;

@@ -105,10 +105,12 @@ void SafetyFilter::AddRow(const FilterRow& source, double bound, FilterSolution&
   work.qp.penalties[row] = source.recovery ? params_.recovery_penalty : params_.slack_penalty;
 }
 
-void SafetyFilter::FillRows(const ProximitySet& set, Poses X_WL, FilterSolution& result) const {
+void SafetyFilter::FillRows(const ProximitySet& set, Poses X_WL, const ClearMotion* clear_motion,
+                            FilterSolution& result) const {
   FilterSolution::Workspace& work = *result.workspace;
   work.rows.clear();
   work.qp.num_rows = 0;
+  const bool trusted = clear_motion && clear_motion->clear_for > params_.trust_time;
   for (std::size_t i = 0; i < set.proximities.size(); ++i) {
     const Proximity& proximity = set.proximities[i];
     const int link = FindLink(proximity.link);
@@ -117,8 +119,11 @@ void SafetyFilter::FillRows(const ProximitySet& set, Poses X_WL, FilterSolution&
                         proximity.point_on_obstacle, proximity.normal, work.row);
     const double headroom = proximity.distance - params_.safe_distance;
     const double rest = proximity.normal.dot(proximity.obstacle_velocity);
-    AddRow({static_cast<int>(i), false, headroom}, rest - Approach(headroom), result);
-    if (headroom >= 0.0) continue;
+    double bound = rest - Approach(headroom);
+    const bool known = trusted && clear_motion->Knows(proximity.obstacle, other >= 0);
+    if (known) bound = std::min(bound, work.row.dot(work.qp.wish));
+    AddRow({static_cast<int>(i), false, headroom}, bound, result);
+    if (headroom >= 0.0 || known) continue;
     const double growth = std::min(-params_.recovery_gain * headroom, params_.recovery_speed);
     AddRow({static_cast<int>(i), true, headroom}, rest + growth, result);
   }

@@ -19,6 +19,12 @@ constexpr double kGrowth = 1.3;
 constexpr double kCoarse = 0.4;
 constexpr int kFewest = 8;
 
+constexpr int kFewestSteps = 5;  // on a start, less is no trial
+// Of paths where the work of a plan is bounded.
+constexpr int kBoundedNodes = 150;
+constexpr int kBoundedShortcuts = 50;
+constexpr std::uint64_t kPathTurn = 3;  // one of so many bounded searches tries paths
+
 constexpr double kMuchCheaper = 0.7;
 constexpr double kAtRest = 1e-9;
 
@@ -41,9 +47,10 @@ BandPlanner::BandPlanner(std::shared_ptr<const RobotModel> model,
       band_(model, settings.band, self_collision),
       standing_(std::make_unique<Clearance>(model, self_collision)) {}
 
-double BandPlanner::HorizonOf(const BandTask& task) const {
+double BandPlanner::HorizonOf(const BandTask& task, bool moving) const {
   double horizon =
       std::max(task.request_end + settings_.tail - task.start, settings_.least_horizon);
+  if (moving) horizon = std::min(horizon, settings_.moving_horizon);
   for (Eigen::Index j = 0; j < task.deviation[0].size(); ++j) {
     const double speed = settings_.band.limit_share * model().velocity_limits()[j];
     horizon = std::max(horizon, 2.5 * std::fabs(task.deviation[0][j]) / speed);
@@ -51,11 +58,17 @@ double BandPlanner::HorizonOf(const BandTask& task) const {
   return std::min(horizon, settings_.most_horizon);
 }
 
+int BandPlanner::StepsLeft(int wanted) const {
+  if (settings_.most_evaluations == 0) return wanted;
+  const long left = settings_.most_evaluations - (band_.evaluations() - begun_);
+  // A start costs its look at the finer grid of Check too.
+  return static_cast<int>(std::clamp<long>(left / band_.num_samples() - 3, 0, wanted));
+}
+
 std::vector<double> BandPlanner::TimesOf(const BandTask& task) const {
-  const double horizon = HorizonOf(task);
+  const bool moving = Moves(task.bodies);
+  const double horizon = HorizonOf(task, moving);
   std::vector<double> times{task.start};
-  const bool moving = std::any_of(task.bodies.begin(), task.bodies.end(),
-                                  [](const BandBody& body) { return !body.stands; });
   double step = kFine;
   while (moving && times.back() - task.start + step < horizon && step < kCoarse) {
     times.push_back(times.back() + step);
@@ -75,7 +88,7 @@ void BandPlanner::Prepare(const BandTask& task) {
   VectorXd goal(zero_.size());
   task.request(zero_.end(), 0, goal);
   end_fixed_ = band_.Distance(goal, zero_.end()) >= settings_.band.clear_distance;
-  if (!end_fixed_) band_.Prepare(zero_, task.request, task.bodies, false);
+  band_.FixEnd(end_fixed_);
 }
 
 BandCurve BandPlanner::Shaped(const BandTask& task,
@@ -92,8 +105,7 @@ BandCurve BandPlanner::Shaped(const BandTask& task,
   return curve;
 }
 
-BandPlan BandPlanner::Finish(const BandTask& /*task*/, BandStart kind, BandCurve curve,
-                             int iterations) {
+BandPlan BandPlanner::Finish(BandStart kind, BandCurve curve, int iterations) {
   BandPlan plan{.curve = std::move(curve), .start = kind};
   plan.cost = band_.Relax(plan.curve, iterations);
   plan.check = band_.Check(plan.curve);
@@ -115,53 +127,74 @@ void BandPlanner::Keep(BandPlan plan, BandPlan& best) const {
 }
 
 BandPlan BandPlanner::Plan(const BandTask& task, const BandCurve* last) {
-  const long before = band_.evaluations();
+  begun_ = band_.evaluations();
   Prepare(task);
   const bool at_rest = task.deviation[0].cwiseAbs().maxCoeff() < kAtRest &&
                        task.deviation[1].cwiseAbs().maxCoeff() < kAtRest;
-  BandPlan straight{.curve = zero_, .check = band_.Check(zero_), .start = BandStart::kRequest};
-  const bool nothing_near = straight.check.min_distance >= settings_.band.margin;
-  BandPlan best;
-  if (at_rest && (nothing_near || (last == nullptr && straight.check.clear()))) {
-    best = std::move(straight);
-  } else {
-    const BandCheck trouble = straight.check;
-    BandCurve warm = zero_;
-    if (last != nullptr && !last->empty()) {
-      VectorXd x(zero_.size());
-      warm = Shaped(task, [&](double time) -> VectorXd {
-        last->Evaluate(time, 0, x);
-        return x;
-      });
-    }
-    best = Finish(task, BandStart::kLast, std::move(warm), settings_.iterations);
-    if (trouble.clear() || !best.check.clear()) {
-      BandPlan back = Finish(task, BandStart::kRequest, zero_, settings_.iterations);
-      if (!best.check.clear() || back.cost < kMuchCheaper * best.cost) {
-        Keep(std::move(back), best);
-      }
-    }
-    if ((!best.check.clear() && task.explore) || (task.fresh && !trouble.clear())) {
-      Explore(task, trouble.clear() ? best.check : trouble, best);
-    }
-  }
-  best.evaluations = band_.evaluations() - before;
+  BandPlan best{.curve = zero_, .check = band_.Check(zero_), .start = BandStart::kRequest};
+  const bool nothing_near = best.check.min_distance >= settings_.band.margin;
+  const bool enough = nothing_near || (last == nullptr && best.check.clear());
+  if (!at_rest || !enough) best = Bend(task, best.check, last);
+  best.evaluations = band_.evaluations() - begun_;
   return best;
 }
 
-void BandPlanner::Explore(const BandTask& task, const BandCheck& trouble, BandPlan& best) {
+BandPlan BandPlanner::Bend(const BandTask& task, const BandCheck& trouble, const BandCurve* last) {
+  BandCurve warm = zero_;
+  if (last != nullptr && !last->empty()) {
+    VectorXd x(zero_.size());
+    warm = Shaped(task, [&](double time) -> VectorXd {
+      last->Evaluate(time, 0, x);
+      return x;
+    });
+  }
+  BandPlan best = Finish(BandStart::kLast, warm, settings_.iterations);
+  if (!best.check.clear() && end_fixed_ && Moves(task.bodies)) {
+    // What flies may be between the arm and where it is to be at the end.
+    end_fixed_ = false;
+    band_.FixEnd(false);
+    Keep(Finish(BandStart::kLast, std::move(warm), settings_.iterations), best);
+  }
+  if (trouble.clear() || !best.check.clear()) {
+    BandPlan back = Finish(BandStart::kRequest, zero_, settings_.iterations);
+    if (!best.check.clear() || back.cost < kMuchCheaper * best.cost) Keep(std::move(back), best);
+  }
+  if ((!best.check.clear() && task.explore) || (task.fresh && !trouble.clear())) {
+    if (trouble.clear()) {
+      const BandPlan tried = best;
+      Explore(task, tried.check, tried.curve, best);
+    } else {
+      Explore(task, trouble, zero_, best);
+    }
+  }
+  return best;
+}
+
+void BandPlanner::Explore(const BandTask& task, const BandCheck& trouble, const BandCurve& troubled,
+                          BandPlan& best) {
   std::vector<Start> starts;
   AddPauses(task, trouble, starts);
   AddDetours(task, trouble, starts);
+  // Within a bounded search half the work goes into finding what is worth to be relaxed.
+  const auto all = static_cast<std::ptrdiff_t>(starts.size());
+  const std::ptrdiff_t looks = settings_.most_evaluations == 0
+                                   ? all
+                                   : std::clamp<std::ptrdiff_t>(StepsLeft(1000) / 2, 4, all);
+  const auto first = static_cast<std::ptrdiff_t>(task.search * looks % all);
+  std::rotate(starts.begin(), starts.begin() + first, starts.end());
+  starts.resize(looks);
+  AddRetreats(task, trouble, troubled, starts);
   for (Start& start : starts) start.cost = band_.Cost(start.curve);
   std::stable_sort(starts.begin(), starts.end(),
                    [](const Start& a, const Start& b) { return a.cost < b.cost; });
   const auto count = std::min(starts.size(), static_cast<std::size_t>(settings_.relaxed_starts));
   for (std::size_t i = 0; i < count; ++i) {
-    Keep(Finish(task, starts[i].kind, std::move(starts[i].curve), settings_.start_iterations),
-         best);
+    const int steps = StepsLeft(settings_.start_iterations);
+    if (i > 0 && steps < kFewestSteps) break;
+    Keep(Finish(starts[i].kind, std::move(starts[i].curve), std::max(steps, kFewestSteps)), best);
   }
-  if (!best.check.clear()) TryPaths(task, best);
+  const bool turn = settings_.most_evaluations == 0 || task.search % kPathTurn == kPathTurn - 1;
+  if (!best.check.clear() && turn) TryPaths(task, best);
 }
 
 void BandPlanner::AddPauses(const BandTask& task, const BandCheck& trouble,
@@ -178,6 +211,25 @@ void BandPlanner::AddPauses(const BandTask& task, const BandCheck& trouble,
       return (here - request) * SmoothStep((zero_.end() - time) / (zero_.end() - until));
     };
     starts.push_back({BandStart::kPause, Shaped(task, shape), 0.0});
+  }
+}
+
+void BandPlanner::AddRetreats(const BandTask& task, const BandCheck& trouble, const BandCurve& from,
+                              std::vector<Start>& starts) {
+  if (trouble.min_distance >= settings_.band.margin) return;
+  VectorXd q(zero_.size()), x(zero_.size()), out(zero_.size());
+  task.request(trouble.time, 0, q);
+  from.Evaluate(trouble.time, 0, x);
+  if (!band_.DistanceGradient(q + x, trouble.time, out)) return;
+  const double largest = out.cwiseAbs().maxCoeff();
+  if (!(largest > 0.0)) return;
+  const double room = std::max(0.3, 0.5 * (zero_.end() - trouble.last));
+  for (const double size : {0.4, 1.0, -0.7}) {
+    const auto shape = [&](double time) -> VectorXd {
+      return (size / largest) * out *
+             Window(time, trouble.first, trouble.last, std::min(1.5, room));
+    };
+    starts.push_back({BandStart::kDetour, Shaped(task, shape), 0.0});
   }
 }
 
@@ -218,13 +270,16 @@ void BandPlanner::TryPaths(const BandTask& task, BandPlan& best) {
   task.request(task.start, 0, here);
   here += task.deviation[0];
   task.request(zero_.end(), 0, goal);
-  for (int i = 0; i < settings_.paths; ++i) {
+  const bool bounded = settings_.most_evaluations > 0;
+  for (int i = 0; i < (bounded ? 1 : settings_.paths); ++i) {
+    RrtOptions options;
+    options.seed = Random::Seed(task.seed, static_cast<std::uint64_t>(i));
+    options.most_nodes = bounded ? kBoundedNodes : settings_.path_nodes;
+    if (bounded) options.shortcuts = kBoundedShortcuts;
     std::optional<std::vector<VectorXd>> path;
     for (const double margin : {1.3 * settings_.band.clear_distance, 0.015}) {
-      path = RrtConnect(*standing_, here, goal,
-                        {.seed = Random::Seed(task.seed, static_cast<std::uint64_t>(i)),
-                         .margin = margin,
-                         .most_nodes = settings_.path_nodes});
+      options.margin = margin;
+      path = RrtConnect(*standing_, here, goal, options);
       if (path) break;
     }
     if (!path) continue;
@@ -243,7 +298,8 @@ void BandPlanner::TryPaths(const BandTask& task, BandPlan& best) {
       task.request(time, 0, request);
       return (*path)[k - 1] + share * ((*path)[k] - (*path)[k - 1]) - request;
     };
-    Keep(Finish(task, BandStart::kPath, Shaped(task, shape), 2 * settings_.start_iterations), best);
+    const int steps = std::max(StepsLeft(2 * settings_.start_iterations), kFewestSteps);
+    Keep(Finish(BandStart::kPath, Shaped(task, shape), steps), best);
   }
 }
 

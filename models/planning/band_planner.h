@@ -20,16 +20,18 @@ inline std::span<const char* const> EnumNames(BandStart) { return kBandStartName
 
 struct BandPlannerSettings {
   BandSettings band{};
-  int iterations{12};         ///< steps on the last band
-  int start_iterations{30};   ///< steps on another start
-  int relaxed_starts{6};      ///< the cheapest of all starts that are worth steps
-  int random_starts{24};      ///< beside those of single joints
-  int paths{2};               ///< of RrtConnect
-  int path_nodes{2000};       ///< each
-  double least_horizon{2.0};  ///< s
-  double most_horizon{30.0};  ///< s
-  double tail{0.5};           ///< s; after the end of the request
-  double fine_span{1.6};      ///< s; from the start, with short intervals if anything moves
+  int iterations{12};          ///< steps on the last band
+  int start_iterations{30};    ///< steps on another start
+  int relaxed_starts{6};       ///< the cheapest of all starts that are worth steps
+  int random_starts{24};       ///< beside those of single joints
+  int paths{2};                ///< of RrtConnect
+  int path_nodes{2000};        ///< each
+  long most_evaluations{0};    ///< of configurations, about, that a plan may cost; 0: no bound
+  double least_horizon{2.0};   ///< s
+  double moving_horizon{3.0};  ///< s; at most, while something moves
+  double most_horizon{30.0};   ///< s
+  double tail{0.5};            ///< s; after the end of the request
+  double fine_span{1.6};       ///< s; from the start, with short intervals if anything moves
 };
 
 /// What a band is planned for.
@@ -40,8 +42,9 @@ struct BandTask {
   double request_end{0.0};  ///< s; from then on it rests
   std::span<const BandBody> bodies{};
   std::uint64_t seed{0};
-  bool explore{true};  ///< try other starts if the last band is not clear
-  bool fresh{false};   ///< or if it is clear but the request is not
+  std::uint64_t search{0};  ///< how many were made before: each looks at other starts
+  bool explore{true};       ///< try other starts if the last band is not clear
+  bool fresh{false};        ///< or if it is clear but the request is not
 };
 
 struct BandPlan {
@@ -80,15 +83,20 @@ class BandPlanner {
     BandCurve curve;
     double cost;
   };
-  double HorizonOf(const BandTask& task) const;
+  double HorizonOf(const BandTask& task, bool moving) const;
   std::vector<double> TimesOf(const BandTask& task) const;
   void Prepare(const BandTask& task);
   BandCurve Shaped(const BandTask& task, const std::function<Eigen::VectorXd(double)>& shape) const;
-  BandPlan Finish(const BandTask& task, BandStart kind, BandCurve curve, int iterations);
-  void Explore(const BandTask& task, const BandCheck& trouble, BandPlan& best);
+  BandPlan Finish(BandStart kind, BandCurve curve, int iterations);
+  BandPlan Bend(const BandTask& task, const BandCheck& trouble, const BandCurve* last);
+  void Explore(const BandTask& task, const BandCheck& trouble, const BandCurve& troubled,
+               BandPlan& best);
+  void AddRetreats(const BandTask& task, const BandCheck& trouble, const BandCurve& from,
+                   std::vector<Start>& starts);
   void AddPauses(const BandTask& task, const BandCheck& trouble, std::vector<Start>& starts) const;
   void AddDetours(const BandTask& task, const BandCheck& trouble, std::vector<Start>& starts) const;
   void TryPaths(const BandTask& task, BandPlan& best);
+  int StepsLeft(int wanted) const;
   bool Better(const BandPlan& plan, const BandPlan& best) const;
   void Keep(BandPlan plan, BandPlan& best) const;
 
@@ -97,6 +105,7 @@ class BandPlanner {
   std::unique_ptr<Clearance> standing_;
   BandCurve zero_;
   bool end_fixed_{true};
+  long begun_{0};  ///< evaluations before this plan
 };
 
 }  // namespace oca::models

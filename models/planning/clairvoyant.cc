@@ -52,6 +52,7 @@ BandPlannerSettings PlannerSettings(const ClairvoyantTask& task) {
   settings.random_starts = 4 * task.starts;
   settings.paths = 6;
   settings.path_nodes = 5000;
+  settings.moving_horizon = task.duration;
   settings.least_horizon = task.duration;
   settings.most_horizon = task.duration;
   settings.fine_span = task.duration;

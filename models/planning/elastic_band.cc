@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace oca::models {
 namespace {
@@ -12,17 +13,29 @@ constexpr double kShortInterval = 0.15;
 constexpr double kShortSpacing = 0.05;
 constexpr double kLongSpacing = 0.125;
 
-/// How far `x` is above a limit or below its negative, in shares of it; 0 without a limit.
+constexpr double kPositionInset = 0.02;    // rad, m; that bands stay away from position limits
+constexpr double kPositionUnit = 0.1;      // rad, m
+constexpr double kExcessTolerance = 1e-3;  // that still counts as within the limits
+constexpr double kExcessPrice = 0.05;      // m; an excess of 1 counts as so much missing distance
+
+/// How far `x` is above a limit or below its negative; 0 without a limit.
 double Excess(double x, double limit) {
-  if (!std::isfinite(limit)) return 0.0;
-  return std::copysign(std::max(std::fabs(x) - limit, 0.0) / limit, x);
+  return std::copysign(std::max(std::fabs(x) - limit, 0.0), x);
 }
 
 }  // namespace
 
+bool Moves(std::span<const BandBody> bodies) {
+  return std::any_of(bodies.begin(), bodies.end(),
+                     [](const BandBody& body) { return !body.stands; });
+}
+
 ElasticBand::ElasticBand(std::shared_ptr<const RobotModel> model, const BandSettings& settings,
                          bool self_collision)
-    : model_(std::move(model)), settings_(settings), clearance_(model_, self_collision) {
+    : model_(std::move(model)),
+      settings_(settings),
+      self_collision_(self_collision),
+      clearance_(model_, self_collision) {
   const Eigen::Index n = model_->num_positions();
   q_.setZero(n);
   row_.setZero(n);
@@ -53,13 +66,18 @@ int ElasticBand::Variable(int control) const {
 void ElasticBand::Prepare(const BandCurve& curve, const BandRequest& request,
                           std::span<const BandBody> bodies, bool end_fixed) {
   bodies_.assign(bodies.begin(), bodies.end());
+  something_near_ = !bodies_.empty() || self_collision_;
   std::vector<PlacedBody> placed;
   for (const BandBody& body : bodies_) placed.push_back({body.collider, body.pose(curve.start())});
   clearance_.SetBodies(std::move(placed));
-  end_fixed_ = end_fixed;
   num_controls_ = static_cast<int>(curve.controls().cols());
-  num_variables_ = num_controls_ - 6 + (end_fixed ? 0 : 1);
+  FixEnd(end_fixed);
   AddSamples(curve, request);
+}
+
+void ElasticBand::FixEnd(bool fixed) {
+  end_fixed_ = fixed;
+  num_variables_ = num_controls_ - 6 + (fixed ? 0 : 1);
 }
 
 void ElasticBand::AddSamples(const BandCurve& curve, const BandRequest& request) {
@@ -105,6 +123,38 @@ void ElasticBand::AddClearance(bool rows) {
   }
 }
 
+ElasticBand::Range ElasticBand::RangeOf(Eigen::Index joint, int derivative, double share) const {
+  if (derivative == 1) {
+    const double limit = model_->velocity_limits()[joint];
+    return {0.0, share * limit, limit};
+  }
+  if (derivative == 2) {
+    const double limit = model_->acceleration_limits()[joint];
+    return {0.0, share * limit, limit};
+  }
+  const double lower = model_->lower_limits()[joint];
+  const double upper = model_->upper_limits()[joint];
+  if (!std::isfinite(lower) || !std::isfinite(upper)) {
+    return {0.0, std::numeric_limits<double>::infinity(), 1.0};
+  }
+  const double inset = share < 1.0 ? kPositionInset : 0.0;
+  return {0.5 * (upper + lower), std::max(0.5 * (upper - lower) - inset, 0.0), kPositionUnit};
+}
+
+double ElasticBand::LargestExcess(const Sample& sample, const BandCurve& curve) const {
+  double largest = 0.0;
+  Eigen::VectorXd x(q_.size());
+  for (int d = 0; d < 3; ++d) {
+    curve.Evaluate(sample.time, d, x);
+    for (Eigen::Index j = 0; j < x.size(); ++j) {
+      const Range range = RangeOf(j, d, 1.0);
+      const double at = sample.request[d][j] + x[j] - range.middle;
+      largest = std::max(largest, std::fabs(Excess(at, range.half)) / range.unit);
+    }
+  }
+  return largest;
+}
+
 void ElasticBand::AddDiagonal(const Sample& sample, const Eigen::VectorXd x[3]) {
   const double price = settings_.limits;
   for (Eigen::Index j = 0; j < q_.size(); ++j) {
@@ -116,18 +166,13 @@ void ElasticBand::AddDiagonal(const Sample& sample, const Eigen::VectorXd x[3]) 
     g_[1][j] += settings_.calm * x[1][j];
     d_[2][j] += settings_.smoothness;
     g_[2][j] += settings_.smoothness * x[2][j];
-    const double half = 0.5 * (model_->upper_limits()[j] - model_->lower_limits()[j]);
-    const double middle = 0.5 * (model_->upper_limits()[j] + model_->lower_limits()[j]);
-    const double ranges[3] = {half, settings_.limit_share * model_->velocity_limits()[j],
-                              settings_.limit_share * model_->acceleration_limits()[j]};
     for (int d = 0; d < 3; ++d) {
-      if (!std::isfinite(ranges[d])) continue;
-      const double at = sample.request[d][j] + x[d][j] - (d == 0 ? middle : 0.0);
-      const double excess = Excess(at, ranges[d]);
+      const Range range = RangeOf(j, d, settings_.limit_share);
+      const double excess = Excess(sample.request[d][j] + x[d][j] - range.middle, range.half);
       if (excess == 0.0) continue;
-      cost_ += price * excess * excess;
-      d_[d][j] += price / (ranges[d] * ranges[d]);
-      g_[d][j] += price * excess / ranges[d];
+      cost_ += price * excess * excess / (range.unit * range.unit);
+      d_[d][j] += price / (range.unit * range.unit);
+      g_[d][j] += price * excess / (range.unit * range.unit);
     }
   }
 }
@@ -174,7 +219,7 @@ void ElasticBand::Linearize(const Eigen::MatrixXd& controls, bool rows, Normal& 
     }
     H_.setZero();
     cost_ = 0.0;
-    if (!bodies_.empty()) {
+    if (something_near_) {
       Place(sample, x[0]);
       AddClearance(rows);
     }
@@ -205,7 +250,7 @@ Eigen::VectorXd ElasticBand::HalfGradient(const BandCurve& curve) {
 
 BandCheck ElasticBand::Check(const BandCurve& curve) {
   BandCheck check{.min_distance = settings_.margin};
-  if (bodies_.empty()) return check;
+  if (!something_near_) return check;
   Eigen::VectorXd x(q_.size()), before;
   for (const Sample& sample : checks_) {
     curve.Evaluate(sample.time, 0, x);
@@ -219,20 +264,38 @@ BandCheck ElasticBand::Check(const BandCurve& curve) {
       check.link = model_->links()[pair.link].name;
       check.body = pair.body >= 0 ? bodies_[pair.body].name : model_->links()[pair.other_link].name;
     }
-    if (!(pair.distance < settings_.clear_distance)) continue;
+    const double excess = std::max(LargestExcess(sample, curve) - kExcessTolerance, 0.0);
+    if (pair.distance < settings_.trust_distance || excess > 0.0) {
+      check.touch = std::min(check.touch, sample.time);
+    }
+    const double lacking = std::max(settings_.clear_distance - pair.distance, 0.0);
+    if (!(lacking > 0.0 || excess > 0.0)) continue;
     if (check.clear()) check.first = sample.time;
     check.last = sample.time;
-    check.violation += sample.weight * (settings_.clear_distance - pair.distance);
+    check.violation += sample.weight * (lacking + kExcessPrice * excess);
   }
   return check;
 }
 
-double ElasticBand::Distance(const Eigen::VectorXd& q, double time) {
+void ElasticBand::PlaceAt(const Eigen::VectorXd& q, double time) {
   ++evaluations_;
   clearance_.MoveTo(q);
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (!bodies_[b].stands) clearance_.MoveBody(static_cast<int>(b), bodies_[b].pose(time));
   }
+}
+
+bool ElasticBand::DistanceGradient(const Eigen::VectorXd& q, double time, Eigen::VectorXd& row) {
+  PlaceAt(q, time);
+  const NearPair pair = clearance_.Nearest(settings_.margin);
+  if (!(pair.distance < settings_.margin)) return false;
+  row.resize(q.size());
+  clearance_.Gradient(pair, row);
+  return true;
+}
+
+double ElasticBand::Distance(const Eigen::VectorXd& q, double time) {
+  PlaceAt(q, time);
   return std::min(clearance_.Nearest(settings_.margin).distance, settings_.margin);
 }
 

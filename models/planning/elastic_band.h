@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -22,6 +23,8 @@ struct BandBody {
   bool stands;
 };
 
+bool Moves(std::span<const BandBody> bodies);
+
 /// The requested motion: its `derivative` (0, 1, 2) at `time` into `out`.
 using BandRequest =
     std::function<void(double time, int derivative, Eigen::Ref<Eigen::VectorXd> out)>;
@@ -29,11 +32,12 @@ using BandRequest =
 struct BandSettings {
   double margin{0.1};           ///< m; distances below it cost
   double clear_distance{0.04};  ///< m; a band that keeps it is clear
+  double trust_distance{0.02};  ///< m; a band that keeps it need not be helped
   double clearance{1e4};        ///< 1/m^2; price of a missing margin
   double smoothness{0.02};      ///< s^4/rad^2; price of an acceleration of the deviation
   double nearness{0.1};         ///< 1/rad^2; price of a deviation
   double calm{0.1};             ///< s^2/rad^2; price of a speed of the deviation
-  double limits{100.0};         ///< price of the square of what exceeds a limit, a limit being 1
+  double limits{1e3};           ///< price of the square of what exceeds a limit, see LimitsOf
   double limit_share{0.9};      ///< of the velocity and acceleration limits that a band may use
 };
 
@@ -46,7 +50,8 @@ struct BandCheck {
   double violation{0.0};  ///< m s; integral of what lacks to clear_distance
   double first{0.0};      ///< s; first and last time at which it is not clear
   double last{0.0};
-  double way{0.0};  ///< rad; that the joints go, all together
+  double touch{std::numeric_limits<double>::infinity()};  ///< s; first time below trust_distance
+  double way{0.0};                                        ///< rad; that the joints go, all together
   bool clear() const { return !(violation > 0.0); }
 };
 
@@ -73,6 +78,8 @@ class ElasticBand {
   /// Takes what is requested and what stands and moves around, for bands on the grid of `curve`.
   void Prepare(const BandCurve& curve, const BandRequest& request, std::span<const BandBody> bodies,
                bool end_fixed);
+  /// Whether the deviation at the end of the grid stays what it is.
+  void FixEnd(bool fixed);
   /// The cost of a band of that grid.
   double Cost(const BandCurve& curve);
   /// Half the gradient of the cost in the free control points; for tests.
@@ -83,6 +90,10 @@ class ElasticBand {
   /// The nearest distance of a configuration at a time, up to the margin; after Prepare.
   double Distance(const Eigen::VectorXd& q, double time);
 
+  /// How the nearest distance changes with the joints there, into `row`; false if nothing is near.
+  bool DistanceGradient(const Eigen::VectorXd& q, double time, Eigen::VectorXd& row);
+
+  int num_samples() const { return static_cast<int>(samples_.size()); }
   long evaluations() const { return evaluations_; }  ///< of configurations, since the start
 
  private:
@@ -105,14 +116,23 @@ class ElasticBand {
   Sample MakeSample(const BandCurve& curve, const BandRequest& request, double time, double weight);
   void Linearize(const Eigen::MatrixXd& controls, bool rows, Normal& normal);
   void AddClearance(bool rows);
+  /// Middle and half range of positions, velocities and accelerations that a band may use, and what
+  /// counts as an excess of 1.
+  struct Range {
+    double middle, half, unit;
+  };
+  Range RangeOf(Eigen::Index joint, int derivative, double share) const;
+  double LargestExcess(const Sample& sample, const BandCurve& curve) const;
   void AddDiagonal(const Sample& sample, const Eigen::VectorXd x[3]);
   void Assemble(const Sample& sample, Normal& normal) const;
   bool Step(const Normal& normal, double damping);
   /// Brings robot and bodies to where they are at a sample with deviation x.
   void Place(const Sample& sample, const Eigen::VectorXd& x);
+  void PlaceAt(const Eigen::VectorXd& q, double time);
 
   const std::shared_ptr<const RobotModel> model_;
   const BandSettings settings_;
+  const bool self_collision_;
   Clearance clearance_;
   std::vector<BandBody> bodies_;
   std::vector<Sample> samples_;
@@ -121,6 +141,7 @@ class ElasticBand {
   int num_controls_{0};
   int num_variables_{0};
   bool end_fixed_{true};
+  bool something_near_{false};  ///< else nothing has a distance
   long evaluations_{0};
 
   // Of the sample at hand.

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "systems/clear_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "systems/json_fields.h"
+
+namespace oca::systems {
+
+bool ClearMotion::Knows(models::Name obstacle, bool own_link) const {
+  if (own_link) return own_links;
+  return std::find(bodies.begin(), bodies.end(), obstacle) != bodies.end();
+}
+
+}  // namespace oca::systems
+
+namespace oca {
+
+using systems::ClearMotion;
+using systems::Json;
+using systems::JsonReader;
+
+bool Signal<ClearMotion>::Finite(const ClearMotion& value) {
+  return std::isfinite(value.clear_for);
+}
+
+void Signal<ClearMotion>::WriteJson(const ClearMotion& value, std::string& out) {
+  Json bodies = Json::array();
+  for (const models::Name body : value.bodies) bodies.push_back(body.text());
+  out += Json{{"clear_for", value.clear_for}, {"bodies", bodies}, {"own_links", value.own_links}}
+             .dump();
+}
+
+ClearMotion Signal<ClearMotion>::ReadJson(std::string_view text) {
+  const Json json = systems::ParseJson(text);
+  const JsonReader reader(json, "clear");
+  reader.CheckKeys({"clear_for", "bodies", "own_links"});
+  ClearMotion value;
+  value.clear_for = reader.At("clear_for").Number();
+  reader.At("bodies").ForEach(
+      [&](const JsonReader& body) { value.bodies.emplace_back(body.Label()); });
+  if (!json["own_links"].is_boolean()) {
+    reader.At("own_links").Fail(json["own_links"].dump(), "true or false");
+  }
+  value.own_links = json["own_links"].get<bool>();
+  return value;
+}
+
+}  // namespace oca
