@@ -31,7 +31,7 @@ struct Prices {
   double limit_share;
 };
 constexpr Prices kPrices[] = {
-    {kClairvoyantReach, 1e5, 1e4, 0.97}, {0.03, 1e5, 1e6, 0.98}, {0.015, 1e6, 1e7, 0.99}};
+    {kClairvoyantReach, 1e5, 1e4, 0.96}, {0.03, 1e5, 1e6, 0.97}, {0.015, 1e6, 1e7, 0.98}};
 
 BandSettings SettingsOf(const Prices& prices) {
   BandSettings settings;

@@ -141,15 +141,17 @@ ElasticBand::Range ElasticBand::RangeOf(Eigen::Index joint, int derivative, doub
   return {0.5 * (upper + lower), std::max(0.5 * (upper - lower) - inset, 0.0), kPositionUnit};
 }
 
-double ElasticBand::LargestExcess(const Sample& sample, const BandCurve& curve) const {
+double ElasticBand::AddedExcess(const Sample& sample, const BandCurve& curve) const {
   double largest = 0.0;
   Eigen::VectorXd x(q_.size());
   for (int d = 0; d < 3; ++d) {
     curve.Evaluate(sample.time, d, x);
     for (Eigen::Index j = 0; j < x.size(); ++j) {
       const Range range = RangeOf(j, d, 1.0);
-      const double at = sample.request[d][j] + x[j] - range.middle;
-      largest = std::max(largest, std::fabs(Excess(at, range.half)) / range.unit);
+      const double requested = sample.request[d][j] - range.middle;
+      const double own = std::fabs(Excess(requested, range.half));
+      const double all = std::fabs(Excess(requested + x[j], range.half));
+      largest = std::max(largest, (all - own) / range.unit);
     }
   }
   return largest;
@@ -264,7 +266,7 @@ BandCheck ElasticBand::Check(const BandCurve& curve) {
       check.link = model_->links()[pair.link].name;
       check.body = pair.body >= 0 ? bodies_[pair.body].name : model_->links()[pair.other_link].name;
     }
-    const double excess = std::max(LargestExcess(sample, curve) - kExcessTolerance, 0.0);
+    const double excess = std::max(AddedExcess(sample, curve) - kExcessTolerance, 0.0);
     if (pair.distance < settings_.trust_distance || excess > 0.0) {
       check.touch = std::min(check.touch, sample.time);
     }

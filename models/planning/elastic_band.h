@@ -122,7 +122,8 @@ class ElasticBand {
     double middle, half, unit;
   };
   Range RangeOf(Eigen::Index joint, int derivative, double share) const;
-  double LargestExcess(const Sample& sample, const BandCurve& curve) const;
+  /// What the band exceeds more than the request does.
+  double AddedExcess(const Sample& sample, const BandCurve& curve) const;
   void AddDiagonal(const Sample& sample, const Eigen::VectorXd x[3]);
   void Assemble(const Sample& sample, Normal& normal) const;
   bool Step(const Normal& normal, double damping);

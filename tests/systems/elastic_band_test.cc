@@ -115,8 +115,8 @@ TEST(ElasticBandTest, OnlyPlansAllocate) {
   if (!kCountsAllocations) GTEST_SKIP() << "malloc is not ours to count here";
   Bench bench(BoxAt({0.6, 0.6, 0.0}));
   int k = 0;
-  for (; k < 12; ++k) bench.Tick(k);  // a plan is made, and kept at the next one's tick
-  ASSERT_EQ(bench.Plan().plans, 1u);
+  for (; k < 30; ++k) bench.Tick(k);  // the first plans look for better ways, then one is kept
+  ASSERT_EQ(bench.Plan().plans, 8u);
   VectorXd q = bench.Position();
   const std::int64_t before = AllocationCount();
   for (; k < 300; ++k) {
@@ -125,6 +125,45 @@ TEST(ElasticBandTest, OnlyPlansAllocate) {
     bench->measured_position.Fix(bench.context(), q);
   }
   EXPECT_EQ(AllocationCount(), before);
+}
+
+double ClearFor(Bench& bench) { return bench->clear.Eval(bench.context()).clear_for; }
+
+TEST(ElasticBandTest, SaysForHowLongItsPlanIsClearWhileAllGoesAsForeseen) {
+  const ObstacleSet post = BoxAt({0.6, 0.6, 0.0});
+  Bench bench(post);
+  bench.AdvanceTo(0.005);
+  EXPECT_EQ(ClearFor(bench), 0.0);  // the first plan has yet to be computed
+  for (int k = 1; k < 40; ++k) bench.Tick(k);
+  ASSERT_TRUE(bench.Plan().clear);
+  EXPECT_EQ(ClearFor(bench), 30.0);
+  const ClearMotion& clear = bench->clear.Eval(bench.context());
+  EXPECT_EQ(clear.bodies, std::vector{models::Name("post")});
+  EXPECT_FALSE(clear.own_links);
+
+  // An arm that is not where the band is.
+  const VectorXd followed = bench.Position();
+  bench.Measure(followed + Vector3d(0.0, 0.019, 0.0));
+  EXPECT_EQ(ClearFor(bench), 30.0);
+  bench.Measure(followed + Vector3d(0.0, 0.021, 0.0));
+  EXPECT_EQ(ClearFor(bench), 0.0);
+  bench.Measure(followed);
+
+  // What moves, is elsewhere, is new or is gone.
+  ObstacleSet other = post;
+  other.obstacles[0].linear = Vector3d(0.05, 0.0, 0.0);  // 15 mm in 0.3 s
+  bench->obstacles.Fix(bench.context(), other);
+  EXPECT_EQ(ClearFor(bench), 0.0);
+  bench->obstacles.Fix(bench.context(), BoxAt({0.6, 0.589, 0.0}));
+  EXPECT_EQ(ClearFor(bench), 0.0);
+  other = post;
+  other.obstacles.push_back(BoxAt({3.0, 0.0, 0.0}).obstacles[0]);
+  bench->obstacles.Fix(bench.context(), other);
+  EXPECT_EQ(ClearFor(bench), 0.0);
+  bench->obstacles.Fix(bench.context(), ObstacleSet{});
+  EXPECT_EQ(ClearFor(bench), 0.0);
+  bench->obstacles.Fix(bench.context(), post);
+  EXPECT_EQ(ClearFor(bench), 30.0);
 }
 
 TEST(ElasticBandTest, NamesWhatBlocksAnArmThatDoesNotGetOn) {

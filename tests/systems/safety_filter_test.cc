@@ -112,7 +112,7 @@ TEST(SafetyFilterTest, EvadesWithTheJointThatHasNowhereToGo) {
     DiagramBuilder builder;
     const auto& filter = builder.Add<SafetyFilter>("filter", params, TestModels("planar2"));
     for (const auto& input : filter.inputs()) {
-      if (input.name == "acceleration") continue;
+      if (input.name == "acceleration" || input.name == "clear") continue;
       builder.ExportInput(input.name, filter.FindInput(input.name));
     }
     const auto diagram = builder.Build();
@@ -135,6 +135,39 @@ TEST(SafetyFilterTest, EvadesWithTheJointThatHasNowhereToGo) {
   // (1, 0) onto (0.9, 0.4) . u = 0, with equal weights and with 11 : 1 or nearly so.
   EXPECT_NEAR(speed_of_joint_1(0.0), 1 - 0.81 / 0.97, 1e-12);
   EXPECT_NEAR(speed_of_joint_1(10.0), 1 - 0.81 / 11 / (0.81 / 11 + 0.16), 0.03);
+}
+
+TEST(SafetyFilterTest, LetsARequestThroughThatIsClearOfWhatItWasPlannedWith) {
+  const Eigen::Vector2d wish(0.5, 0.0);
+  const auto answer = [&](const ClearMotion& clear, double distance) {
+    DiagramBuilder builder;
+    const auto& filter = builder.Add<SafetyFilter>("filter", Hundred(), TestModels("planar2"));
+    builder.ExportInput("clear", filter.clear);
+    for (const char* name : {"proximities", "links", "position", "measured_position"}) {
+      builder.ExportInput(name, filter.FindInput(name));
+    }
+    const auto diagram = builder.Build();
+    Simulator simulator(*diagram);
+    Context& context = simulator.context();
+    const auto model = TestModels("planar2").Get("");
+    LinkPoses poses;
+    NameLinks(*model, poses);
+    models::ForwardKinematics(*model, Eigen::Vector2d::Zero(), poses.poses);
+    filter.links.Fix(context, poses);
+    filter.proximities.Fix(context, BesideTheTip(distance, 1.0));
+    filter.measured_position.Fix(context, Eigen::Vector2d::Zero());
+    filter.position.Fix(context, wish / Hundred().position_gain);
+    diagram->GetInput<ClearMotion>("clear").Fix(context, clear);
+    return Eigen::VectorXd(filter.solution.Eval(context).velocity);
+  };
+  const ClearMotion known{.clear_for = 0.1, .bodies = {models::Name("ball")}};
+  EXPECT_TRUE(answer(known, 0.06).isApprox(wish, 1e-9));
+  EXPECT_TRUE(answer(known, 0.01).isApprox(wish, 1e-9));  // nor is there a wish to recover
+  const Eigen::VectorXd guarded = answer({}, 0.06);
+  EXPECT_LT(guarded[0], -0.5);
+  EXPECT_EQ(answer({.clear_for = 0.0, .bodies = known.bodies}, 0.06), guarded);
+  EXPECT_EQ(answer({.clear_for = 0.1, .bodies = {models::Name("wall")}}, 0.06), guarded);
+  EXPECT_EQ(answer({.clear_for = 0.1, .bodies = {}, .own_links = true}, 0.06), guarded);
 }
 
 TEST(SafetyFilterTest, LetsTheArmMoveAwayAsFastAsItLikes) {

@@ -65,9 +65,12 @@ class SampleCost final : public ceres::CostFunction {
     const RobotModel& model = *scene_.model;
     const double prices[3] = {settings_.nearness, settings_.calm, settings_.smoothness};
     const VectorXd middle = 0.5 * (model.upper_limits() + model.lower_limits());
-    const VectorXd ranges[3] = {0.5 * (model.upper_limits() - model.lower_limits()),
+    const VectorXd half = 0.5 * (model.upper_limits() - model.lower_limits());
+    const VectorXd ranges[3] = {half.array() - 0.02,
                                 settings_.limit_share * model.velocity_limits(),
                                 settings_.limit_share * model.acceleration_limits()};
+    const VectorXd units[3] = {VectorXd::Constant(n_, 0.1), model.velocity_limits(),
+                               model.acceleration_limits()};
     VectorXd request(n_);
     for (int d = 0; d < 3; ++d) {
       scene_.request(time_, d, request);
@@ -78,11 +81,11 @@ class SampleCost final : public ceres::CostFunction {
         r[near] = price * x[d][j];
         slopes[d](near, j) = price;
         const double at = request[j] + x[d][j];
-        const double over = std::fabs(at) / ranges[d][j] - 1.0;
-        if (!(over > 0.0)) continue;
+        if (!(std::fabs(at) > ranges[d][j])) continue;
+        const double over = (std::fabs(at) - ranges[d][j]) / units[d][j];
         const double dear = std::sqrt(weight_ * settings_.limits);
         r[limit] = dear * over;
-        slopes[d](limit, j) = std::copysign(dear / ranges[d][j], at);
+        slopes[d](limit, j) = std::copysign(dear / units[d][j], at);
       }
     }
   }

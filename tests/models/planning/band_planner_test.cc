@@ -28,9 +28,9 @@ class Turn {
     };
     task.request_end = 4.0;
   }
-  BandPlan Plan() {
+  BandPlan Plan(const BandPlannerSettings& settings = {}) {
     task.bodies = bodies;
-    BandPlanner planner(model, {});
+    BandPlanner planner(model, settings);
     return planner.Plan(task, nullptr);
   }
   std::shared_ptr<const RobotModel> model;
@@ -71,6 +71,46 @@ TEST(BandPlannerTest, SaysWhatIsInTheWayWhereThereIsNoWay) {
     EXPECT_GT(plan.check.violation, 0.0);
     EXPECT_FALSE(plan.check.body.empty());
   }
+}
+
+TEST(BandPlannerTest, BoundsItsWorkAndGetsThereByMoreSearches) {
+  Turn turn;
+  const PlacedBody wall = test::BoxAt({0.4, 4.0, 2.0}, {0.0, 2.2, 0.0});
+  turn.bodies.push_back({Name("wall"), wall.collider, [X = wall.X_WO](double) { return X; }, true});
+  for (const long bound : {2000L, 6000L}) {
+    for (turn.task.search = 0; turn.task.search < 4; ++turn.task.search) {
+      const BandPlan plan = turn.Plan({.paths = 0, .most_evaluations = bound});
+      EXPECT_LT(plan.evaluations, 1.25 * bound) << turn.task.search;
+    }
+  }
+  turn.bodies.pop_back();
+  int clear = 0;
+  for (turn.task.search = 0; turn.task.search < 8; ++turn.task.search) {
+    clear += turn.Plan({.paths = 0, .most_evaluations = 3000}).check.clear();
+  }
+  EXPECT_GT(clear, 0);
+}
+
+TEST(BandPlannerTest, DoesNotReturnWhereSomethingComesBetweenArmAndRequest) {
+  // A wall sweeps over where the request rests and is past it when the plan ends.
+  Turn turn;
+  turn.task.request = [n = turn.model->num_positions()](double, int derivative,
+                                                        Eigen::Ref<VectorXd> out) {
+    out = VectorXd::Zero(n);
+    if (derivative == 0) out[0] = 0.5;
+  };
+  turn.task.request_end = 0.0;
+  turn.task.deviation[0][0] = -0.6;
+  const PlacedBody wall = test::BoxAt({3.0, 0.1, 1.0}, {1.6, 0.3, 0.0});
+  turn.bodies = {{Name("wall"), wall.collider,
+                  [X = wall.X_WO](double time) {
+                    Eigen::Isometry3d moved = X;
+                    moved.translation().y() -= 0.08 * time;
+                    return moved;
+                  },
+                  false}};
+  const BandPlan plan = turn.Plan();
+  EXPECT_TRUE(plan.check.clear()) << plan.check.min_distance << " at " << plan.check.time;
 }
 
 TEST(BandPlannerTest, DucksInTimeAwayFromWhatComes) {

@@ -131,6 +131,47 @@ TEST(ElasticBandTest, AnswersTheMirroredSceneWithTheMirroredBand) {
   EXPECT_LT((left - mirror.asDiagonal() * relax(-1.0)).norm(), 1e-3 * left.norm());
 }
 
+TEST(ElasticBandTest, IsNotClearWhereItExceedsLimitsThatTheRequestKeeps) {
+  const Sweep sweep;
+  ElasticBand band(sweep.model, {});
+  BandCurve curve = sweep.Curve();
+  const auto check = [&](double away) {
+    const PlacedBody far = test::BoxAt({0.2, 0.2, 0.2}, {0.0, 9.0, 1.0});
+    const std::vector<BandBody> bodies{
+        {Name("far"), far.collider, [X = far.X_WO](double) { return X; }, true}};
+    curve.Follow([&](double) -> VectorXd {
+      VectorXd x = VectorXd::Zero(7);
+      x[1] = away;
+      return x;
+    });
+    band.Prepare(curve, sweep.request(), bodies, false);
+    return band.Check(curve);
+  };
+  const double room = sweep.model->upper_limits()[1] - sweep.home[1];
+  EXPECT_TRUE(check(room - 0.01).clear());
+  const BandCheck beyond = check(room + 0.01);
+  EXPECT_FALSE(beyond.clear());
+  EXPECT_LT(beyond.touch, beyond.last);
+  EXPECT_EQ(beyond.min_distance, band.settings().margin);
+}
+
+TEST(ElasticBandTest, LooksAtItsOwnLinksWithoutAnyBody) {
+  const Sweep sweep;
+  VectorXd folded = VectorXd::Zero(7);
+  folded << 0.0, 0.0, 0.0, 2.0, 0.0, 2.0, 0.0;
+  const BandRequest request = [&](double, int derivative, Eigen::Ref<VectorXd> out) {
+    out = derivative == 0 ? folded : VectorXd::Zero(7);
+  };
+  BandSettings wide;
+  wide.margin = 1.0;
+  for (const bool own : {false, true}) {
+    ElasticBand band(sweep.model, wide, own);
+    const BandCurve curve = sweep.Curve();
+    band.Prepare(curve, request, {}, true);
+    EXPECT_EQ(band.Check(curve).min_distance < wide.margin, own);
+  }
+}
+
 TEST(ElasticBandTest, WithoutBodiesTheRequestIsBest) {
   const Sweep sweep;
   ElasticBand band(sweep.model, {});
