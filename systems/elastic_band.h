@@ -26,7 +26,13 @@ namespace oca::systems {
 /// begins plan_period after the instant that it is made at, which is the time there is to compute
 /// it, from the state that the band before it then has: position, velocity and acceleration are
 /// continuous. If the arm is farther than restart_distance from where the band says, the next band
-/// starts from the arm. A plan whose obstacles still stand where they stood is kept.
+/// starts from the arm. The first eight plans look for shorter ways even if theirs is clear; after
+/// them a plan whose obstacles still stand where they stood is kept.
+///
+/// `clear` says for how long the motion is clear from now on: until the plan comes nearer than
+/// trust_distance to a body or exceeds a limit that the request keeps. It is 0 while the arm is
+/// more than 0.02 from the band, or obstacles are not where they were foreseen, to 1 cm now and in
+/// 0.3 s, until a plan that was made for them has begun. A SafetyFilter lets such a motion through.
 ///
 /// Control samples are those of the end of each period, held, as from a sampled SplineGenerator.
 ///
@@ -44,6 +50,7 @@ namespace oca::systems {
 ///       velocity      n  u/s
 ///       acceleration  n  u/s^2
 ///       plan          BandMemory
+///       clear         ClearMotion
 /// state position, velocity, acceleration  n
 ///       plan          BandMemory
 /// throws ConfigError if there is no such model, a parameter is out of its bounds, or plan_period

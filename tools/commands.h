@@ -51,8 +51,8 @@ int CheckCommand(const std::vector<std::string>& files);
 struct PlanArguments {
   std::string file;
   std::vector<std::string> overrides;
-  std::optional<int> seed;         ///< of the first sample; none: the file's
-  int samples{1};                  ///< seeds seed, seed + 1, ...
+  std::optional<int> seed;  ///< of the first sample; none: the file's
+  int samples{1};           ///< seeds seed, seed + 1, ...
   int starts{30};
   std::string model;               ///< empty: the only one that is judged
   std::optional<double> duration;  ///< s; instead of the file's

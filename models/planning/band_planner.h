@@ -61,11 +61,16 @@ inline constexpr double kMarginWay = 10.0;  ///< rad/m
 ///
 /// 1. The request, if nothing deviates and it is clear.
 /// 2. The last band, relaxed; or the way straight back, if that is clear and much cheaper.
-/// 3. If that is not clear, or the task is fresh: pauses before what moves, detours of each joint
-///    around the time in question, random ones, and if these are not clear, paths of RrtConnect
-///    past what stands; the cheapest few are relaxed, and of those that are clear the one wins
-///    whose joints go the shortest way, a missing margin counted at kMarginWay. If none is clear:
-///    what lacks least.
+/// 3. If that is not clear, or the task is fresh: retreats along the gradient of the distance,
+///    pauses before what moves, detours of each joint around the time in question, random ones, and
+///    if these are not clear, paths of RrtConnect past what stands; the cheapest few are relaxed,
+///    and of those that are clear the one wins whose joints go the shortest way, a missing margin
+///    counted at kMarginWay. If none is clear: what lacks least.
+///
+/// A plan looks at about most_evaluations configurations, if that is above 0: a search then tries
+/// some of the starts, the next one (BandTask::search) goes on with others, every third tries one
+/// short path. Clear means within the limits too. While something moves, the end of a band is free
+/// where the last one cannot be made clear otherwise.
 ///
 /// The work is bounded and the answer a function of the arguments. Allocates.
 class BandPlanner {

@@ -37,21 +37,24 @@ struct BandSettings {
   double smoothness{0.02};      ///< s^4/rad^2; price of an acceleration of the deviation
   double nearness{0.1};         ///< 1/rad^2; price of a deviation
   double calm{0.1};             ///< s^2/rad^2; price of a speed of the deviation
-  double limits{1e3};           ///< price of the square of what exceeds a limit, see LimitsOf
+  double limits{1e3};           ///< price of the square of an excess
   double limit_share{0.9};      ///< of the velocity and acceleration limits that a band may use
 };
 
 /// What is true of a band on a grid of times that is finer than that of its optimisation.
 struct BandCheck {
-  double min_distance;    ///< m; or the margin, if all is farther
-  double time{0.0};       ///< s, of the nearest
-  Name link{};            ///< the nearest pair
-  Name body{};            ///< of no meaning if min_distance is the margin
-  double violation{0.0};  ///< m s; integral of what lacks to clear_distance
-  double first{0.0};      ///< s; first and last time at which it is not clear
+  double min_distance;  ///< m; or the margin, if all is farther
+  double time{0.0};     ///< s, of the nearest
+  Name link{};          ///< the nearest pair
+  Name body{};          ///< of no meaning if min_distance is the margin
+  /// m s; integral of what lacks to clear_distance, and of 0.05 m times what is exceeded of limits
+  /// (units as in ElasticBand) that the request does not exceed
+  double violation{0.0};
+  double first{0.0};  ///< s; first and last time at which it is not clear
   double last{0.0};
-  double touch{std::numeric_limits<double>::infinity()};  ///< s; first time below trust_distance
-  double way{0.0};                                        ///< rad; that the joints go, all together
+  /// s; first time below trust_distance or beyond such a limit
+  double touch{std::numeric_limits<double>::infinity()};
+  double way{0.0};  ///< rad; that the joints go, all together
   bool clear() const { return !(violation > 0.0); }
 };
 
@@ -62,7 +65,8 @@ struct BandCheck {
 ///                  smoothness |x''|^2 + limits |excess|^2   dt
 ///
 /// where rho is the distance of a link and a body at request + x and at that time, and excess what
-/// positions, velocities and accelerations exceed of the joint limits, in shares of them. Solved by
+/// positions exceed of their limits less 0.02, in units of 0.1 rad or m, and what velocities and
+/// accelerations exceed of limit_share of their limits, in shares of these. Solved by
 /// damped Gauss-Newton steps with the analytic rows n^T J of the distances; the normal equations
 /// are banded and solved in blocks. The state at the start is fixed, the end fixed or free.
 /// source Quinlan, Khatib, Elastic bands, ICRA 1993; Ratliff et al., CHOMP, ICRA 2009;
