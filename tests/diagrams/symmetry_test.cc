@@ -56,7 +56,8 @@ struct Case {
 
 /// To how many rad two worlds must show the same motion. Task priority inverts what is singular
 /// where the tip leaves no freedom, and so magnifies rounding; a band is relaxed until a step gains
-/// less than a share of its cost, 50 times a second, which of two steps may be the last by rounding.
+/// less than a share of its cost, 50 times a second, which of two steps may be the last by
+/// rounding.
 double Within(const Case& of) {
   if (of.method == "recommended" && of.file == "dynamic_test") return 1e-3;
   return of.method == "task_priority" && of.file == "dynamic_test" ? 1e-5 : 1e-9;
