@@ -75,7 +75,7 @@ for family in "${families[@]}"; do
     --vary "parameters.avoidance=$methods" > /dev/null
   simulate merge "$out/$family" --markdown | splice "$family"
   "$simulator" plot --figure method-comparison "$out/$family" -o "docs/methods-$family.svg"
-  [ "$family" != random_moving ] || foresight "$family" "${FORESIGHT:-60}" | splice foresight
+  [ "$family" != random_moving ] || foresight "$family" "${FORESIGHT:-200}" | splice foresight
   [ "$family" = random_static ] || continue
   simulate sweep "$file" --samples "${samples[$family]}" --seed "$seed" -o "$out/mapping" \
     -s parameters.avoidance=report \
