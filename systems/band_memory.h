@@ -4,12 +4,14 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "framework/signal.h"
 #include "models/planning/band_planner.h"
+#include "systems/request_ahead.h"
 #include "systems/signals.h"
 
 namespace oca::systems {
@@ -19,9 +21,10 @@ namespace oca::systems {
 /// "stuck", "nearest", "link", "obstacle", "time", "cost", "evaluations"}; the bands themselves are
 /// neither written nor read.
 struct BandMemory {
-  models::BandCurve held{};  ///< up to `change`
-  models::BandCurve next{};  ///< from then on; empty: held goes on
-  double change{0.0};        ///< s
+  models::BandCurve held{};                     ///< up to `change`
+  models::BandCurve next{};                     ///< from then on; empty: held goes on
+  double change{0.0};                           ///< s
+  std::shared_ptr<const Trajectory> request{};  ///< that next was made for
   std::vector<Obstacle> seen{};
   double seen_at{0.0};     ///< s
   double sure_from{0.0};   ///< s; from then on the bands were made for what is seen

@@ -169,7 +169,7 @@ ElasticBand::ElasticBand(const Params& params, const ModelSet& models)
       acceleration(DeclareStateOutput("acceleration", acceleration_)),
       plan(DeclareStateOutput("plan", memory_)),
       clear(DeclareOutput<ClearMotion, &ElasticBand::CalcClear>(
-          "clear", {}, kTime, obstacles, measured_position, position_, memory_)) {
+          "clear", {}, kTime, ahead, obstacles, measured_position, position_, memory_)) {
   DeclareInitialization<&ElasticBand::Start>(Writes(position_), measured_position);
   DeclareUpdate<&ElasticBand::Sample>(
       Every{params_.period}, Writes(position_, velocity_, acceleration_), kTime, ahead, memory_);
@@ -212,13 +212,14 @@ bool ElasticBand::AsForeseen(double time, const ObstacleSet& set, const BandMemo
                     });
 }
 
-void ElasticBand::CalcClear(double time, const ObstacleSet& set, VectorView measured,
-                            VectorView planned, const BandMemory& memory,
+void ElasticBand::CalcClear(double time, const RequestAhead& request, const ObstacleSet& set,
+                            VectorView measured, VectorView planned, const BandMemory& memory,
                             ClearMotion& motion) const {
   motion.clear_for = 0.0;
   motion.own_links = params_.self_collision;
   motion.bodies.clear();
   for (const Obstacle& seen : memory.seen) motion.bodies.push_back(seen.body->id);
+  if (request.trajectory != memory.request) return;
   const bool followed = (measured - planned).cwiseAbs().maxCoeff() <= kOnPlan;
   if (memory.plans == 0 || time < memory.sure_from || !followed || !AsForeseen(time, set, memory)) {
     return;
@@ -248,7 +249,7 @@ bool ElasticBand::Astray(double time, const Trajectory* request, VectorView meas
   return (measured - memory.planned).cwiseAbs().maxCoeff() > params_.restart_distance;
 }
 
-bool ElasticBand::Kept(double time, const Trajectory* request, const ObstacleSet& set,
+bool ElasticBand::Kept(double time, const RequestAhead& request, const ObstacleSet& set,
                        VectorView measured, BandMemory& memory) const {
   if (set.obstacles.empty() && !params_.self_collision && memory.held.empty() &&
       memory.next.empty()) {
@@ -256,8 +257,9 @@ bool ElasticBand::Kept(double time, const Trajectory* request, const ObstacleSet
   }
   return (memory.plans >= kFreshPlans ||
           (memory.plans > 0 && memory.start == models::BandStart::kRequest)) &&
-         memory.clear && SameStanding(memory.seen, set.obstacles) &&
-         !Astray(time, request, measured, memory);
+         memory.clear && request.trajectory == memory.request &&
+         SameStanding(memory.seen, set.obstacles) &&
+         !Astray(time, request.trajectory.get(), measured, memory);
 }
 
 void ElasticBand::Follow(double time, const Trajectory* request, VectorView measured,
@@ -320,8 +322,9 @@ void ElasticBand::Plan(double time, Log& log, const RequestAhead& request, const
   const bool was_stuck = memory.stuck;
   Follow(time, request.trajectory.get(), measured, memory);
   if (memory.stuck && !was_stuck) Report(time, memory, log);
-  if (Kept(time, request.trajectory.get(), set, measured, memory)) return;
-  const bool foreseen = memory.plans > 0 && AsForeseen(time, set, memory) &&
+  if (Kept(time, request, set, measured, memory)) return;
+  const bool foreseen = memory.plans > 0 && request.trajectory == memory.request &&
+                        AsForeseen(time, set, memory) &&
                         !Astray(time, request.trajectory.get(), measured, memory);
   if (!memory.next.empty()) {
     memory.held = memory.next;
@@ -336,6 +339,7 @@ void ElasticBand::Plan(double time, Log& log, const RequestAhead& request, const
   memory.change = task.start;
   memory.next_until = found.check.touch;
   if (!foreseen) memory.sure_from = task.start;
+  memory.request = request.trajectory;
   memory.seen_at = time;
   memory.seen = set.obstacles;
   memory.plans += 1;

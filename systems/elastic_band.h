@@ -31,8 +31,9 @@ namespace oca::systems {
 ///
 /// `clear` says for how long the motion is clear from now on: until the plan comes nearer than
 /// trust_distance to a body or exceeds a limit that the request keeps. It is 0 while the arm is
-/// more than 0.02 from the band, or obstacles are not where they were foreseen, to 1 cm now and in
-/// 0.3 s, until a plan that was made for them has begun. A SafetyFilter lets such a motion through.
+/// more than 0.02 from the band, another motion is requested, or obstacles are not where they were
+/// foreseen, to 1 cm now and in 0.3 s, until a plan that was made for them has begun. A
+/// SafetyFilter lets such a motion through.
 ///
 /// Control samples are those of the end of each period, held, as from a sampled SplineGenerator.
 ///
@@ -54,8 +55,7 @@ namespace oca::systems {
 /// state position, velocity, acceleration  n
 ///       plan          BandMemory
 /// throws ConfigError if there is no such model, a parameter is out of its bounds, or plan_period
-/// is
-///        shorter than period; while running if the request has another number of joints
+///        is shorter than period; while running if the request has another number of joints
 /// source models/planning/band_planner.h; docs/recommended.md
 class ElasticBand final : public System {
  public:
@@ -100,7 +100,7 @@ class ElasticBand final : public System {
                             const std::vector<models::BandBody>& bodies, VectorView measured,
                             OptionalVector rate, BandMemory& memory) const;
   std::vector<models::BandBody> MakeBodies(double time, const ObstacleSet& set) const;
-  bool Kept(double time, const Trajectory* request, const ObstacleSet& set, VectorView measured,
+  bool Kept(double time, const RequestAhead& request, const ObstacleSet& set, VectorView measured,
             BandMemory& memory) const;
   bool Astray(double time, const Trajectory* request, VectorView measured,
               BandMemory& memory) const;
@@ -108,8 +108,9 @@ class ElasticBand final : public System {
               BandMemory& memory) const;
 
   bool AsForeseen(double time, const ObstacleSet& set, const BandMemory& memory) const;
-  void CalcClear(double time, const ObstacleSet& set, VectorView measured, VectorView planned,
-                 const BandMemory& memory, ClearMotion& motion) const;
+  void CalcClear(double time, const RequestAhead& request, const ObstacleSet& set,
+                 VectorView measured, VectorView planned, const BandMemory& memory,
+                 ClearMotion& motion) const;
 
   void Start(VectorView measured, MutableVectorView position_out) const;
   void Report(double time, const BandMemory& memory, Log& log) const;

@@ -164,6 +164,16 @@ TEST(ElasticBandTest, SaysForHowLongItsPlanIsClearWhileAllGoesAsForeseen) {
   EXPECT_EQ(ClearFor(bench), 0.0);
   bench->obstacles.Fix(bench.context(), post);
   EXPECT_EQ(ClearFor(bench), 30.0);
+
+  // Another motion, until a plan for it has begun.
+  const std::uint64_t plans = bench.Plan().plans;
+  bench->ahead.Fix(bench.context(), Turn());
+  EXPECT_EQ(ClearFor(bench), 0.0);
+  bench.Tick(40);
+  EXPECT_EQ(ClearFor(bench), 0.0);
+  for (int k = 41; k < 45; ++k) bench.Tick(k);
+  EXPECT_EQ(bench.Plan().plans, plans + 1);
+  EXPECT_EQ(ClearFor(bench), 30.0);
 }
 
 TEST(ElasticBandTest, NamesWhatBlocksAnArmThatDoesNotGetOn) {
