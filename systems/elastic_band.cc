@@ -20,10 +20,10 @@ using Eigen::VectorXd;
 constexpr double kArrived = 0.01;         // rad, m; of all joints
 constexpr double kSameSpeed = 1e-6;       // m/s, rad/s: stands
 constexpr double kSamePlace = 1e-4;       // m, of an obstacle that stands
-constexpr double kOnPlan = 0.02;          // rad, m; of the arm
-constexpr double kForeseen = 0.01;        // m; that what was foreseen may be wrong by,
+constexpr double kOnPlan = 0.005;         // rad, m; of the arm
+constexpr double kForeseen = 0.005;       // m; that what was foreseen may be wrong by,
 constexpr double kForeseenSpan = 0.3;     // s; after so long too
-constexpr double kForeseenLever = 0.1;    // m; at which a turn counts
+constexpr double kForeseenLever = 0.5;    // m; at which a turn counts
 constexpr std::uint64_t kFreshPlans = 8;  // that look for a better way though theirs is clear
 constexpr int kMostPause = 20;            // plans between two searches that fail
 
@@ -40,11 +40,24 @@ ElasticBand::Params Checked(const ElasticBand::Params& params) {
     throw ConfigError(fmt::format("clear_distance: got {} m; expected at most margin, {} m",
                                   params.clear_distance, params.margin));
   }
+  RequireAtLeast("trust_distance", params.trust_distance, 0.0);
+  RequireAtLeast("flying_distance", params.flying_distance, 0.0);
+  for (const double distance : {params.trust_distance, params.flying_distance}) {
+    if (distance <= params.clear_distance) continue;
+    throw ConfigError(fmt::format(
+        "trust_distance, flying_distance: got {} m; expected at most clear_distance, {} m",
+        distance, params.clear_distance));
+  }
   RequireAbove("clearance", params.clearance, 0.0);
   RequireAbove("smoothness", params.smoothness, 0.0);
   RequireAbove("nearness", params.nearness, 0.0);
   RequireAtLeast("calm", params.calm, 0.0);
   RequireAbove("limit_share", params.limit_share, 0.0);
+  if (params.limit_share > 1.0) {
+    throw ConfigError(fmt::format("limit_share: got {}; expected at most 1", params.limit_share));
+  }
+  RequireAtLeast("most_evaluations", params.most_evaluations, 0.0);
+  RequireAtLeast("moving_horizon", params.moving_horizon, 0.5);
   RequireAtLeast("prediction", params.prediction, 0.0);
   RequireAtLeast("least_horizon", params.least_horizon, 0.5);
   RequireAtLeast("most_horizon", params.most_horizon, params.least_horizon);
@@ -97,7 +110,11 @@ void ElasticBand::Params::Describe(Fields<Params>& fields) {
       .Above(0.0);
   fields
       .Add("trust_distance", &Params::trust_distance, "m",
-           "distance that a band keeps that a filter need not correct")
+           "distance that a band keeps from what stands that a filter need not correct")
+      .AtLeast(0.0);
+  fields
+      .Add("flying_distance", &Params::flying_distance, "m",
+           "distance that a band keeps from what moves that a filter need not correct")
       .AtLeast(0.0);
   fields.Add("clearance", &Params::clearance, "1/m^2", "price of a missing margin").Above(0.0);
   fields
@@ -140,6 +157,7 @@ models::BandPlannerSettings ElasticBand::SettingsOf(const Params& params) {
   settings.band.margin = params.margin;
   settings.band.clear_distance = params.clear_distance;
   settings.band.trust_distance = params.trust_distance;
+  settings.band.flying_distance = params.flying_distance;
   settings.band.clearance = params.clearance;
   settings.band.smoothness = params.smoothness;
   settings.band.calm = params.calm;
@@ -338,6 +356,7 @@ void ElasticBand::Plan(double time, Log& log, const RequestAhead& request, const
   memory.next = std::move(found.curve);
   memory.change = task.start;
   memory.next_until = found.check.touch;
+  if (models::Moves(bodies)) memory.next_until = std::min(memory.next_until, memory.next.end());
   if (!foreseen) memory.sure_from = task.start;
   memory.request = request.trajectory;
   memory.seen_at = time;

@@ -30,10 +30,10 @@ namespace oca::systems {
 /// them a plan whose obstacles still stand where they stood is kept.
 ///
 /// `clear` says for how long the motion is clear from now on: until the plan comes nearer than
-/// trust_distance to a body or exceeds a limit that the request keeps. It is 0 while the arm is
-/// more than 0.02 from the band, another motion is requested, or obstacles are not where they were
-/// foreseen, to 1 cm now and in 0.3 s, until a plan that was made for them has begun. A
-/// SafetyFilter lets such a motion through.
+/// trust_distance to what stands, flying_distance to what moves, or exceeds a limit that the
+/// request keeps. It is 0 while the arm is more than 0.005 from the band, another motion is
+/// requested, or obstacles are not where they were foreseen, to 5 mm now and in 0.3 s, until a plan
+/// that was made for them has begun. A SafetyFilter lets such a motion through.
 ///
 /// Control samples are those of the end of each period, held, as from a sampled SplineGenerator.
 ///
@@ -70,7 +70,8 @@ class ElasticBand final : public System {
     Period plan_period{1, 50};
     double margin{0.12};
     double clear_distance{0.045};
-    double trust_distance{0.02};
+    double trust_distance{0.03};
+    double flying_distance{0.01};
     double clearance{1e4};
     double smoothness{0.02};
     double nearness{0.1};

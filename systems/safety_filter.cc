@@ -33,6 +33,7 @@ SafetyFilter::Params Checked(const SafetyFilter::Params& params) {
   RequireGain("position_gain", params.position_gain, params.period);
   RequireAbove("weights", params.weights, 0.0);
   RequireAtLeast("progress_weight", params.progress_weight, 0.0);
+  RequireAtLeast("trust_time", params.trust_time, 0.0);
   RequireAbove("slack_penalty", params.slack_penalty, 0.0);
   RequireGain("recovery_gain", params.recovery_gain, params.period);
   RequireAtLeast("recovery_speed", params.recovery_speed, 0.0);

@@ -85,6 +85,7 @@ void ElasticBand::AddSamples(const BandCurve& curve, const BandRequest& request)
   checks_.clear();
   poses_.clear();
   const std::vector<double> times = curve.times();
+  checks_.push_back(MakeSample(curve, request, times.front(), 0.0));
   for (std::size_t i = 0; i + 1 < times.size(); ++i) {
     const double length = times[i + 1] - times[i];
     const double spacing = length < kShortInterval ? kShortSpacing : kLongSpacing;
@@ -250,6 +251,15 @@ Eigen::VectorXd ElasticBand::HalfGradient(const BandCurve& curve) {
   return -normal.right;
 }
 
+bool ElasticBand::Touches(double nearest) {
+  if (!(nearest < std::max(settings_.trust_distance, settings_.flying_distance))) return false;
+  clearance_.Collect(std::max(settings_.trust_distance, settings_.flying_distance), pairs_);
+  return std::any_of(pairs_.begin(), pairs_.end(), [&](const NearPair& pair) {
+    const bool flies = pair.body >= 0 && !bodies_[pair.body].stands;
+    return pair.distance < (flies ? settings_.flying_distance : settings_.trust_distance);
+  });
+}
+
 BandCheck ElasticBand::Check(const BandCurve& curve) {
   BandCheck check{.min_distance = settings_.margin};
   if (!something_near_) return check;
@@ -267,7 +277,7 @@ BandCheck ElasticBand::Check(const BandCurve& curve) {
       check.body = pair.body >= 0 ? bodies_[pair.body].name : model_->links()[pair.other_link].name;
     }
     const double excess = std::max(AddedExcess(sample, curve) - kExcessTolerance, 0.0);
-    if (pair.distance < settings_.trust_distance || excess > 0.0) {
+    if (Touches(pair.distance) || excess > 0.0) {
       check.touch = std::min(check.touch, sample.time);
     }
     const double lacking = std::max(settings_.clear_distance - pair.distance, 0.0);

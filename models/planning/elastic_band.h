@@ -30,15 +30,16 @@ using BandRequest =
     std::function<void(double time, int derivative, Eigen::Ref<Eigen::VectorXd> out)>;
 
 struct BandSettings {
-  double margin{0.1};           ///< m; distances below it cost
-  double clear_distance{0.04};  ///< m; a band that keeps it is clear
-  double trust_distance{0.02};  ///< m; a band that keeps it need not be helped
-  double clearance{1e4};        ///< 1/m^2; price of a missing margin
-  double smoothness{0.02};      ///< s^4/rad^2; price of an acceleration of the deviation
-  double nearness{0.1};         ///< 1/rad^2; price of a deviation
-  double calm{0.1};             ///< s^2/rad^2; price of a speed of the deviation
-  double limits{1e3};           ///< price of the square of an excess
-  double limit_share{0.9};      ///< of the velocity and acceleration limits that a band may use
+  double margin{0.1};            ///< m; distances below it cost
+  double clear_distance{0.04};   ///< m; a band that keeps it is clear
+  double trust_distance{0.03};   ///< m; a band that keeps it from what stands need not be helped
+  double flying_distance{0.01};  ///< m; nor one that keeps this from what moves
+  double clearance{1e4};         ///< 1/m^2; price of a missing margin
+  double smoothness{0.02};       ///< s^4/rad^2; price of an acceleration of the deviation
+  double nearness{0.1};          ///< 1/rad^2; price of a deviation
+  double calm{0.1};              ///< s^2/rad^2; price of a speed of the deviation
+  double limits{1e3};            ///< price of the square of an excess
+  double limit_share{0.9};       ///< of the velocity and acceleration limits that a band may use
 };
 
 /// What is true of a band on a grid of times that is finer than that of its optimisation.
@@ -133,6 +134,8 @@ class ElasticBand {
   bool Step(const Normal& normal, double damping);
   /// Brings robot and bodies to where they are at a sample with deviation x.
   void Place(const Sample& sample, const Eigen::VectorXd& x);
+  /// Whether, placed, anything is nearer than a band that is to be trusted keeps.
+  bool Touches(double nearest);
   void PlaceAt(const Eigen::VectorXd& q, double time);
 
   const std::shared_ptr<const RobotModel> model_;

@@ -143,9 +143,9 @@ TEST(ElasticBandTest, SaysForHowLongItsPlanIsClearWhileAllGoesAsForeseen) {
 
   // An arm that is not where the band is.
   const VectorXd followed = bench.Position();
-  bench.Measure(followed + Vector3d(0.0, 0.019, 0.0));
+  bench.Measure(followed + Vector3d(0.0, 0.0049, 0.0));
   EXPECT_EQ(ClearFor(bench), 30.0);
-  bench.Measure(followed + Vector3d(0.0, 0.021, 0.0));
+  bench.Measure(followed + Vector3d(0.0, 0.0051, 0.0));
   EXPECT_EQ(ClearFor(bench), 0.0);
   bench.Measure(followed);
 
@@ -154,7 +154,7 @@ TEST(ElasticBandTest, SaysForHowLongItsPlanIsClearWhileAllGoesAsForeseen) {
   other.obstacles[0].linear = Vector3d(0.05, 0.0, 0.0);  // 15 mm in 0.3 s
   bench->obstacles.Fix(bench.context(), other);
   EXPECT_EQ(ClearFor(bench), 0.0);
-  bench->obstacles.Fix(bench.context(), BoxAt({0.6, 0.589, 0.0}));
+  bench->obstacles.Fix(bench.context(), BoxAt({0.6, 0.594, 0.0}));
   EXPECT_EQ(ClearFor(bench), 0.0);
   other = post;
   other.obstacles.push_back(BoxAt({3.0, 0.0, 0.0}).obstacles[0]);
