@@ -58,7 +58,10 @@ class Includer {
       Problems ignored;  // Apply reports them
       const Value value = ReadYaml(change.value, "-s " + change.path, ignored);
       if (value.string() == nullptr) continue;
-      texts_.emplace_back(change.path.substr(kParameters.size()), *value.string());
+      const std::string name = change.path.substr(kParameters.size());
+      std::erase_if(texts_,
+                    [&](const auto& text) { return text.first == name; });  // the last counts
+      texts_.emplace_back(name, *value.string());
     }
   }
 

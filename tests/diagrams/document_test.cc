@@ -62,6 +62,7 @@ TEST_F(DocumentTest, AParameterMayChooseTheFileToInclude) {
   folder.Write("main.yaml", "include: [choice.yaml]\n");
   EXPECT_EQ(*At(Load(), "name").string(), "one");
   EXPECT_EQ(*At(Load({"parameters.method=two"}), "name").string(), "two");
+  EXPECT_EQ(*At(Load({"parameters.method=one", "parameters.method=two"}), "name").string(), "two");
   folder.Write("main.yaml", "include: [choice.yaml]\nparameters: {method: two}\n");
   EXPECT_EQ(*At(Load(), "name").string(), "two");
   EXPECT_EQ(*At(Load({"parameters.method=one"}), "name").string(), "one");

@@ -82,6 +82,17 @@ TEST(ElasticBandTest, RefusesToCallClearWhatItDoesNotLookAt) {
             "accepted");
 }
 
+TEST(ElasticBandTest, RefusesToBeTrustedWithLessThanIsClear) {
+  EXPECT_THAT(RefusalOf({.period = Period(1, 100), .trust_distance = 0.05}),
+              HasSubstr("got 0.05 m; expected at most clear_distance, 0.045 m"));
+  EXPECT_THAT(RefusalOf({.period = Period(1, 100), .flying_distance = 0.05}),
+              HasSubstr("got 0.05 m; expected at most clear_distance, 0.045 m"));
+  EXPECT_THAT(RefusalOf({.period = Period(1, 100), .limit_share = 1.1}),
+              HasSubstr("limit_share: got 1.1; expected at most 1"));
+  EXPECT_EQ(RefusalOf({.period = Period(1, 100), .trust_distance = 0.045, .limit_share = 1.0}),
+            "accepted");
+}
+
 TEST(ElasticBandTest, PassesARequestThatIsClear) {
   Bench bench(BoxAt({5.0, 5.0, 0.0}));
   for (int k = 0; k < 300; ++k) {

@@ -155,6 +155,36 @@ TEST(ElasticBandTest, IsNotClearWhereItExceedsLimitsThatTheRequestKeeps) {
   EXPECT_EQ(beyond.min_distance, band.settings().margin);
 }
 
+TEST(ElasticBandTest, TouchesWhatStandsSoonerThanWhatMovesAndWhereItBeginsToo) {
+  const Sweep sweep;
+  const BandRequest hold = [&](double, int derivative, Eigen::Ref<VectorXd> out) {
+    out = derivative == 0 ? sweep.home : VectorXd::Zero(7);
+  };
+  BandSettings settings;
+  settings.margin = 2.0;
+  const BandCurve curve = sweep.Curve();
+  const auto touch = [&](double trust, double flying, bool stands) {
+    settings.trust_distance = trust;
+    settings.flying_distance = flying;
+    ElasticBand band(sweep.model, settings);
+    std::vector<BandBody> bodies = sweep.bodies;
+    bodies[0].stands = stands;
+    band.Prepare(curve, hold, bodies, true);
+    return band.Check(curve).touch;
+  };
+  const double never = std::numeric_limits<double>::infinity();
+  settings.trust_distance = 0.0;
+  ElasticBand band(sweep.model, settings);
+  band.Prepare(curve, hold, sweep.bodies, true);
+  const double distance = band.Distance(sweep.home, 0.0);
+  ASSERT_GT(distance, 0.01);
+  ASSERT_LT(distance, 1.9);
+  EXPECT_EQ(touch(distance + 1e-3, 0.0, true), curve.start());
+  EXPECT_EQ(touch(distance - 1e-3, 1.9, true), never);
+  EXPECT_EQ(touch(1.9, distance - 1e-3, false), never);
+  EXPECT_EQ(touch(0.0, distance + 1e-3, false), curve.start());
+}
+
 TEST(ElasticBandTest, LooksAtItsOwnLinksWithoutAnyBody) {
   const Sweep sweep;
   VectorXd folded = VectorXd::Zero(7);
