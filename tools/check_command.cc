@@ -32,11 +32,13 @@ void PrintMargins(const std::string& name, const systems::SafetyFilter& filter) 
 
 }  // namespace
 
-int CheckCommand(const std::vector<std::string>& files) {
+int CheckCommand(const std::vector<std::string>& files, const std::vector<std::string>& texts) {
   int status = kFine;
   for (const std::string& file : files) {
     try {
-      const auto loaded = diagrams::LoadDiagram(file);
+      std::vector<diagrams::Override> overrides;
+      for (const std::string& text : texts) overrides.push_back(diagrams::Override::Parse(text));
+      const auto loaded = diagrams::LoadDiagram(file, overrides);
       for (const std::string& warning : loaded.warnings) std::cerr << warning << '\n';
       for (const std::string& warning : diagrams::ChatterWarnings(loaded)) {
         std::cerr << warning << '\n';

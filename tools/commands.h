@@ -46,7 +46,7 @@ struct ViewArguments {
 /// Serves the page on a record until it is interrupted.
 int ViewCommand(const ViewArguments& arguments);
 
-int CheckCommand(const std::vector<std::string>& files);
+int CheckCommand(const std::vector<std::string>& files, const std::vector<std::string>& overrides);
 
 struct PlanArguments {
   std::string file;

@@ -123,7 +123,10 @@ class CommandLine {
   void AddOthers() {
     CLI::App* const check = app_.add_subcommand("check", "find all errors of diagram files");
     check->add_option("FILE", check_files_, "diagram files")->required();
-    check->callback([this] { command_ = [this] { return CheckCommand(check_files_); }; });
+    check->add_option("-s,--set", check_overrides_, "PATH=VALUE: override a value of the files")
+        ->allow_extra_args(false);
+    check->callback(
+        [this] { command_ = [this] { return CheckCommand(check_files_, check_overrides_); }; });
 
     CLI::App* const plan = app_.add_subcommand(
         "plan", "say whether an optimiser that knows the whole script finds a clear motion");
@@ -134,7 +137,7 @@ class CommandLine {
     plan->add_option("--seed", plan_.seed, "of the scenario, instead of the file's")
         ->check(WholeNumber(10) & CLI::Range(0.0, 2147483647.0));
     plan->add_option("--samples", plan_.samples, "scenarios with this seed and those after it")
-        ->check(WholeNumber(9) & CLI::PositiveNumber);
+        ->check(WholeNumber(9) & CLI::Range(1, 1000000000));
     plan->add_option("--starts", plan_.starts, "motions that it tries beside the request")
         ->check(WholeNumber(5))
         ->capture_default_str();
@@ -248,7 +251,7 @@ class CommandLine {
   std::function<int()> command_;
   RunArguments run_;
   ViewArguments view_;
-  std::vector<std::string> check_files_;
+  std::vector<std::string> check_files_, check_overrides_;
   PlanArguments plan_;
   GraphArguments graph_;
   std::string described_;

@@ -240,7 +240,7 @@ void AddSweep(CLI::App& app, std::function<int()>& command) {
   sub->add_option("--arrival", campaign.arrival, "final error that counts as arrived, rad")
       ->capture_default_str();
   sub->add_option("--timeout", arguments->timeout, "seconds of the wall clock that a run may take")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1e-3, 1e9));
   sub->add_flag("--json", arguments->json, "print one JSON object instead of the table");
   sub->add_flag("--no-progress", arguments->no_progress, "no progress bar");
   sub->callback(

@@ -293,6 +293,11 @@ TEST_F(CommandLineTest, CheckSaysALineAFile) {
   EXPECT_EQ(std::count(ran.out.begin(), ran.out.end(), '\n'), 2);
   EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1);
   EXPECT_EQ(run("$S check diagrams/*.yaml diagrams/verification/*.yaml").status, 0);
+  const Ran other = run("$S check diagrams/static_test.yaml -s parameters.avoidance=safety_filter");
+  EXPECT_EQ(other.status, 0) << other.err;
+  EXPECT_THAT(other.out, HasSubstr("filter"));  // and the margin that it keeps
+  EXPECT_EQ(run("$S check diagrams/static_test.yaml -s parameters.avoidance=safty_filter").status,
+            2);
 }
 
 TEST_F(CommandLineTest, ListAndDescribeKnowTheSameTypes) {
