@@ -46,10 +46,9 @@ TEST(RequestAheadTest, WithoutAMotionIsAListWithoutPoints) {
 
 TEST(RequestAheadTest, RefusesPointsThatAreNoMotion) {
   EXPECT_THROW(Signal<RequestAhead>::ReadJson(R"({"points":[{"time":0}]})"), ConfigError);
-  EXPECT_THROW(
-      Signal<RequestAhead>::ReadJson(
-          R"({"points":[{"time":0,"position":[1],"velocity":[0,0],"acceleration":[0]}]})"),
-      ConfigError);
+  EXPECT_THROW(Signal<RequestAhead>::ReadJson(
+                   R"({"points":[{"time":0,"position":[1],"velocity":[0,0],"acceleration":[0]}]})"),
+               ConfigError);
 }
 
 }  // namespace
