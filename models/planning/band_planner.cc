@@ -271,7 +271,7 @@ void BandPlanner::TryPaths(const BandTask& task, BandPlan& best) {
   here += task.deviation[0];
   task.request(zero_.end(), 0, goal);
   const bool bounded = settings_.most_evaluations > 0;
-  for (int i = 0; i < (bounded ? 1 : settings_.paths); ++i) {
+  for (int i = 0; i < (bounded ? std::min(settings_.paths, 1) : settings_.paths); ++i) {
     RrtOptions options;
     options.seed = Random::Seed(task.seed, static_cast<std::uint64_t>(i));
     options.most_nodes = bounded ? kBoundedNodes : settings_.path_nodes;

@@ -55,11 +55,11 @@ struct Case {
 };
 
 /// To how many rad two worlds must show the same motion. Task priority inverts what is singular
-/// where the tip leaves no freedom, and so magnifies rounding; a band is relaxed until a step gains
-/// less than a share of its cost, 50 times a second, which of two steps may be the last by
-/// rounding.
+/// where the tip leaves no freedom, and so magnifies rounding. The band
+/// searches in dynamic_test, from random starts that know no mirror: relaxed they lead to the same
+/// way, but for what the last step leaves open.
 double Within(const Case& of) {
-  if (of.method == "recommended" && of.file == "dynamic_test") return 1e-3;
+  if (of.method == "recommended" && of.file == "dynamic_test") return 1e-4;
   return of.method == "task_priority" && of.file == "dynamic_test" ? 1e-5 : 1e-9;
 }
 
@@ -93,8 +93,7 @@ TEST_P(SymmetryTest, TheArmMovesTheSameInAWorldThatIsTurnedAndMoved) {
 }
 
 // The LWR 4 is its own mirror image in the xz plane, where joints 1, 3, 5 and 7 turn the other way.
-// All arithmetic is mirrored with it, chaos too; of the recommended method as long as the band that
-// it has will do and it draws no others.
+// All arithmetic is mirrored with it, chaos too; see Within for the recommended method.
 TEST_P(SymmetryTest, TheMirroredWorldMirrorsTheMotion) {
   const Eigen::MatrixXd motion = Motion({});
   Eigen::MatrixXd mirrored = Motion({.side = -1.0});

@@ -22,12 +22,6 @@
 namespace oca::live {
 namespace {
 
-namespace asio = boost::asio;
-namespace beast = boost::beast;
-namespace http = beast::http;
-namespace websocket = beast::websocket;
-using asio::ip::tcp;
-using nlohmann::json;
 using testing::HasSubstr;
 using namespace std::chrono_literals;
 

@@ -104,33 +104,52 @@ TEST(SafetyFilterTest, ProjectsTheRequestOntoTheRowByHand) {
   EXPECT_EQ(activity.slack, 0.0);
 }
 
+/// A filter of planar2 at (0, 0) whose inputs `names` are wired from outside, so that optional ones
+/// can be fixed; nothing is near and no motion requested.
+class Wired {
+ public:
+  Wired(const SafetyFilter::Params& params, std::initializer_list<const char*> names) {
+    DiagramBuilder builder;
+    filter_ = &builder.Add<SafetyFilter>("filter", params, TestModels("planar2"));
+    for (const char* name : names) builder.ExportInput(name, filter_->FindInput(name));
+    for (const char* name : {"proximities", "links", "position", "measured_position"}) {
+      builder.ExportInput(name, filter_->FindInput(name));
+    }
+    diagram_ = builder.Build();
+    simulator_ = std::make_unique<Simulator>(*diagram_);
+    const auto model = TestModels("planar2").Get("");
+    LinkPoses poses;
+    NameLinks(*model, poses);
+    models::ForwardKinematics(*model, Eigen::Vector2d::Zero(), poses.poses);
+    filter().links.Fix(context(), poses);
+    filter().proximities.Fix(context(), ProximitySet{});
+    filter().measured_position.Fix(context(), Eigen::Vector2d::Zero());
+    filter().position.Fix(context(), Eigen::Vector2d::Zero());
+  }
+  const SafetyFilter& filter() const { return *filter_; }
+  const Diagram& diagram() const { return *diagram_; }
+  Simulator& simulator() { return *simulator_; }
+  Context& context() { return simulator_->context(); }
+  Eigen::VectorXd Answer() { return filter().solution.Eval(context()).velocity; }
+
+ private:
+  const SafetyFilter* filter_;
+  std::unique_ptr<Diagram> diagram_;
+  std::unique_ptr<Simulator> simulator_;
+};
+
 TEST(SafetyFilterTest, EvadesWithTheJointThatHasNowhereToGo) {
   // The request has led joint 1 only, for half a second.
   const auto speed_of_joint_1 = [](double progress_weight) {
     SafetyFilter::Params params = Hundred();
     params.progress_weight = progress_weight;
-    DiagramBuilder builder;
-    const auto& filter = builder.Add<SafetyFilter>("filter", params, TestModels("planar2"));
-    for (const auto& input : filter.inputs()) {
-      if (input.name == "acceleration" || input.name == "clear") continue;
-      builder.ExportInput(input.name, filter.FindInput(input.name));
-    }
-    const auto diagram = builder.Build();
-    Simulator simulator(*diagram);
-    Context& context = simulator.context();
-    const auto model = TestModels("planar2").Get("");
-    LinkPoses poses;
-    NameLinks(*model, poses);
-    models::ForwardKinematics(*model, Eigen::Vector2d::Zero(), poses.poses);
-    filter.links.Fix(context, poses);
-    filter.proximities.Fix(context, ProximitySet{});
-    filter.measured_position.Fix(context, Eigen::Vector2d::Zero());
-    filter.position.Fix(context, Eigen::Vector2d::Zero());
-    diagram->GetInput<Vector>("command").Fix(context, Eigen::Vector2d::Zero());
-    diagram->GetInput<Vector>("velocity").Fix(context, Eigen::Vector2d(1, 0));
-    simulator.AdvanceTo(50.5 * kDt);
-    filter.proximities.Fix(context, BesideTheTip(0.05, 0.0));
-    return filter.solution.Eval(context).velocity[0];
+    Wired wired(params, {"command", "velocity"});
+    Context& context = wired.context();
+    wired.diagram().GetInput<Vector>("command").Fix(context, Eigen::Vector2d::Zero());
+    wired.diagram().GetInput<Vector>("velocity").Fix(context, Eigen::Vector2d(1, 0));
+    wired.simulator().AdvanceTo(50.5 * kDt);
+    wired.filter().proximities.Fix(context, BesideTheTip(0.05, 0.0));
+    return wired.Answer()[0];
   };
   // (1, 0) onto (0.9, 0.4) . u = 0, with equal weights and with 11 : 1 or nearly so.
   EXPECT_NEAR(speed_of_joint_1(0.0), 1 - 0.81 / 0.97, 1e-12);
@@ -140,25 +159,11 @@ TEST(SafetyFilterTest, EvadesWithTheJointThatHasNowhereToGo) {
 TEST(SafetyFilterTest, LetsARequestThroughThatIsClearOfWhatItWasPlannedWith) {
   const Eigen::Vector2d wish(0.5, 0.0);
   const auto answer = [&](const ClearMotion& clear, double distance) {
-    DiagramBuilder builder;
-    const auto& filter = builder.Add<SafetyFilter>("filter", Hundred(), TestModels("planar2"));
-    builder.ExportInput("clear", filter.clear);
-    for (const char* name : {"proximities", "links", "position", "measured_position"}) {
-      builder.ExportInput(name, filter.FindInput(name));
-    }
-    const auto diagram = builder.Build();
-    Simulator simulator(*diagram);
-    Context& context = simulator.context();
-    const auto model = TestModels("planar2").Get("");
-    LinkPoses poses;
-    NameLinks(*model, poses);
-    models::ForwardKinematics(*model, Eigen::Vector2d::Zero(), poses.poses);
-    filter.links.Fix(context, poses);
-    filter.proximities.Fix(context, BesideTheTip(distance, 1.0));
-    filter.measured_position.Fix(context, Eigen::Vector2d::Zero());
-    filter.position.Fix(context, wish / Hundred().position_gain);
-    diagram->GetInput<ClearMotion>("clear").Fix(context, clear);
-    return Eigen::VectorXd(filter.solution.Eval(context).velocity);
+    Wired wired(Hundred(), {"clear"});
+    wired.filter().proximities.Fix(wired.context(), BesideTheTip(distance, 1.0));
+    wired.filter().position.Fix(wired.context(), wish / Hundred().position_gain);
+    wired.diagram().GetInput<ClearMotion>("clear").Fix(wired.context(), clear);
+    return wired.Answer();
   };
   const ClearMotion known{.clear_for = 0.1, .bodies = {models::Name("ball")}};
   EXPECT_TRUE(answer(known, 0.06).isApprox(wish, 1e-9));

@@ -38,6 +38,17 @@ class Turn {
   BandTask task;
 };
 
+/// Moves against y with `speed`, m/s.
+BandBody Flying(const char* name, const PlacedBody& body, double speed) {
+  return {Name(name), body.collider,
+          [X = body.X_WO, speed](double time) {
+            Eigen::Isometry3d moved = X;
+            moved.translation().y() -= speed * time;
+            return moved;
+          },
+          false};
+}
+
 TEST(BandPlannerTest, LeavesARequestAloneThatIsClear) {
   Turn turn;
   turn.bodies.clear();
@@ -102,13 +113,7 @@ TEST(BandPlannerTest, DoesNotReturnWhereSomethingComesBetweenArmAndRequest) {
   turn.task.request_end = 0.0;
   turn.task.deviation[0][0] = -0.6;
   const PlacedBody wall = test::BoxAt({3.0, 0.1, 1.0}, {1.6, 0.3, 0.0});
-  turn.bodies = {{Name("wall"), wall.collider,
-                  [X = wall.X_WO](double time) {
-                    Eigen::Isometry3d moved = X;
-                    moved.translation().y() -= 0.08 * time;
-                    return moved;
-                  },
-                  false}};
+  turn.bodies = {Flying("wall", wall, 0.08)};
   const BandPlan plan = turn.Plan();
   EXPECT_TRUE(plan.check.clear()) << plan.check.min_distance << " at " << plan.check.time;
 }
@@ -128,13 +133,7 @@ TEST(BandPlannerTest, DucksInTimeAwayFromWhatComes) {
   };
   turn.task.request_end = 0.0;
   const PlacedBody cube = test::BoxAt({0.2, 0.2, 0.2}, {0.45, 1.6, 1.2});
-  turn.bodies = {{Name("cube"), cube.collider,
-                  [X = cube.X_WO](double time) {
-                    Eigen::Isometry3d moved = X;
-                    moved.translation().y() -= 1.6 * time;
-                    return moved;
-                  },
-                  false}};
+  turn.bodies = {Flying("cube", cube, 1.6)};
   const BandPlan plan = turn.Plan();
   EXPECT_TRUE(plan.check.clear()) << plan.check.min_distance;
   VectorXd x(7);
