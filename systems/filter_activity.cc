@@ -13,8 +13,8 @@
 namespace oca::systems {
 namespace {
 
-constexpr std::array kStatusNames{"optimal", "iteration_limit", "invalid"};
-constexpr std::array kKindNames{"distance", "recovery", "lower", "upper"};
+constexpr std::array kStatusNames{"optimal", "iteration_limit", "not_proven", "invalid"};
+constexpr std::array kKindNames{"distance", "recovery", "lower", "upper", "unmovable"};
 
 /// The number of a text among `names`.
 template <class Names>
@@ -47,7 +47,7 @@ Json BoundToJson(const FilterBound& bound) {
 FilterBound ReadBound(const JsonReader& item) {
   FilterBound bound;
   bound.kind = static_cast<FilterBound::Kind>(
-      Find(item.At("kind"), kKindNames, "distance, recovery, lower or upper"));
+      Find(item.At("kind"), kKindNames, "distance, recovery, lower, upper or unmovable"));
   if (OfJoint(bound.kind)) {
     item.CheckKeys({"kind", "joint", "limit", "multiplier"});
     bound.link = models::Name(item.At("joint").Label());
@@ -99,8 +99,9 @@ FilterActivity Signal<FilterActivity>::ReadJson(std::string_view text) {
   reader.CheckKeys(
       {"status", "rows", "dropped", "yields", "slack", "margin", "kkt_residual", "gap", "bounds"});
   FilterActivity value;
-  value.status = static_cast<models::QpStatus>(systems::Find(
-      reader.At("status"), systems::kStatusNames, "optimal, iteration_limit or invalid"));
+  value.status = static_cast<models::QpStatus>(
+      systems::Find(reader.At("status"), systems::kStatusNames,
+                    "optimal, iteration_limit, not_proven or invalid"));
   value.rows = static_cast<int>(reader.At("rows").Number());
   value.dropped = static_cast<int>(reader.At("dropped").Number());
   value.yields = static_cast<int>(reader.At("yields").Number());

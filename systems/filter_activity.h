@@ -12,22 +12,24 @@
 
 namespace oca::systems {
 
-/// One bound that held a SafetyFilter's velocity back.
+/// One bound that held a SafetyFilter's velocity back, or that it had to leave out: kUnmovable is a
+/// distance that should grow and that no joint can change.
 struct FilterBound {
-  enum class Kind { kDistance, kRecovery, kLower, kUpper };
+  enum class Kind { kDistance, kRecovery, kLower, kUpper, kUnmovable };
   Kind kind{Kind::kDistance};
   models::Name link;      ///< of a distance; of a side of the box the joint
   models::Name obstacle;  ///< of a distance
   models::MotionLimit limit{models::MotionLimit::kNone};  ///< of a side of the box
   double multiplier{0.0};                                 ///< what one unit of the bound costs, > 0
-  double slack{0.0};  ///< m/s by which a distance row is not kept
+  double slack{0.0};                                      ///< m/s by which a row is not kept
 };
 
 /// What a SafetyFilter did at one tick, and how far it can be trusted.
-/// JSON: {"status": "optimal" | "iteration_limit" | "invalid", "rows", "dropped", "yields",
-/// "slack", "margin", "kkt_residual", "gap", "bounds": [{"kind": "distance" | "recovery", "link",
-/// "obstacle", "multiplier", "slack"}, {"kind": "lower" | "upper", "joint", "limit",
-/// "multiplier"}]}
+/// Any other status than "optimal" means that the arm brakes.
+/// JSON: {"status": "optimal" | "iteration_limit" | "not_proven" | "invalid", "rows", "dropped",
+/// "yields", "slack", "margin", "kkt_residual", "gap", "bounds": [{"kind": "distance" | "recovery"
+/// | "unmovable", "link", "obstacle", "multiplier", "slack"}, {"kind": "lower" | "upper", "joint",
+/// "limit", "multiplier"}]}
 struct FilterActivity {
   static constexpr int kMostBounds = 24;
 
@@ -41,6 +43,11 @@ struct FilterActivity {
   double gap{0.0};
   int num_bounds{0};
   std::array<FilterBound, kMostBounds> bounds{};  ///< the first num_bounds
+
+  /// As long as there is room.
+  void Add(const FilterBound& bound) {
+    if (num_bounds < kMostBounds) bounds[static_cast<std::size_t>(num_bounds++)] = bound;
+  }
 };
 
 }  // namespace oca::systems

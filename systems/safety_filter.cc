@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "framework/error.h"
@@ -15,7 +16,8 @@
 namespace oca::systems {
 namespace {
 
-constexpr double kFading = 10.0;  // s, of the way that a joint was led
+constexpr double kFading = 10.0;       // s, of the way that a joint was led
+constexpr double kLeastLever = 1e-12;  // of the reach; a slider's: of 1
 
 /// A gain above 1 / period would ask for more than all of h within one period.
 void RequireGain(const char* where, double gain, const Period& period) {
@@ -42,6 +44,17 @@ SafetyFilter::Params Checked(const SafetyFilter::Params& params) {
     throw ConfigError(fmt::format("most_rows: got {}; expected at least 1", params.most_rows));
   }
   return params;
+}
+
+Eigen::VectorXd LeastEntries(const models::RobotModel& model, double reach) {
+  Eigen::VectorXd least = Eigen::VectorXd::Zero(model.num_positions());
+  for (const models::KinematicStep& step : model.steps()) {
+    if (step.column < 0) continue;
+    const double lever = step.type == models::JointType::kPrismatic ? 1.0 : reach;
+    least[step.column] =
+        std::max(least[step.column], kLeastLever * std::abs(step.multiplier) * lever);
+  }
+  return least;
 }
 
 }  // namespace
@@ -102,6 +115,7 @@ void SafetyFilter::Params::Describe(Fields<Params>& fields) {
 SafetyFilter::SafetyFilter(const Params& params, const ModelSet& models)
     : params_(Checked(params)),
       model_(MovableModel(models, params.model)),
+      least_entries_(LeastEntries(*model_, Reach())),
       c_(DeclareDiscreteState("c", PositionSpec(*model_), 0.0)),
       u_(DeclareDiscreteState("u", RateSpec(*model_), 0.0)),
       l_(DeclareDiscreteState("l", PositionSpec(*model_), 0.0)),
@@ -178,6 +192,7 @@ void SafetyFilter::CalcSolution(const ProximitySet& set, const LinkPoses& poses,
   FillGuess(set, last, result);
   work.solver.Solve(work.qp, work.solution);
   result.velocity = work.solution.u;
+  if (work.solution.status != models::QpStatus::kOptimal) Brake(result);
   Report(set, X_WL, result);
 }
 

@@ -35,6 +35,7 @@ struct FilterSolution {
     models::ProjectionSolver solver;
     models::QpSolution solution;
     std::vector<FilterRow> rows;             ///< of the problem
+    std::vector<FilterBound> unmovable;      ///< that should grow, one a proximity
     std::vector<models::VelocityRange> box;  ///< one a joint
     Eigen::VectorXd command;                 ///< c at this tick
     Eigen::VectorXd last_velocity;           ///< that led to it
@@ -60,6 +61,10 @@ struct FilterSolution {
 ///     approach = approach_gain h                             form linear
 ///                LargestStoppableVelocity(h, deceleration)   form braking
 ///                0                                           h < 0
+///
+/// A row that no joint moves, for it is shorter than 1e-12 m/rad times the arm's reach (a slider:
+/// 1e-12), says nothing about u and is left out; if its distance should grow, `activity` names it.
+/// An answer whose optimality is not proven is not used: the arm brakes.
 ///
 /// l_j is the way in rad that the request led joint j lately, a sum of |velocity| period that fades
 /// within 10 s. With a progress_weight the joints that are to get somewhere are dear, so that the
@@ -149,6 +154,7 @@ class SafetyFilter final : public System {
   using Poses = std::span<const Eigen::Isometry3d>;
   const Params params_;
   const std::shared_ptr<const models::RobotModel> model_;
+  const Eigen::VectorXd least_entries_;  ///< of a row that is not all rounding, one a joint
   const DiscreteState<Vector> c_;
   const DiscreteState<Vector> u_;
   const DiscreteState<Vector> l_;
@@ -161,7 +167,10 @@ class SafetyFilter final : public System {
                 FilterSolution& result) const;
   void FillRows(const ProximitySet& set, Poses X_WL, const ClearMotion* clear_motion,
                 FilterSolution& result) const;
+  bool Moves(const Eigen::VectorXd& row) const;
   void AddRow(const FilterRow& source, double bound, FilterSolution& result) const;
+  void LeaveOut(const Proximity& proximity, double lack, FilterSolution& result) const;
+  void Brake(FilterSolution& result) const;
   void FillGuess(const ProximitySet& set, const FilterActivity& last, FilterSolution& result) const;
   void Report(const ProximitySet& set, Poses X_WL, FilterSolution& result) const;
 

@@ -31,6 +31,7 @@ FilterSolution::Workspace::Workspace(int num_positions, int most_rows)
       last_velocity(command),
       row(command) {
   rows.reserve(static_cast<std::size_t>(most_rows));
+  unmovable.reserve(FilterActivity::kMostBounds);
 }
 
 double SafetyFilter::Approach(double headroom) const {
@@ -81,6 +82,28 @@ void SafetyFilter::FillWish(VectorView request, OptionalVector rate, OptionalVec
   }
 }
 
+bool SafetyFilter::Moves(const Eigen::VectorXd& row) const {
+  return (row.array().abs() >= least_entries_.array()).any();
+}
+
+void SafetyFilter::LeaveOut(const Proximity& proximity, double lack, FilterSolution& result) const {
+  auto& unmovable = result.workspace->unmovable;
+  if (!(lack > 0.0) || unmovable.size() == unmovable.capacity()) return;
+  FilterBound bound;
+  bound.kind = FilterBound::Kind::kUnmovable;
+  bound.link = proximity.link;
+  bound.obstacle = proximity.obstacle;
+  bound.slack = lack;
+  unmovable.push_back(bound);
+}
+
+/// To rest as fast as the box lets every joint.
+void SafetyFilter::Brake(FilterSolution& result) const {
+  const models::ProjectionQp& qp = result.workspace->qp;
+  result.velocity.setZero();
+  result.velocity = result.velocity.cwiseMax(qp.lower).cwiseMin(qp.upper);
+}
+
 void SafetyFilter::AddRow(const FilterRow& source, double bound, FilterSolution& result) const {
   FilterSolution::Workspace& work = *result.workspace;
   const auto reach =
@@ -109,6 +132,7 @@ void SafetyFilter::FillRows(const ProximitySet& set, Poses X_WL, const ClearMoti
                             FilterSolution& result) const {
   FilterSolution::Workspace& work = *result.workspace;
   work.rows.clear();
+  work.unmovable.clear();
   work.qp.num_rows = 0;
   const bool trusted = clear_motion && clear_motion->clear_for > params_.trust_time;
   for (std::size_t i = 0; i < set.proximities.size(); ++i) {
@@ -122,10 +146,14 @@ void SafetyFilter::FillRows(const ProximitySet& set, Poses X_WL, const ClearMoti
     double bound = rest - Approach(headroom);
     const bool known = trusted && clear_motion->Knows(proximity.obstacle, other >= 0);
     if (known) bound = std::min(bound, work.row.dot(work.qp.wish));
-    AddRow({static_cast<int>(i), false, headroom}, bound, result);
-    if (headroom >= 0.0 || known) continue;
+    const bool recovers = headroom < 0.0 && !known;
     const double growth = std::min(-params_.recovery_gain * headroom, params_.recovery_speed);
-    AddRow({static_cast<int>(i), true, headroom}, rest + growth, result);
+    if (!Moves(work.row)) {
+      LeaveOut(proximity, recovers ? rest + growth : bound, result);
+      continue;
+    }
+    AddRow({static_cast<int>(i), false, headroom}, bound, result);
+    if (recovers) AddRow({static_cast<int>(i), true, headroom}, rest + growth, result);
   }
   result.activity.rows = work.qp.num_rows;
 }
@@ -139,6 +167,7 @@ void SafetyFilter::FillGuess(const ProximitySet& set, const FilterActivity& last
   guess.clear();
   for (int b = 0; b < last.num_bounds; ++b) {
     const FilterBound& bound = last.bounds[b];
+    if (bound.kind == FilterBound::Kind::kUnmovable) continue;
     if (bound.kind == FilterBound::Kind::kLower || bound.kind == FilterBound::Kind::kUpper) {
       const auto& names = model_->position_names();
       const auto joint = std::find(names.begin(), names.end(), bound.link);
@@ -215,10 +244,9 @@ void SafetyFilter::Report(const ProximitySet& set, Poses X_WL, FilterSolution& r
       bound.link = model_->position_names()[static_cast<std::size_t>(active.index)];
       bound.limit = lower ? range.lower_limit : range.upper_limit;
     }
-    if (report.num_bounds < FilterActivity::kMostBounds) {
-      report.bounds[report.num_bounds++] = bound;
-    }
+    report.Add(bound);
   }
+  for (const FilterBound& bound : work.unmovable) report.Add(bound);
 }
 
 }  // namespace oca::systems

@@ -10,15 +10,19 @@ namespace oca::models {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Of the longest offset: far above rounding, far below anything that a joint can do.
+// Of the numbers that make up one residual, at least of 1: far above rounding, far below anything
+// that a joint can do.
 constexpr double kTolerance = 1e-12;
+// Of the largest speed in the problem, at least of 1: what a proof of optimality may leave open.
+constexpr double kProof = 1e-9;
 // Squared sine of the angle below which a normal counts as a combination of the active ones.
 constexpr double kDependent = 1e-18;
 
 }  // namespace
 
 ProjectionSolver::ProjectionSolver(int num_variables, int most_rows)
-    : n_(num_variables),
+    : iteration_limit(5 * (most_rows + 2 * num_variables)),
+      n_(num_variables),
       normals_(Eigen::MatrixXd::Zero(most_rows, n_)),
       offsets_(Eigen::VectorXd::Zero(most_rows)),
       lengths_(Eigen::VectorXd::Zero(most_rows)),
@@ -76,10 +80,6 @@ void ProjectionSolver::Scale(const ProjectionQp& qp) {
     normals.col(j).array() /= lengths.array().max(std::numeric_limits<double>::min());
   }
   offsets.array() /= lengths.array().max(std::numeric_limits<double>::min());
-  tolerance_ = kTolerance;
-  for (int i = 0; i < m_; ++i) {
-    if (lengths[i] > 0.0) tolerance_ = std::max(tolerance_, kTolerance * std::fabs(offsets[i]));
-  }
 }
 
 double ProjectionSolver::Residual(int constraint) const {
@@ -88,15 +88,22 @@ double ProjectionSolver::Residual(int constraint) const {
   return j < n_ ? x_[j] - lower_[j] : upper_[j - n_] - x_[j - n_];
 }
 
-double ProjectionSolver::Wrong(int constraint, double residual) const {
-  switch (places_[static_cast<std::size_t>(constraint)]) {
-    case Place::kFree:
-      return residual < -tolerance_ ? -residual : 0.0;
-    case Place::kGivesWay:
-      return residual > tolerance_ ? residual : 0.0;
-    default:
-      return 0.0;
+double ProjectionSolver::Tolerance(int constraint) const {
+  if (constraint >= m_) {
+    const int j = (constraint - m_) % n_;
+    const double side = constraint - m_ < n_ ? lower_[j] : upper_[j];
+    return kTolerance * std::max(1.0, std::fabs(side));
   }
+  const double products = normals_.row(constraint).cwiseAbs().dot(x_.cwiseAbs());
+  return kTolerance * std::max({1.0, products, std::fabs(offsets_[constraint])});
+}
+
+double ProjectionSolver::Wrong(int constraint, double residual) const {
+  const Place place = places_[static_cast<std::size_t>(constraint)];
+  const double wrong = place == Place::kFree       ? -residual
+                       : place == Place::kGivesWay ? residual
+                                                   : 0.0;
+  return wrong > kTolerance && wrong > Tolerance(constraint) ? wrong : 0.0;
 }
 
 int ProjectionSolver::NextOfGuess() {
@@ -288,6 +295,11 @@ void ProjectionSolver::Solve(const ProjectionQp& qp, QpSolution& solution) {
   Refine();
   Report(qp, solution);
   Certify(qp, solution);
+  const double size =
+      std::max({1.0, qp.wish.cwiseAbs().maxCoeff(), solution.u.cwiseAbs().maxCoeff()});
+  if (solution.status == QpStatus::kOptimal && !(solution.kkt_residual <= kProof * size)) {
+    solution.status = QpStatus::kNotProven;
+  }
 }
 
 }  // namespace oca::models

@@ -9,10 +9,11 @@ namespace oca::models::test {
 
 /// Problems as an avoidance loop meets them, and worse: `kind` 0 plain, 1 rows that repeat and
 /// oppose each other, 2 rows nearly parallel, 3 integers, so that many are active at one point,
-/// 4 rows that cannot be kept together, some of length 0, variables that cannot move.
+/// 4 rows that cannot be kept together, some of length 0, variables that cannot move, 5 rows of
+/// lengths from 1 to 1e-18, 6 such rows that repeat, oppose or nearly equal each other.
 class RandomQps {
  public:
-  static constexpr int kKinds = 5;
+  static constexpr int kKinds = 7;
   explicit RandomQps(unsigned seed) : random_(seed) {}
 
   ProjectionQp Make(int kind, int n, int m) {
@@ -45,6 +46,16 @@ class RandomQps {
       row = qp.rows.row(Choose(i)) + std::pow(10.0, -3.0 - 3.0 * (1.0 + Number())) * row;
     }
     if (kind == 4 && Choose(5) == 0) row.setZero();
+    if (kind < 5) return;
+    if (i > 0 && kind == 6) {
+      const int other = Choose(i);
+      row = qp.rows.row(other).normalized() * (Choose(2) == 0 ? 1.0 : -1.0) +
+            (Choose(2) == 0 ? 0.0 : std::pow(10.0, -9.0 + 4.0 * Number())) * row;
+    }
+    // A bound may belong to the row or, as of one that is all rounding, be out of all reach.
+    const double length = std::pow(10.0, -9.0 + 9.0 * Number());
+    row *= length;
+    if (Choose(2) == 0) qp.bounds[i] *= length;
   }
 
   std::mt19937 random_;
