@@ -83,7 +83,7 @@ void SafetyFilter::FillWish(VectorView request, OptionalVector rate, OptionalVec
 }
 
 bool SafetyFilter::Moves(const Eigen::VectorXd& row) const {
-  return (row.array().abs() >= least_entries_.array()).any();
+  return !(row.array().abs() < least_entries_.array()).all();  // what is no number moves too
 }
 
 void SafetyFilter::LeaveOut(const Proximity& proximity, double lack, FilterSolution& result) const {

@@ -52,7 +52,8 @@ bool ProjectionSolver::Valid(const ProjectionQp& qp) const {
          (qp.lower.array() < kInfinity).all() && (qp.upper.array() > -kInfinity).all();
 }
 
-void ProjectionSolver::Scale(const ProjectionQp& qp) {
+/// False if a number overflows, of which nothing more could be said.
+bool ProjectionSolver::Scale(const ProjectionQp& qp) {
   m_ = qp.num_rows;
   scale_ = qp.weights.array().rsqrt();
   lower_ = (qp.lower - qp.wish).cwiseQuotient(scale_);
@@ -80,6 +81,7 @@ void ProjectionSolver::Scale(const ProjectionQp& qp) {
     normals.col(j).array() /= lengths.array().max(std::numeric_limits<double>::min());
   }
   offsets.array() /= lengths.array().max(std::numeric_limits<double>::min());
+  return lengths.allFinite() && offsets.allFinite() && caps_.head(m_).allFinite();
 }
 
 double ProjectionSolver::Residual(int constraint) const {
@@ -258,7 +260,7 @@ void ProjectionSolver::Report(const ProjectionQp& qp, QpSolution& solution) cons
 void ProjectionSolver::Solve(const ProjectionQp& qp, QpSolution& solution) {
   assert(qp.num_variables() == n_ && qp.most_rows() <= normals_.rows());
   solution.iterations = 0;
-  if (!Valid(qp)) {
+  if (!Valid(qp) || !Scale(qp)) {
     solution.status = QpStatus::kInvalid;
     for (int j = 0; j < n_; ++j) {
       const double nearest = std::min(std::max(0.0, qp.lower[j]), qp.upper[j]);
@@ -268,7 +270,6 @@ void ProjectionSolver::Solve(const ProjectionQp& qp, QpSolution& solution) {
     solution.kkt_residual = solution.gap = kInfinity;
     return;
   }
-  Scale(qp);
   guess_.clear();
   guessed_ = 0;
   for (const QpActive& active : solution.active) {

@@ -135,8 +135,7 @@ MappingStatus MapWrenches(const RobotModel& model, std::span<const Eigen::Isomet
     }
     if (!Factorise(workspace)) {
       status = MappingStatus::kRegularised;
-      workspace.normal.diagonal().array() +=
-          kRegularisation * workspace.normal.diagonal().maxCoeff();
+      workspace.normal.diagonal() *= 1.0 + kRegularisation;  // each joint's by its own size
       workspace.factor.compute(workspace.normal);
     }
     workspace.factor.solveInPlace(delta);

@@ -20,7 +20,7 @@ void Divide(const MappingSettings& settings, LoopGainWorkspace& workspace) {
   mapping.normal.diagonal().array() += damping * damping;
   mapping.factor.compute(mapping.normal);
   if (mapping.factor.info() != Eigen::Success) {
-    mapping.normal.diagonal().array() += kRegularisation * mapping.normal.diagonal().maxCoeff();
+    mapping.normal.diagonal() *= 1.0 + kRegularisation;
     mapping.factor.compute(mapping.normal);
   }
   mapping.factor.matrixL().solveInPlace(workspace.loop);

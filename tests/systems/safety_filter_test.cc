@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "framework/error.h"
@@ -229,6 +230,48 @@ TEST(SafetyFilterTest, SaysHowMuchOfARowItCouldNotKeep) {
   EXPECT_EQ(activity.bounds[1].kind, FilterBound::Kind::kLower);
   EXPECT_EQ(activity.bounds[1].link.text(), "planar2_joint_1");
   EXPECT_EQ(activity.bounds[1].limit, models::MotionLimit::kVelocity);
+}
+
+TEST(SafetyFilterTest, LeavesOutByNameWhatNoJointMoves) {
+  // Something 0.03 m before the tip of the stretched arm, where joints move the tip sideways only:
+  // it should grow by 5 * 0.02 m/s. By rounding its point lies beside the axis of the arm.
+  for (const double off : {0.0, 1e-17, 1e-14, -1e-13}) {
+    ProximitySet set = BesideTheTip(0.08, 0.0);
+    set.proximities.push_back(set.proximities[0]);
+    Proximity& before = set.proximities[1];
+    before.obstacle = models::Name("post");
+    before.distance = 0.03;
+    before.normal = -Eigen::Vector3d::UnitX();
+    before.point_on_link.y() += off;
+    FilterActivity activity;
+    const Eigen::VectorXd u = Answer(Hundred(), {1, 0}, set, &activity);
+    EXPECT_NEAR((u - Eigen::Vector2d(1 - 0.675 / 0.97, -0.3 / 0.97)).norm(), 0.0, 1e-12) << off;
+    EXPECT_EQ(activity.status, models::QpStatus::kOptimal);
+    EXPECT_EQ(activity.rows, 1);
+    EXPECT_EQ(activity.slack, 0.0);
+    ASSERT_EQ(activity.num_bounds, 2) << off;
+    EXPECT_EQ(activity.bounds[1].kind, FilterBound::Kind::kUnmovable);
+    EXPECT_EQ(activity.bounds[1].obstacle.text(), "post");
+    EXPECT_NEAR(activity.bounds[1].slack, 0.1, 1e-15);
+    EXPECT_EQ(activity.bounds[1].multiplier, 0.0);
+  }
+}
+
+TEST(SafetyFilterTest, NamesNothingThatNoJointMovesAndThatNeedsNoMove) {
+  ProximitySet set = BesideTheTip(0.06, 0.0);
+  set.proximities[0].normal = -Eigen::Vector3d::UnitX();
+  FilterActivity activity;
+  Answer(Hundred(), {1, 0}, set, &activity);
+  EXPECT_EQ(activity.num_bounds, 0);
+}
+
+TEST(SafetyFilterTest, BrakesIfItHasNoProofOfItsAnswer) {
+  Wired wired(Hundred(), {});
+  wired.filter().position.Fix(wired.context(), Eigen::Vector2d(0.1, 0.1));
+  EXPECT_GT(wired.Answer().norm(), 0.1);
+  // The request is a number, five times it is none.
+  wired.filter().position.Fix(wired.context(), Eigen::Vector2d(0.1, 1e308));
+  EXPECT_EQ(wired.Answer(), Eigen::VectorXd(Eigen::Vector2d::Zero()));
 }
 
 TEST(SafetyFilterTest, KeepsTheNearestRowsIfThereIsNoRoomForAll) {

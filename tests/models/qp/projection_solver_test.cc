@@ -193,7 +193,13 @@ TEST(ProjectionSolverTest, AnswersWithinTheBoxWhateverItIsGiven) {
   const Eigen::VectorXd nearest = Eigen::Vector2d(0.25, 0);
   EXPECT_EQ(answer([](auto& qp) { qp.wish[0] = kNaN; }), nearest);
   EXPECT_EQ(answer([](auto& qp) { qp.rows(0, 1) = kNaN; }), nearest);
+  EXPECT_EQ(answer([](auto& qp) { qp.rows(0, 1) = 1e200; }), nearest);
   EXPECT_EQ(answer([](auto& qp) { qp.bounds[0] = kNaN; }), nearest);
+  EXPECT_EQ(answer([](auto& qp) {
+              qp.rows.row(0) *= 1e-10;
+              qp.bounds[0] = 1e305;
+            }),
+            nearest);
   EXPECT_EQ(answer([](auto& qp) { qp.penalties[0] = -1; }), nearest);
   EXPECT_EQ(answer([](auto& qp) { qp.weights[1] = 0; }), nearest);
   EXPECT_EQ(answer([](auto& qp) { qp.num_rows = 2; }), nearest);

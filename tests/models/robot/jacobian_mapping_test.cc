@@ -191,6 +191,29 @@ TEST(JacobianMappingTest, TellsWhenJointsCannotBeToldApart) {
   }
 }
 
+TEST(JacobianMappingTest, WhatIsRegularisedForLongLeversLeavesASliderAlone) {
+  // A slider along the axes of the long arm: all four bodies rise by it, so 1 N lifts it by 1/4.
+  std::vector<Link> links(5);
+  std::vector<Joint> joints(4);
+  joints[0].type = JointType::kPrismatic;
+  for (int j = 0; j < 4; ++j) {
+    if (j > 0) joints[j].type = JointType::kRevolute;
+    joints[j].parent_link = j;
+    joints[j].child_link = j + 1;
+    joints[j].axis = Eigen::Vector3d::UnitZ();
+  }
+  joints[2].X_PJ.translation().x() = 0.1;
+  joints[3].X_PJ.translation().x() = 1e9;
+  const RobotModel model{Name("long"), std::move(links), std::move(joints)};
+  const auto X_WL = LinkPoses(model, Eigen::Vector4d::Zero());
+  std::vector<BodyWrench> wrenches(4);
+  wrenches[3].force.z() = 1.0;
+  MappingWorkspace workspace(model);
+  Eigen::VectorXd delta(4);
+  EXPECT_EQ(MapWrenches(model, X_WL, wrenches, {}, workspace, delta), MappingStatus::kRegularised);
+  EXPECT_NEAR(delta[0], 0.25, 1e-8);
+}
+
 TEST(JacobianMappingTest, ForcesThatAreNotFiniteGiveNoMotionAndSaySo) {
   Random random(27);
   for (const double bad : {std::nan(""), kUnlimited}) {

@@ -46,8 +46,10 @@ function ofColumns(one: Declared, columns: Columns): Constraint[] {
 
 interface Item { kind?: string; link?: string; obstacle?: string; joint?: string | number; limit?: string; yields?: string }
 
+const kHows: Record<string, string> = { recovery: "moved away", unmovable: "too near, and no joint can change it" };
+
 function nameOf(item: Item): [what: string, how: string] {
-  if (item.link !== undefined) return [`${item.link} – ${item.obstacle ?? ""}`, item.kind === "recovery" ? "moved away" : "approach held back"];
+  if (item.link !== undefined) return [`${item.link} – ${item.obstacle ?? ""}`, kHows[item.kind ?? ""] ?? "approach held back"];
   const joint = typeof item.joint === "number" ? `joint ${item.joint + 1}` : item.joint ?? "";
   return [`${joint} ${item.limit ?? ""}`.trim(), "held to a limit of the joint"];
 }
