@@ -28,6 +28,7 @@ class PlanarCertificateTest : public ::testing::Test {
  protected:
   PlanarCertificateTest() : model_(LoadTestModel("planar2")), travel_(*model_) {
     near_.max_distance = kReach;
+    near_.compared = true;
   }
   Proximity& Near(const std::string& link, double distance) {
     Proximity& proximity = near_.proximities.emplace_back();
