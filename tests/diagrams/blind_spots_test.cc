@@ -162,7 +162,7 @@ TEST_F(BlindSpotsTest, ExpectMayAllowAContact) {
 }
 
 TEST_F(BlindSpotsTest, AContactIsToldOnce) {
-  const RunResult result = Run(
+  const RunResult result = diagrams::Run(
       Load("collision", "collision", kRequestAlone, "expect: {contact_time: {equal: 0}}\n"), {});
   EXPECT_EQ(result.expectations.size(), 1u);
 }

@@ -150,14 +150,14 @@ TEST_F(PlanarDistanceTest, RefusesParametersThatMakeNoQuery) {
 }
 
 TEST_F(PlanarDistanceTest, RefusesARobotOfWhichItSeesNothing) {
-  std::vector<models::Link> links = LoadTestModel("planar2")->links();
+  const auto planar = LoadTestModel("planar2");
+  std::vector<models::Link> links = planar->links();
   for (models::Link& link : links) {
     if (link.parent_joint >= 0) link.collisions.clear();
   }
-  const auto& planar = *LoadTestModel("planar2");
   ModelSet models;
   models.Add("blind", std::make_shared<const models::RobotModel>(models::Name("planar2"), links,
-                                                                 planar.joints()));
+                                                                 planar->joints()));
   EXPECT_THAT(
       [&] { BulletDistance distance(Params{.model = "blind"}, models); },
       ThrowsMessage<ConfigError>(AllOf(HasSubstr("model: got 'blind', which cannot avoid anything"),
