@@ -86,7 +86,9 @@ void MotionTally::AddDistance(const MotionSample& sample) {
   looked_ |= sample.proximities->compared || !sample.proximities->proximities.empty();
   for (const Proximity& proximity : sample.proximities->proximities) {
     in_contact_ |= proximity.distance <= 0.0;
-    if (min_distance_ && proximity.distance >= *min_distance_) continue;
+    // A distance that is none stays, so that the run fails by it.
+    const bool none = std::isnan(proximity.distance);
+    if (min_distance_ && !none && !(proximity.distance < *min_distance_)) continue;
     min_distance_ = proximity.distance;
     min_distance_link_ = proximity.link;
     min_distance_obstacle_ = proximity.obstacle;
