@@ -62,6 +62,9 @@ void ModelParams::Describe(Fields<ModelParams>& fields) {
   fields.Add("collision", &ModelParams::collision, "",
              "what its collision meshes count as: their convex hull, or the convex parts of a "
              "decomposition, which keep hollows");
+  fields.Add("visual_as_collision", &ModelParams::visual_as_collision, "",
+             "which links take what is drawn of them as their collision shapes: none, those that "
+             "are missing any, or all that are drawn");
   fields.Add("base_pose", &ModelParams::base_pose, "", "pose of the root link in the world");
   fields
       .Add("acceleration_limits", &ModelParams::acceleration_limits, "rad/s^2",

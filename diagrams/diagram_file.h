@@ -10,6 +10,7 @@
 
 #include "framework/integrator_options.h"
 #include "framework/params.h"
+#include "models/robot/urdf.h"
 #include "systems/geometry_params.h"
 
 namespace oca::diagrams {
@@ -50,6 +51,7 @@ struct ModelParams {
   std::string urdf;
   std::string srdf;
   systems::CollisionMeshes collision{systems::CollisionMeshes::kHull};  ///< of its meshes
+  models::VisualAsCollision visual_as_collision{models::VisualAsCollision::kNone};
   systems::PoseParams base_pose;
   std::optional<PerComponent> acceleration_limits;
   std::optional<PerComponent> jerk_limits;

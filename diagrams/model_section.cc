@@ -13,6 +13,7 @@
 #include "framework/error.h"
 #include "models/error.h"
 #include "models/robot/attach_objects.h"
+#include "models/robot/unseen_links.h"
 #include "models/robot/urdf.h"
 
 namespace oca::diagrams {
@@ -89,6 +90,7 @@ void ModelSection::ReadModel(const Value::Entry& entry) {
     };
     options.X_WB = params.base_pose.Pose(where + ".base_pose");
     options.decompose_meshes = params.collision == systems::CollisionMeshes::kDecomposition;
+    options.visual_as_collision = params.visual_as_collision;
     options.srdf = Resolve(params.srdf, LocationOf(entry.value, "srdf"));
     if (params.acceleration_limits) {
       options.acceleration_limits = params.acceleration_limits->values();
@@ -101,8 +103,11 @@ void ModelSection::ReadModel(const Value::Entry& entry) {
     options.package_directories = PackageFolders();
     const models::RobotModel robot =
         models::LoadUrdf(Resolve(params.urdf, LocationOf(entry.value, "urdf")), options);
-    models_.Add(entry.key, std::make_shared<const models::RobotModel>(models::AttachObjects(
-                               robot, MakeAttached(params.attached, where, &warnings))));
+    const auto model = std::make_shared<const models::RobotModel>(
+        models::AttachObjects(robot, MakeAttached(params.attached, where, &warnings)));
+    const std::string unseen = models::DescribeUnseen(*model, "visual_as_collision: missing");
+    if (!unseen.empty()) warnings.push_back(fmt::format("{}: {}", where, unseen));
+    models_.Add(entry.key, model);
   } catch (const std::runtime_error& error) {
     failed_ = true;
     problems_.Add(entry.location, fmt::format("{}: {}", where, error.what()));

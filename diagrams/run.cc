@@ -50,6 +50,25 @@ bool Holds(const ExpectParams& bound, double value) {
          (!bound.equal || std::fabs(value - *bound.equal) <= bound.within);
 }
 
+/// Whether the file means a contact by this bound: it lets the distance be negative, or time pass
+/// in contact.
+bool AllowsContact(const Expectation& expectation) {
+  const ExpectParams& bound = expectation.bound;
+  if (expectation.member == "min_distance") {
+    return !(bound.at_least && *bound.at_least >= 0.0) &&
+           !(bound.equal && *bound.equal - bound.within >= 0.0);
+  }
+  if (expectation.member == "contact_time") {
+    return !(bound.at_most && *bound.at_most <= 0.0) &&
+           !(bound.equal && *bound.equal + bound.within <= 0.0);
+  }
+  return expectation.member == "first_contact_time";  // a number only if there was one
+}
+
+bool IsOfContact(const Expectation& expectation) {
+  return expectation.member == "min_distance" || expectation.member == "contact_time";
+}
+
 /// The metrics of all arms as one: the nearest approach with its pair and time, the largest of
 /// everything else.
 ordered_json WorstOf(const ordered_json& one, const ordered_json& other) {
@@ -132,6 +151,7 @@ class Runner {
     result_.statistics = simulator_.statistics();
     result_.profile = simulator_.profile();
     result_.metrics = MetricsOf(loaded_, simulator_.context());
+    ExpectNoContact();
     try {
       if (recorder_) recorder_->Finish();
     } catch (const ConfigError& error) {
@@ -187,6 +207,21 @@ class Runner {
                          : ValueOf(expectation, simulator_.context());
       result.ok = result.value && Holds(expectation.bound, *result.value);
     }
+  }
+
+  /// What a file expects without saying so. It is listed if it was not met, unless an expectation
+  /// of the file allows a contact or says already that there was one.
+  void ExpectNoContact() {
+    const auto least = MemberOf(result_.metrics, "min_distance");
+    if (!least || *least > 0.0) return;
+    for (std::size_t i = 0; i < loaded_.expectations.size(); ++i) {
+      const Expectation& expectation = loaded_.expectations[i];
+      const bool said = IsOfContact(expectation) && !result_.expectations[i].ok;
+      if (said || AllowsContact(expectation)) return;
+    }
+    result_.expectations.push_back({"min_distance", least,
+                                    "> 0 (no contact, unless `expect` allows it)", result_.duration,
+                                    false});
   }
 
   const LoadedDiagram& loaded_;

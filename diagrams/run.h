@@ -66,10 +66,11 @@ struct RunResult {
 /// computed.
 std::string MetricsOf(const LoadedDiagram& loaded, const Context& context);
 
-/// Runs a loaded diagram from time 0. A calculation that fails ends the run with `failure`; what
-/// was recorded and measured up to there is kept.
-/// throws ConfigError if the realtime factor is negative or not finite, if a record cannot be
-/// written or the simulator's options are wrong.
+/// Runs a loaded diagram from time 0. A contact that no expectation allows is an expectation that
+/// was not met: `min_distance > 0` joins the others. A calculation that fails ends the run with
+/// `failure`; what was recorded and measured up to there is kept. throws ConfigError if the
+/// realtime factor is negative or not finite, if a record cannot be written or the simulator's
+/// options are wrong.
 RunResult Run(const LoadedDiagram& loaded, const RunOptions& options);
 
 }  // namespace oca::diagrams

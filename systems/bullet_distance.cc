@@ -94,18 +94,13 @@ BulletDistance::BulletDistance(const Params& params, const ModelSet& models)
       moving_others_(std::count_if(others_.begin(), others_.end(),
                                    [](const Other& other) { return Moves(*other.model); })),
       ignored_(MakeIgnored(params, models)),
+      at_links_(LooksAtLinks()),
       links(DeclareInput<LinkPoses>("links")),
       obstacles(DeclareInput<ObstacleSet>("obstacles")),
       links_of_others(DeclareOtherLinks()),
       scene(DeclareOutput<ObstacleScene, &BulletDistance::CalcScene>("scene", {}, obstacles)),
       near(DeclareOutput<NearObstacles, &BulletDistance::CalcNear>("near", {}, links, scene)),
       proximities(DeclareProximities(link_forces_ ? moving_others_ : 0)) {}
-
-std::vector<LinkCollider> BulletDistance::MakeMovable() const {
-  std::vector<LinkCollider> colliders = MakeLinkColliders(*model_);
-  std::erase_if(colliders, [&](const LinkCollider& link) { return model_->body(link.number) < 0; });
-  return colliders;
-}
 
 std::vector<BulletDistance::Neighbour> BulletDistance::MakeNeighbours(
     const std::string& name, const models::RobotModel& model) {
@@ -232,6 +227,7 @@ void BulletDistance::Find(const LinkPoses& poses, const ObstacleSet& set,
                           const NearObstacles& candidates, std::span<const LinkPoses* const> others,
                           ProximitySet& result) const {
   result.max_distance = max_distance_;
+  result.compared = Compares(poses, set);
   for (std::size_t i = 0; i < others.size(); ++i) {
     CheckVelocities(others_[i], *others[i]);
     for (const Neighbour& other : others_[i].links) {

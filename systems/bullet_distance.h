@@ -47,7 +47,8 @@ namespace oca::systems {
 /// out   scene         ObstacleScene  the obstacles, arranged for searches
 /// out   near          NearObstacles  of each movable link that has solids, in the model's order
 /// state -
-/// throws ConfigError if a model or a link of `ignore` does not exist, a pair is no pair,
+/// throws ConfigError if a model or a link of `ignore` does not exist, no movable link of the model
+///        has a collision shape, a pair is no pair,
 ///        max_distance is not positive, calculate_link_forces has no `others`, or more than 8 of
 ///        them move; while running if a link comes in that is not of the model, or links of
 ///        `others` without velocities
@@ -111,6 +112,9 @@ class BulletDistance final : public System {
   bool AddOther(const LinkCollider& link, const Eigen::Isometry3d& X_WL, const Neighbour& other,
                 const Eigen::Isometry3d& X_WO, ProximitySet& result) const;
   bool Ignored(models::Name link, models::Name obstacle) const;
+  bool LooksAt(const LinkCollider& link, const Neighbour& own) const;
+  bool LooksAtLinks() const;
+  bool Compares(const LinkPoses& poses, const ObstacleSet& set) const;
   void CheckNames(const LinkPoses& poses) const;
   void CheckVelocities(const Other& other, const LinkPoses& poses) const;
 
@@ -124,6 +128,7 @@ class BulletDistance final : public System {
   const std::vector<Other> others_;   ///< those that move first
   const std::size_t moving_others_;
   const std::vector<std::pair<models::Name, models::Name>> ignored_;
+  const bool at_links_;  ///< whether pairs with links are looked at, own ones or others'
 
  public:
   const Input<LinkPoses> links;

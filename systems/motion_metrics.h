@@ -43,7 +43,9 @@ namespace oca::systems {
 ///   what was nearest then, null if nothing was within reach; both null without a goal
 ///
 /// The output at a sampling instant whose update is pending has its sample in it, so the end of a
-/// run counts, once. A metric whose inputs are not connected or without a value is null.
+/// run counts, once. A metric whose inputs are not connected or without a value is null; so are
+/// certified_min_distance and contact_time as long as no pair was looked at, as where nothing is
+/// there to come near.
 ///
 /// in    position, request, goal, delta  n  u   optional; n and u are common
 /// in    proximities  ProximitySet              optional

@@ -100,6 +100,7 @@ class MotionTally {
   models::Name min_distance_link_;
   models::Name min_distance_obstacle_;
   double min_distance_time_{0.0};
+  bool looked_{false};   // a sample had a pair that was looked at
   bool certain_{false};  // all of every sample so far was known
   double certified_{0.0};
   double reach_{0.0};    // max_distance of the last sample

@@ -83,9 +83,12 @@ void MotionTally::Add(const MotionSample& sample) {
 void MotionTally::AddDistance(const MotionSample& sample) {
   in_contact_ = false;
   if (sample.proximities == nullptr) return;
+  looked_ |= sample.proximities->compared || !sample.proximities->proximities.empty();
   for (const Proximity& proximity : sample.proximities->proximities) {
     in_contact_ |= proximity.distance <= 0.0;
-    if (min_distance_ && proximity.distance >= *min_distance_) continue;
+    // A distance that is none stays, so that the run fails by it.
+    const bool none = std::isnan(proximity.distance);
+    if (min_distance_ && !none && !(proximity.distance < *min_distance_)) continue;
     min_distance_ = proximity.distance;
     min_distance_link_ = proximity.link;
     min_distance_obstacle_ = proximity.obstacle;
@@ -184,8 +187,8 @@ MotionMetricsValue MotionTally::At(const MotionSample& now) const {
     value.min_distance_obstacle = min_distance_obstacle_;
     value.min_distance_time = min_distance_time_;
   }
-  if (certain_) value.certified_min_distance = certified_;
-  if (now.proximities != nullptr) {
+  if (certain_ && looked_) value.certified_min_distance = certified_;
+  if (now.proximities != nullptr && looked_) {
     value.contact_time = contact_time_ + (in_contact_ ? now.time - last_time_ : 0.0);
     value.first_contact_time = first_contact_time_;
   }

@@ -13,6 +13,7 @@
 #include "models/planning/clearance.h"
 #include "models/robot/inverse_kinematics.h"
 #include "models/robot/robot_model.h"
+#include "models/robot/unseen_links.h"
 
 namespace oca::systems {
 namespace {
@@ -46,6 +47,13 @@ void CheckBefore(const KeyPoint& before, const models::RobotModel& model) {
       fmt::format("goal: the key point before; got {} numbers; expected {}, one a "
                   "joint of '{}'",
                   before.position.size(), model.num_positions(), model.name().text()));
+}
+
+void CheckClearance(const PoseGoal& goal, const models::RobotModel& model) {
+  if (goal.clearance == 0.0 || !models::NothingToSee(model)) return;
+  throw ConfigError(fmt::format("goal.clearance: got {} m; expected a robot that distances see: {}",
+                                goal.clearance,
+                                models::DescribeUnseen(model, "visual_as_collision: missing")));
 }
 
 double ArrivalTime(const PoseGoal& goal, const KeyPoint& before, const models::RobotModel& model,
@@ -91,6 +99,7 @@ void PoseGoal::Describe(Fields<PoseGoal>& fields) {
 KeyPoint KeyPointAt(const PoseGoal& goal, const KeyPoint& before,
                     const std::shared_ptr<const models::RobotModel>& model) {
   CheckBefore(before, *model);
+  CheckClearance(goal, *model);
   const Eigen::Isometry3d X_WG = goal.pose.Pose("goal.pose");
   if (goal.time) ArrivalTime(goal, before, *model, before.position);
   try {

@@ -248,6 +248,7 @@ ProximitySet Signal<ProximitySet>::ReadJson(std::string_view text) {
   ProximitySet set;
   ReadList(text, "proximities",
            [&](const JsonReader& item) { set.proximities.push_back(ReadProximity(item)); });
+  set.compared = !set.proximities.empty();
   return set;
 }
 

@@ -94,11 +94,13 @@ struct Proximity {
 };
 
 /// What is not listed is farther than `max_distance` (m; 0: unknown) and no faster than `fastest`
-/// (m/s). JSON: the list of proximities.
+/// (m/s). `compared` says whether any pair was looked at, listed or not: if none was, the set tells
+/// nothing. JSON: the list of proximities.
 struct ProximitySet {
   std::vector<Proximity> proximities;
   double max_distance{0.0};
   double fastest{0.0};
+  bool compared{false};
 };
 
 /// A force (N) that acts on `link` at `point`, because of `obstacle`.

@@ -76,6 +76,7 @@ struct CheckCollisionsArguments {
   int samples{10000};
   std::uint64_t seed{0};
   double margin{0.02};  ///< m
+  std::string visual_as_collision{"none"};
   bool json{false};
 };
 /// Which pairs of links of a robot need no check for collision, for its SRDF.

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "diagrams/blind_spots.h"
 #include "diagrams/loader.h"
 #include "framework/error.h"
 #include "models/error.h"
@@ -42,7 +43,8 @@ ordered_json Describe(const models::RobotModel& model, const models::Clairvoyant
   return json;
 }
 
-ordered_json Plan(const PlanArguments& arguments, int seed) {
+/// `first`: of several, which all have the same warnings to tell.
+ordered_json Plan(const PlanArguments& arguments, int seed, bool first) {
   const auto start = std::chrono::steady_clock::now();
   std::vector<diagrams::Override> overrides;
   for (const std::string& text : arguments.overrides) {
@@ -50,6 +52,9 @@ ordered_json Plan(const PlanArguments& arguments, int seed) {
   }
   if (seed >= 0) overrides.push_back({"simulator.seed", std::to_string(seed)});
   const auto loaded = diagrams::LoadDiagram(arguments.file, overrides);
+  if (first) {
+    for (const std::string& warning : loaded.warnings) std::cerr << warning << '\n';
+  }
   const double duration = arguments.duration.value_or(loaded.simulator.duration);
   const PlanScene scene(loaded, arguments.model, duration);
   models::ClairvoyantTask task = scene.Task();
@@ -60,6 +65,7 @@ ordered_json Plan(const PlanArguments& arguments, int seed) {
   json["model"] = scene.model_name();
   json["judge"] = scene.judge();
   json["sees"] = scene.sees();
+  json["not_seen"] = diagrams::BlindSpots(loaded);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   json["seconds"] = wall.count();
   return json;
@@ -85,6 +91,7 @@ const char* PlanFooter() {
   tries                motions that it took; 0: the request itself is clear
   model, judge         the robot, and the MotionMetrics by which a run of the file is judged
   sees                 what was looked at: all that the judge's distance block sees, and no more
+  not_seen             what that block does not look at: links without collision shapes, other models
   seconds              of computing
 
 Exit status: 0 if all samples are clear, 3 if for one of them no clear motion was found, 2 if the
@@ -96,7 +103,7 @@ int PlanCommand(const PlanArguments& arguments) {
   try {
     const int first = arguments.seed.value_or(-1);
     for (int i = 0; i < arguments.samples; ++i) {
-      const auto plan = Plan(arguments, first < 0 ? first : first + i);
+      const auto plan = Plan(arguments, first < 0 ? first : first + i, i == 0);
       std::cout << plan.dump() << std::endl;
       all_clear = all_clear && plan.at("clear").get<bool>();
     }

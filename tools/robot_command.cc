@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iostream>
@@ -7,8 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include "diagrams/package_paths.h"
+#include "framework/error.h"
 #include "models/robot/collision_check.h"
 #include "models/robot/srdf.h"
+#include "models/robot/unseen_links.h"
 #include "models/robot/urdf.h"
 #include "tools/commands.h"
 
@@ -77,14 +80,32 @@ std::vector<models::DisabledPair> DisabledPairs(const models::RobotModel& model,
   return disabled;
 }
 
+models::VisualAsCollision VisualsFrom(const std::string& name) {
+  const auto names = EnumNames(models::VisualAsCollision{});
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    throw ConfigError(fmt::format("--visual-as-collision: got '{}'; expected one of: {}", name,
+                                  fmt::join(names, ", ")));
+  }
+  return static_cast<models::VisualAsCollision>(found - names.begin());
+}
+
 }  // namespace
 
 int CheckCollisionsCommand(const CheckCollisionsArguments& arguments) {
   models::LoadOptions options;
   options.package_directories = diagrams::PackageFolders();
   options.load_visuals = false;
+  options.visual_as_collision = VisualsFrom(arguments.visual_as_collision);
+  const auto warn = [&](const std::string& line) {
+    fmt::print(stderr, "{}: warning: {}\n", arguments.urdf, line);
+  };
+  options.warn = warn;
   const models::RobotModel model =
       models::LoadUrdf(diagrams::ResolvePath(arguments.urdf, {}, {}), options);
+  if (const std::string unseen = models::DescribeUnseen(model, "--visual-as-collision missing");
+      !unseen.empty())
+    warn(unseen);
   const models::CollisionSampling sampling{arguments.samples, arguments.seed, arguments.margin};
   const std::vector<LinkPairCheck> pairs = models::CheckCollisions(model, sampling);
   if (!arguments.write_srdf.empty()) {

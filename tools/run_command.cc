@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "diagrams/blind_spots.h"
 #include "diagrams/chatter_check.h"
 #include "diagrams/record/record_files.h"
 #include "diagrams/record/run_recorder.h"
@@ -144,6 +145,7 @@ ordered_json ToJson(const diagrams::LoadedDiagram& loaded, const diagrams::RunRe
                     {"wall_seconds", result.wall_seconds},
                     {"realtime_factor", result.duration / result.wall_seconds},
                     {"metrics", ordered_json::parse(result.metrics)},
+                    {"not_seen", diagrams::BlindSpots(loaded)},
                     {"expectations", expectations},
                     {"integrator",
                      {{"steps", integrator.steps},

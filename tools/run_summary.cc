@@ -2,11 +2,13 @@
 #include "tools/run_summary.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "diagrams/blind_spots.h"
 #include "tools/terminal.h"
 
 namespace oca::tools {
@@ -22,23 +24,29 @@ std::string Line(const char* label, const std::string& text) {
 }
 
 /// What is known of the times between the samples.
-std::string Certificate(const ordered_json& metrics) {
+std::string Certificate(const ordered_json& metrics, double duration) {
+  if (duration == 0.0) return "; looked at once, at the start";
   const auto& certified = metrics.value("certified_min_distance", ordered_json());
   if (!certified.is_number()) return "; between the samples nothing is known";
   if (certified.get<double>() <= 0.0) return "; between the samples a contact is not ruled out";
   return fmt::format("; {:.3f} m or more at every time", certified.get<double>());
 }
 
-std::string ClearanceLine(const ordered_json& metrics, bool colour) {
-  const auto& distance = metrics.value("min_distance", ordered_json());
-  if (!distance.is_number()) {
-    const bool looked = metrics.value("contact_time", ordered_json()).is_number();
-    return looked ? Line("clearance", Good("clear", colour) +
-                                          ": nothing came within reach of the "
-                                          "distance measurement" +
-                                          Certificate(metrics))
-                  : "";
+/// What stands where nothing was found within reach; `judged`: distances were asked for.
+std::string NothingNear(const ordered_json& metrics, double duration, bool judged, bool colour) {
+  if (metrics.value("contact_time", ordered_json()).is_number()) {
+    return Line("clearance", Good("clear", colour) +
+                                 ": nothing came within reach of the distance measurement" +
+                                 Certificate(metrics, duration));
   }
+  if (!judged || !metrics.contains("contact_time")) return "";
+  return Line("clearance",
+              Bad("NOT KNOWN", colour) + ": there was nothing to compare the arm with");
+}
+
+std::string ClearanceLine(const ordered_json& metrics, double duration, bool judged, bool colour) {
+  const auto& distance = metrics.value("min_distance", ordered_json());
+  if (!distance.is_number()) return NothingNear(metrics, duration, judged, colour);
   const auto& pair = metrics["min_distance_pair"];
   std::string where;
   if (pair.is_array()) {
@@ -48,11 +56,17 @@ std::string ClearanceLine(const ordered_json& metrics, bool colour) {
   const double nearest = distance.get<double>();
   if (nearest > 0.0) {
     return Line("clearance", Good("clear", colour) + fmt::format(": nearest {:.3f} m", nearest) +
-                                 where + Certificate(metrics));
+                                 where + Certificate(metrics, duration));
   }
   return Line("clearance",
               Bad("CONTACT", colour) + fmt::format(": {:.3f} m deep", -nearest) + where +
                   fmt::format("; {:.2f} s in contact", metrics.value("contact_time", 0.0)));
+}
+
+/// What "clear" does not speak of.
+std::string NotSeenLine(const diagrams::LoadedDiagram& loaded) {
+  const std::vector<std::string> spots = diagrams::BlindSpots(loaded);
+  return spots.empty() ? "" : Line("not seen", fmt::format("{}", fmt::join(spots, "; ")));
 }
 
 /// Where the arm stood for long, if it did: at the goal it need not have ended.
@@ -122,7 +136,8 @@ std::string RunSummary(const diagrams::LoadedDiagram& loaded, const diagrams::Ru
   text += '\n';
   if (!result.failure.empty()) text += Line("run", Bad("FAILED", colour) + ": " + result.failure);
   if (result.interrupted) text += Line("run", Bad("INTERRUPTED", colour));
-  text += ClearanceLine(metrics, colour) + GoalLine(metrics, colour) + MotionLine(metrics) +
+  text += ClearanceLine(metrics, result.duration, diagrams::JudgesDistances(loaded), colour) +
+          NotSeenLine(loaded) + GoalLine(metrics, colour) + MotionLine(metrics) +
           ExpectationLines(result, colour);
   text += Line("time", fmt::format("{:g} s in {:.3g} s, {:.0f} times real time; {} steps",
                                    result.duration, result.wall_seconds,

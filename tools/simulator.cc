@@ -193,6 +193,11 @@ class CommandLine {
         ->add_option("--margin", collisions_.margin,
                      "m; a pair that comes nearer counts as one that may collide")
         ->capture_default_str();
+    check
+        ->add_option(
+            "--visual-as-collision", collisions_.visual_as_collision,
+            "links that take what is drawn of them as collision shapes: none, missing, all")
+        ->capture_default_str();
     check->add_flag("--json", collisions_.json, "print one JSON object instead of the table");
     check->callback([this] { command_ = [this] { return CheckCollisionsCommand(collisions_); }; });
   }

@@ -156,7 +156,7 @@ int SweepCommand(const SweepArguments& arguments) {
   }
   const Shard shard =
       arguments.shard.empty() ? ShardOfSurroundings() : Shard::Parse(arguments.shard);
-  Inspect(campaign);
+  for (const std::string& warning : Inspect(campaign)) fmt::print(stderr, "{}\n", warning);
   const fs::path folder(arguments.folder);
   sweep::ResultFile file(folder, campaign, shard);
   const std::int64_t before = std::ssize(file.results().rows);

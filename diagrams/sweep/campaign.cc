@@ -207,8 +207,9 @@ std::string Campaign::DifferenceTo(const Campaign& other) const {
   return differences;
 }
 
-void Inspect(Campaign& campaign) {
+std::vector<std::string> Inspect(Campaign& campaign) {
   constexpr std::int64_t kTried = 3;
+  std::vector<std::string> warnings;
   Hash hash;
   for (const Settings& combination : campaign.Combinations()) {
     for (std::int64_t sample = 0;; ++sample) {
@@ -217,6 +218,10 @@ void Inspect(Campaign& campaign) {
         const auto loaded =
             diagrams::LoadDiagram(campaign.file, campaign.OverridesOf(seed, combination));
         campaign.name = loaded.name;
+        for (const std::string& warning : loaded.warnings) {
+          const bool told = std::find(warnings.begin(), warnings.end(), warning) != warnings.end();
+          if (!told) warnings.push_back(warning);
+        }
         const double duration = campaign.duration.value_or(loaded.simulator.duration);
         for (const record::McapAttachment& file : record::FilesOf(loaded, duration)) {
           hash.Add(file.name);
@@ -229,6 +234,7 @@ void Inspect(Campaign& campaign) {
     }
   }
   campaign.file_hash = hash.Hex();
+  return warnings;
 }
 
 }  // namespace oca::sweep

@@ -66,8 +66,8 @@ struct Campaign {
 };
 
 /// Loads the diagram once for each combination, with the first of samples 0 to 2 that loads, and
-/// fills in `name` and `file_hash`.
+/// fills in `name` and `file_hash`. Returns the warnings of the loads, each once.
 /// throws ConfigError with the problems of the file if none does.
-void Inspect(Campaign& campaign);
+std::vector<std::string> Inspect(Campaign& campaign);
 
 }  // namespace oca::sweep

@@ -131,17 +131,8 @@ class UrdfReader {
     }
     Link link;
     link.name = Name(entry.name);
-    for (std::size_t i = 0; i < from.collision_array.size(); ++i) {
-      const std::string source = fmt::format("{}:{}", where_, entry.collision_lines[i]);
-      const urdf::Collision& collision = *from.collision_array[i];
-      link.collisions.push_back(
-          {ToPose(collision.origin),
-           ReadShape(*collision.geometry, entry.name,
-                     fmt::format("{}: link '{}' collision", source, entry.name)),
-           source});
-    }
-    link.collisions = FuseCapsules(std::move(link.collisions));
-    for (std::size_t i = 0; options_.load_visuals && i < from.visual_array.size(); ++i) {
+    link.collisions = FuseCapsules(ReadCollisions(entry, from));
+    for (std::size_t i = 0; i < from.visual_array.size(); ++i) {
       link.visuals.push_back(ReadVisual(
           *from.visual_array[i],
           fmt::format("{}:{}: link '{}' visual", where_, entry.visual_lines[i], entry.name)));
@@ -150,7 +141,32 @@ class UrdfReader {
     return link;
   }
 
-  Shape ReadShape(const urdf::Geometry& geometry, const std::string& link,
+  // Those of its own, or what is drawn of it.
+  std::vector<CollisionElement> ReadCollisions(const UrdfOutline::Link& entry,
+                                               const urdf::Link& from) const {
+    const bool drawn = options_.visual_as_collision == VisualAsCollision::kAll
+                           ? !from.visual_array.empty()
+                           : options_.visual_as_collision == VisualAsCollision::kMissing &&
+                                 from.collision_array.empty();
+    return drawn ? ReadSolids(entry.name, entry.visual_lines, from.visual_array, "visual")
+                 : ReadSolids(entry.name, entry.collision_lines, from.collision_array, "collision");
+  }
+
+  template <class Element>
+  std::vector<CollisionElement> ReadSolids(const std::string& link, const std::vector<int>& lines,
+                                           const std::vector<Element>& elements,
+                                           const char* kind) const {
+    std::vector<CollisionElement> solids;
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      const std::string source = fmt::format("{}:{}", where_, lines[i]);
+      const std::string where = fmt::format("{}: link '{}' {}", source, link, kind);
+      solids.push_back({ToPose(elements[i]->origin),
+                        ReadShape(*elements[i]->geometry, link, kind, where), source});
+    }
+    return solids;
+  }
+
+  Shape ReadShape(const urdf::Geometry& geometry, const std::string& link, const char* kind,
                   const std::string& where) const {
     if (geometry.type == urdf::Geometry::MESH) {
       const auto& mesh = static_cast<const urdf::Mesh&>(geometry);
@@ -163,7 +179,7 @@ class UrdfReader {
         const std::string excess = options_.warn ? DescribeHullExcess(triangles, *hull) : "";
         if (!excess.empty()) {
           options_.warn(
-              fmt::format("link '{}': collision mesh '{}' {}", link, mesh.filename, excess));
+              fmt::format("link '{}': {} mesh '{}' {}", link, kind, mesh.filename, excess));
         }
         return ConvexMesh{hull};
       } catch (const ModelError& error) {
@@ -189,7 +205,9 @@ class UrdfReader {
     visual.X_LV = ToPose(from.origin);
     if (from.geometry->type == urdf::Geometry::MESH) {
       const auto& mesh = static_cast<const urdf::Mesh&>(*from.geometry);
-      visual.mesh_file = FindMesh(mesh.filename, directory_, options_, where).string();
+      if (options_.load_visuals) {
+        visual.mesh_file = FindMesh(mesh.filename, directory_, options_, where).string();
+      }
       visual.mesh_scale = ToVector(mesh.scale);
     } else {
       visual.shape = ReadPrimitive(*from.geometry);

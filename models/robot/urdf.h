@@ -2,14 +2,24 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "models/robot/robot_model.h"
 
 namespace oca::models {
+
+/// Which links take what is drawn of them, hulls of meshes like those of collision meshes, as their
+/// collision shapes: none, those without any, or all that are drawn.
+enum class VisualAsCollision { kNone, kMissing, kAll };
+inline std::span<const char* const> EnumNames(VisualAsCollision) {
+  static constexpr std::array kNames{"none", "missing", "all"};
+  return kNames;
+}
 
 /// What a robot's description leaves open.
 struct LoadOptions {
@@ -28,9 +38,11 @@ struct LoadOptions {
   /// true: a collision mesh counts as the compound that LoadDecomposition makes of it, which keeps
   /// its hollows, instead of its convex hull.
   bool decompose_meshes{false};
-  /// Takes a line for each mesh whose hull adds volume, `link 'x': collision mesh ...`; or unset.
+  VisualAsCollision visual_as_collision{VisualAsCollision::kNone};
+  /// Takes a line for each mesh whose hull adds volume, `link 'x': collision mesh ...` or `visual
+  /// mesh`; or unset.
   std::function<void(const std::string& line)> warn;
-  /// false: visual elements are not read, and their meshes need not exist.
+  /// false: meshes that are only drawn need not exist, and their elements name no file.
   bool load_visuals{true};
 };
 

@@ -27,6 +27,9 @@ TEST(JudgeTest, BelievesTheCertificateBeforeTheSamples) {
 
 TEST(JudgeTest, TakesNothingWithinReachForClearAndNoMetricForUnknown) {
   EXPECT_EQ(Judge(Row(0, R"({"min_distance": null, "contact_time": 0})"), 0.01).clear, true);
+  // Nothing was there to compare: not clear, not unclear.
+  EXPECT_EQ(Judge(Row(0, R"({"min_distance": null, "contact_time": null})"), 0.01).clear,
+            std::nullopt);
   EXPECT_FALSE(Judge(Row(0, R"({"min_distance": null})"), 0.01).clear.has_value());
   EXPECT_FALSE(Judge(Row(0, "{}"), 0.01).both.has_value());
 }

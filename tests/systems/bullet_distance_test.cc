@@ -18,8 +18,10 @@ namespace oca::systems {
 namespace {
 
 using Eigen::Vector3d;
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 using Params = BulletDistance::Params;
 
 Eigen::Isometry3d At(double x, double y, double z) {
@@ -147,6 +149,33 @@ TEST_F(PlanarDistanceTest, RefusesParametersThatMakeNoQuery) {
   EXPECT_THAT(refusal({.others = {"planar2"}}), HasSubstr("each other model once"));
 }
 
+TEST_F(PlanarDistanceTest, RefusesARobotOfWhichItSeesNothing) {
+  const auto planar = LoadTestModel("planar2");
+  std::vector<models::Link> links = planar->links();
+  for (models::Link& link : links) {
+    if (link.parent_joint >= 0) link.collisions.clear();
+  }
+  ModelSet models;
+  models.Add("blind", std::make_shared<const models::RobotModel>(models::Name("planar2"), links,
+                                                                 planar->joints()));
+  EXPECT_THAT(
+      [&] { BulletDistance distance(Params{.model = "blind"}, models); },
+      ThrowsMessage<ConfigError>(AllOf(HasSubstr("model: got 'blind', which cannot avoid anything"),
+                                       HasSubstr("no collision shape on any movable link"))));
+}
+
+TEST_F(PlanarDistanceTest, SaysWhetherItLookedAtAnyPair) {
+  const std::vector<Obstacle> far{Ball("ball", Vector3d(9.0, 0.0, 0.0))};
+  EXPECT_FALSE(Near({.max_distance = 1.0}, {}).compared);
+  EXPECT_TRUE(Near({.max_distance = 1.0}, far).compared);
+  const std::vector<std::vector<std::string>> both{{"planar2_link_1", "ball"},
+                                                   {"planar2_link_2", "ball"}};
+  EXPECT_TRUE(Near({.max_distance = 1.0, .ignore = {both[0]}}, far).compared);
+  EXPECT_FALSE(Near({.max_distance = 1.0, .ignore = both}, far).compared);
+  // The two links of the arm are neighbours, so its own ones are nothing to look at.
+  EXPECT_FALSE(Near({.max_distance = 1.0, .self_collision = true}, {}).compared);
+}
+
 /// Two planar arms and a table; the second arm stands 0.3 m beside the first one.
 class TwoArmsTest : public ::testing::Test {
  protected:
@@ -174,6 +203,15 @@ class TwoArmsTest : public ::testing::Test {
   ModelSet models_;
   double rate_{0.0};  // of the right arm's first joint, rad/s
 };
+
+TEST_F(TwoArmsTest, LooksAtLinksOfOthersIfItIsAskedTo) {
+  Params params{.model = "left",
+                .ignore = {{"planar2_link_1", "ball"}, {"planar2_link_2", "ball"}},
+                .others = {"right"}};
+  EXPECT_FALSE(Near(params).compared);
+  params.calculate_link_forces = true;
+  EXPECT_TRUE(Near(params).compared);
+}
 
 TEST_F(TwoArmsTest, CarriesTheVelocityOfAnotherArmAtItsPoint) {
   rate_ = -2.0;

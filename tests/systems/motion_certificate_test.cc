@@ -28,6 +28,7 @@ class PlanarCertificateTest : public ::testing::Test {
  protected:
   PlanarCertificateTest() : model_(LoadTestModel("planar2")), travel_(*model_) {
     near_.max_distance = kReach;
+    near_.compared = true;
   }
   Proximity& Near(const std::string& link, double distance) {
     Proximity& proximity = near_.proximities.emplace_back();
@@ -79,6 +80,27 @@ TEST_F(PlanarCertificateTest, TakesTheFasterEndOfTheObstacle) {
   near_.proximities[0].obstacle_speed = 0.4;
   Add(Vector2d::Zero());
   EXPECT_NEAR(Certified().value(), 0.3 - 0.5 * 0.4 * kStep, 1e-12);
+}
+
+// A pair whose distance could not be computed must not vanish behind the next number.
+TEST_F(PlanarCertificateTest, ADistanceThatIsNoneIsNotForgotten) {
+  Near("planar2_link_2", 0.3);
+  Add(Vector2d::Zero());
+  EXPECT_TRUE(Signal<MotionTally>::Finite(tally_));
+  near_.proximities[0].distance = std::nan("");
+  Add(Vector2d::Zero());
+  near_.proximities[0].distance = 0.2;
+  Add(Vector2d::Zero());
+  EXPECT_FALSE(Signal<MotionTally>::Finite(tally_));
+}
+
+TEST_F(PlanarCertificateTest, SaysNothingIfNothingWasThereToCompare) {
+  near_.compared = false;
+  Add(Vector2d::Zero());
+  EXPECT_FALSE(Certified().has_value());
+  near_.compared = true;
+  Add(Vector2d::Zero());
+  EXPECT_DOUBLE_EQ(Certified().value(), kReach);
 }
 
 TEST_F(PlanarCertificateTest, CountsWhatIsNotListedAtItsReach) {

@@ -33,7 +33,7 @@ class Script final : public System {
   const Output<Vector> value;
 };
 
-/// One proximity by script; none where the script says infinity.
+/// One proximity by script; none where the script says infinity, nothing to compare where NaN.
 class DistanceSource final : public System {
  public:
   explicit DistanceSource(DistanceScript script)
@@ -44,6 +44,7 @@ class DistanceSource final : public System {
   const DistanceScript script_;
   void Calc(double time, ProximitySet& set) const {
     set.proximities.clear();
+    set.compared = !std::isnan(script_(time));
     if (!std::isfinite(script_(time))) return;
     Proximity proximity;
     proximity.link = models::Name("hand");
@@ -124,6 +125,19 @@ TEST(MotionMetricsTest, HasNoLeastDistanceIfNothingEverCameNear) {
   Bench bench({.distance = [](double) { return std::numeric_limits<double>::infinity(); }});
   EXPECT_FALSE(bench.At(1.0).min_distance.has_value());
   EXPECT_EQ(bench.At(1.0).contact_time, 0.0);
+}
+
+// What was not looked at is not clear.
+TEST(MotionMetricsTest, SaysNothingOfContactUntilAPairWasLookedAt) {
+  Bench never({.distance = [](double) { return std::nan(""); }});
+  EXPECT_FALSE(never.At(1.0).contact_time.has_value());
+  EXPECT_FALSE(never.At(1.0).min_distance.has_value());
+  const DistanceScript appears = [](double t) {
+    return Tick(t) == 5 ? std::numeric_limits<double>::infinity() : std::nan("");
+  };
+  Bench once({.distance = appears});
+  EXPECT_FALSE(once.At(0.4).contact_time.has_value());
+  EXPECT_EQ(once.At(1.0).contact_time, 0.0);
 }
 
 // In contact from 0.3 s to 0.6 s; touch counts.

