@@ -271,4 +271,10 @@ std::vector<std::string> ChatterWarnings(const LoadedDiagram& loaded) {
   return warnings;
 }
 
+void AddChatterWarnings(LoadedDiagram& loaded) {
+  for (std::string& warning : ChatterWarnings(loaded)) {
+    loaded.warnings.push_back(std::move(warning));
+  }
+}
+
 }  // namespace oca::diagrams

@@ -19,5 +19,7 @@ namespace oca::diagrams {
 /// stable. What adapts to its gain (LoopGain) and what is not `enabled` gives no warning; neither
 /// does a loop of other make.
 std::vector<std::string> ChatterWarnings(const LoadedDiagram& loaded);
+/// Puts them beside those of the file, where whoever runs, records or shows it finds all.
+void AddChatterWarnings(LoadedDiagram& loaded);
 
 }  // namespace oca::diagrams

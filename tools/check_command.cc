@@ -38,11 +38,9 @@ int CheckCommand(const std::vector<std::string>& files, const std::vector<std::s
     try {
       std::vector<diagrams::Override> overrides;
       for (const std::string& text : texts) overrides.push_back(diagrams::Override::Parse(text));
-      const auto loaded = diagrams::LoadDiagram(file, overrides);
+      auto loaded = diagrams::LoadDiagram(file, overrides);
+      diagrams::AddChatterWarnings(loaded);
       for (const std::string& warning : loaded.warnings) std::cerr << warning << '\n';
-      for (const std::string& warning : diagrams::ChatterWarnings(loaded)) {
-        std::cerr << warning << '\n';
-      }
       std::cout << file << ": fine, " << loaded.systems.size() << " systems, "
                 << loaded.diagram->connections().size() << " connections\n"
                 << std::flush;

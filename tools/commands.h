@@ -30,7 +30,8 @@ struct RunArguments {
   std::string report;       ///< HTML file to write; empty: none
   std::optional<int> live;  ///< port to show the run on; 0: any that is free
   std::string live_address{"127.0.0.1"};
-  std::optional<double> realtime;  ///< simulated seconds a second
+  std::vector<std::string> live_origins;  ///< of other pages that may connect
+  std::optional<double> realtime;         ///< simulated seconds a second
   bool profile{false};
   bool json{false};
   bool no_progress{false};

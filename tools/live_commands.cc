@@ -16,6 +16,7 @@
 #include <thread>
 #include <vector>
 
+#include "diagrams/live/access.h"
 #include "diagrams/live/live_run.h"
 #include "diagrams/live/live_server.h"
 #include "diagrams/live/page.h"
@@ -29,16 +30,21 @@ namespace {
 
 constexpr char kNoPage[] = "<!doctype html><title>OCA</title><p>The viewer page was not built.";
 
-/// The address for a browser.
-std::string Url(const std::string& address, int port) {
-  const bool six = address.find(':') != std::string::npos;
-  return six ? fmt::format("http://[{}]:{}/", address, port)
-             : fmt::format("http://{}:{}/", address, port);
+/// Says where a server is found, and what whoever finds it can do.
+void SayWhere(const std::string& what, const live::LiveServer& server, const std::string& address,
+              const std::string& can) {
+  if (!live::IsLoopback(address)) {
+    fmt::print(stderr,
+               "warning: {} can be reached from elsewhere: whoever has the address below, with its "
+               "token, can {}; nothing is encrypted\n",
+               address, can);
+  }
+  fmt::print("{}: {}\n", what, server.url());
+  std::fflush(stdout);
 }
 
-void SayWhere(const std::string& what, const std::string& address, int port) {
-  fmt::print("{}: {}\n", what, Url(address, port));
-  std::fflush(stdout);
+void SayForbidden(const std::string& why) {
+  fmt::print(stderr, "warning: a request was refused: {}\n", why);
 }
 
 std::string ReadRecord(const std::string& file) {
@@ -124,8 +130,10 @@ int RunLiveCommand(const RunArguments& arguments, const std::vector<diagrams::Ov
     fmt::print(stderr, "warning: {}\n", error.what());
     server_options.page = kNoPage;
   }
-  LiveFiles files(arguments);
+  server_options.origins = arguments.live_origins;
+  server_options.forbidden = SayForbidden;
   live::LiveServer server(server_options);
+  LiveFiles files(arguments);
   live::LiveRunOptions options;
   options.file = arguments.file;
   options.overrides = overrides;
@@ -138,8 +146,9 @@ int RunLiveCommand(const RunArguments& arguments, const std::vector<diagrams::Ov
   options.refused = [](const std::string& why) {
     fmt::print(stderr, "warning: change refused: {}\n", why);
   };
-  SayWhere("live, in a browser, Foxglove or Lichtblick; Ctrl-C ends it", arguments.live_address,
-           server.port());
+  options.warned = [](const std::string& warning) { fmt::print(stderr, "{}\n", warning); };
+  SayWhere("live, in a browser, Foxglove or Lichtblick; Ctrl-C ends it", server,
+           arguments.live_address, "change the run");
   const live::LiveRunResult result = live::RunLive(options, server);
   files.Finish();
   const live::LiveStatistics statistics = server.statistics();
@@ -160,10 +169,12 @@ int ViewCommand(const ViewArguments& arguments) {
   options.port = arguments.port;
   options.record = ReadRecord(arguments.file);
   options.page = live::PageWithSource(live::LoadPage(), "record.mcap");
+  options.forbidden = SayForbidden;
   const live::LiveServer server(options);
   std::signal(SIGINT, End);
   std::signal(SIGTERM, End);
-  SayWhere(arguments.file + ", in a browser; Ctrl-C ends it", arguments.address, server.port());
+  SayWhere(arguments.file + ", in a browser; Ctrl-C ends it", server, arguments.address,
+           "read the record");
   while (!ended) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   return kFine;
 }

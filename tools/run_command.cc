@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <fstream>
@@ -15,6 +16,7 @@
 #include "diagrams/blind_spots.h"
 #include "diagrams/chatter_check.h"
 #include "diagrams/record/record_files.h"
+#include "diagrams/record/run_metadata.h"
 #include "diagrams/record/run_recorder.h"
 #include "diagrams/run.h"
 #include "framework/error.h"
@@ -65,13 +67,47 @@ class StderrLog final : public Log {
   mutable spdlog::logger logger_;
 };
 
-/// A record's own diagram if `file` is a record.
+/// What a warning says, without its place.
+std::string TextOf(const std::string& warning) {
+  const std::size_t at = warning.find("warning: ");
+  return at == std::string::npos ? warning : warning.substr(at);
+}
+
+/// All warnings of a record's diagram: while nothing is changed, those that the record was made
+/// with (that nothing uses a parameter is seen in the files as they were written, not in the one
+/// that was made of them), else the diagram's own. Places are in the record, not in the folder that
+/// it was put into.
+void GatherWarnings(const record::McapFile& record, const std::string& file,
+                    const std::string& folder, bool changed, diagrams::LoadedDiagram& loaded) {
+  std::vector<std::string> warnings = changed ? loaded.warnings : record::WarningsOf(record);
+  for (const std::string& found : diagrams::ChatterWarnings(loaded)) {
+    const bool told = std::any_of(warnings.begin(), warnings.end(), [&](const auto& other) {
+      return TextOf(other) == TextOf(found);
+    });
+    if (!told) warnings.push_back(found);
+  }
+  for (std::string& warning : warnings) {
+    const std::size_t at = warning.find(folder);
+    if (at != std::string::npos) warning.replace(at, folder.size(), file);
+  }
+  loaded.warnings = std::move(warnings);
+}
+
+/// A record's own diagram if `file` is a record; with all warnings.
 diagrams::LoadedDiagram Load(const std::string& file,
                              const std::vector<diagrams::Override>& overrides,
                              std::optional<record::ExtractedRecord>& extracted) {
-  if (!record::IsRecord(file)) return diagrams::LoadDiagram(file, overrides);
-  extracted.emplace(record::McapFile::Read(file));
-  return extracted->Load(overrides);
+  if (!record::IsRecord(file)) {
+    diagrams::LoadedDiagram loaded = diagrams::LoadDiagram(file, overrides);
+    diagrams::AddChatterWarnings(loaded);
+    return loaded;
+  }
+  const auto record = record::McapFile::Read(file);
+  extracted.emplace(record);
+  diagrams::LoadedDiagram loaded = extracted->Load(overrides);
+  GatherWarnings(record, file, extracted->diagram().parent_path().string(), !overrides.empty(),
+                 loaded);
+  return loaded;
 }
 
 /// Records a run into a file.
@@ -196,12 +232,7 @@ int RunCommand(const RunArguments& arguments) {
   std::optional<record::ExtractedRecord> extracted;
   const diagrams::LoadedDiagram loaded = Load(arguments.file, overrides, extracted);
 
-  if (!extracted) {  // a record's were told when it was made
-    for (const std::string& warning : loaded.warnings) fmt::print(stderr, "{}\n", warning);
-    for (const std::string& warning : diagrams::ChatterWarnings(loaded)) {
-      fmt::print(stderr, "{}\n", warning);
-    }
-  }
+  for (const std::string& warning : loaded.warnings) fmt::print(stderr, "{}\n", warning);
   StderrLog log(arguments.log_level);
   diagrams::RunOptions options;
   options.duration = arguments.duration;

@@ -99,6 +99,9 @@ class CommandLine {
             ->check(CLI::Range(0, 65535));
     run->add_option("--live-address", run_.live_address, "address to show it on")
         ->capture_default_str();
+    run->add_option("--live-origin", run_.live_origins,
+                    "page that may connect too: SCHEME://HOST[:PORT], foxglove or lichtblick")
+        ->allow_extra_args(false);
     run->add_option("--realtime", run_.realtime,
                     "hold to the wall clock: =FACTOR simulated seconds a second, or 1");
     run->add_flag("--profile", run_.profile, "print what each system took")->excludes(live);

@@ -7,15 +7,15 @@
 #include <chrono>
 #include <exception>
 #include <future>
-#include <map>
 #include <memory>
+#include <optional>
 
-#include "diagrams/live/adopt_state.h"
+#include "diagrams/chatter_check.h"
 #include "diagrams/live/continued_sink.h"
-#include "diagrams/record/run_recorder.h"
+#include "diagrams/live/live_session.h"
+#include "diagrams/record/run_metadata.h"
 #include "diagrams/run.h"
 #include "framework/error.h"
-#include "framework/port_access.h"
 #include "framework/simulator.h"
 
 namespace oca::live {
@@ -38,104 +38,6 @@ void Put(std::vector<Override>& overrides, const Override& one) {
   overrides.push_back(one);
 }
 
-/// Where obstacles were moved to from where the file has them, m, by the names of their positions.
-using Moves = std::map<std::string, Eigen::Vector3d>;
-
-/// A diagram while it runs, with what shows it.
-class Session {
- public:
-  Session(LoadedDiagram loaded, const LiveRunOptions& options, LiveServer& server,
-          std::uint64_t epoch, const std::vector<record::RecordSink*>& files, bool first)
-      : loaded_(std::move(loaded)),
-        recorder_(loaded_,
-                  {.version = options.version,
-                   .overrides = options.overrides,
-                   .start_epoch = epoch,
-                   .attach_files = first && !files.empty()},
-                  SinksOf(server, files), options.log),
-        simulator_(*loaded_.diagram, loaded_.integrator) {
-    simulator_.SetLog(&recorder_);
-    simulator_.SetRealtimeFactor(options.realtime_factor);
-  }
-  ~Session() { End({}); }
-  Session(const Session&) = delete;
-  Session& operator=(const Session&) = delete;
-
-  void Start(Simulator::Monitor monitor) {
-    simulator_.AddMonitor(std::move(monitor));
-    recorder_.Attach(simulator_, true, kForever);
-    attached_ = true;
-  }
-
-  /// Takes over time and states. throws ConfigError or SimulationError if it cannot go on from
-  /// them.
-  void Adopt(const Session& previous) {
-    const Context& old = previous.simulator_.context();
-    Simulator trial(*loaded_.diagram, simulator_.context(), loaded_.integrator);
-    AdoptFrom(previous, old, trial.context());
-    trial.Initialize();
-    AdoptFrom(previous, old, simulator_.context());
-  }
-
-  /// As Start, where another session is now; that one must have ended.
-  void StartFrom(const Session& previous, Simulator::Monitor monitor) {
-    Start(std::move(monitor));
-    simulator_.Initialize();  // which writes states
-    AdoptFrom(previous, previous.simulator_.context(), simulator_.context());
-  }
-
-  /// No more is recorded. `result` says how the run ended; none of a run that goes on has metrics.
-  void End(diagrams::RunResult result) {
-    if (!attached_) return;
-    attached_ = false;
-    result.duration = simulator_.context().time();
-    try {
-      recorder_.Finish(result);
-    } catch (const std::exception&) {
-      // nobody is left to be shown anything
-    }
-  }
-
-  /// Puts obstacles where they were moved to, and all others where the file has them.
-  void Place(const Moves& moves) {
-    std::map<std::string, Eigen::VectorXd> offsets;
-    for (const Diagram::ExportedInput& input : loaded_.diagram->exported_inputs()) {
-      const auto& ports = input.to.front().system->inputs();
-      const int size = ports[static_cast<std::size_t>(input.to.front().index)].spec.size.number();
-      offsets[input.name] = Eigen::VectorXd::Zero(size);
-    }
-    for (const auto& [id, standing] : StandingObstacles(loaded_)) {
-      const auto move = moves.find(PositionName(id));
-      const auto offset = offsets.find(standing.input);
-      if (move == moves.end() || offset == offsets.end()) continue;
-      offset->second.segment<3>(static_cast<Eigen::Index>(standing.first)) = move->second;
-    }
-    for (const auto& [name, offset] : offsets) {
-      loaded_.diagram->GetInput<Vector>(name).Fix(simulator_.context(), offset);
-    }
-  }
-
-  Simulator& simulator() { return simulator_; }
-  const LoadedDiagram& loaded() const { return loaded_; }
-
- private:
-  static std::vector<record::RecordSink*> SinksOf(LiveServer& server,
-                                                  const std::vector<record::RecordSink*>& files) {
-    std::vector<record::RecordSink*> sinks{&server};
-    sinks.insert(sinks.end(), files.begin(), files.end());
-    return sinks;
-  }
-  void AdoptFrom(const Session& previous, const Context& from, Context& to) const {
-    to.SetTime(from.time());
-    AdoptStates(*previous.loaded_.diagram, from, *loaded_.diagram, to);
-  }
-
-  LoadedDiagram loaded_;
-  record::RunRecorder recorder_;
-  Simulator simulator_;
-  bool attached_{false};
-};
-
 class LiveRunner {
  public:
   LiveRunner(const LiveRunOptions& options, LiveServer& server)
@@ -143,7 +45,13 @@ class LiveRunner {
     for (record::RecordSink* const sink : options.sinks) {
       files_.push_back(std::make_unique<ContinuedSink>(*sink));
     }
-    session_ = MakeSession(Load(overrides_), true);
+    LoadedDiagram loaded = Load(overrides_);
+    diagrams::AddChatterWarnings(loaded);
+    for (const std::string& warning : loaded.warnings) Warn(warning);
+    std::vector<std::string> warnings = loaded.warnings;
+    session_ = MakeSession(std::move(loaded));
+    told_ = std::move(warnings);
+    judged_diagram_ = session_->shared_diagram();
     server_.SetParameters(Parameters());
     server_.AddMetadata({"oca.ranges", RangesOf(session_->loaded())});
     session_->Start(Monitor());
@@ -175,11 +83,51 @@ class LiveRunner {
     return diagrams::LoadMovable(options_.file, overrides);
   }
 
-  std::unique_ptr<Session> MakeSession(LoadedDiagram loaded, bool first) const {
-    std::vector<record::RecordSink*> files;
-    for (const auto& file : files_) files.push_back(file.get());
+  void Warn(const std::string& warning) const {
+    if (options_.warned) options_.warned(warning);
+  }
+
+  /// Says what a changed diagram is warned of. What takes long to find out is found elsewhere, and
+  /// no change waits for it.
+  void Judge() {
+    if (judge_.valid()) {
+      if (judge_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+      const std::vector<std::string> warnings = judge_.get();
+      if (judged_diagram_ == session_->shared_diagram()) TellWarnings(warnings);
+    }
+    if (judged_diagram_ == session_->shared_diagram()) return;
+    judged_diagram_ = session_->shared_diagram();
+    judge_ = std::async(std::launch::async, [loaded = judged_diagram_] {
+      std::vector<std::string> warnings = loaded->warnings;
+      for (std::string& one : diagrams::ChatterWarnings(*loaded)) {
+        warnings.push_back(std::move(one));
+      }
+      return warnings;
+    });
+  }
+
+  void TellWarnings(const std::vector<std::string>& warnings) {
+    if (warnings == *told_) return;
+    for (const std::string& warning : warnings) {
+      if (std::find(told_->begin(), told_->end(), warning) == told_->end()) Warn(warning);
+    }
+    session_->SetWarnings(warnings);
+    told_ = warnings;
+    server_.AddMetadata({"oca.warnings", record::WarningTexts(warnings)});
+    server_.ShowMetadata();
+  }
+
+  std::unique_ptr<LiveSession> MakeSession(LoadedDiagram loaded) const {
+    std::vector<record::RecordSink*> sinks{&server_};
+    for (const auto& file : files_) sinks.push_back(file.get());
+    record::RecorderOptions options{.version = options_.version,
+                                    .overrides = options_.overrides,
+                                    .start_epoch = epoch_,
+                                    .attach_files = !told_ && !files_.empty(),
+                                    .warnings = told_};
     auto session =
-        std::make_unique<Session>(std::move(loaded), options_, server_, epoch_, files, first);
+        std::make_unique<LiveSession>(std::move(loaded), std::move(options), std::move(sinks),
+                                      options_.realtime_factor, options_.log);
     session->Place(moves_);
     return session;
   }
@@ -192,6 +140,7 @@ class LiveRunner {
     return [this](const Context&) {
       if (options_.interrupted && options_.interrupted()) stop_ = true;
       if (!next_.valid()) BeginChange();
+      Judge();
       return !stop_ && moved_.empty() && !Ready();
     };
   }
@@ -240,7 +189,7 @@ class LiveRunner {
           load = true;
         }
       }
-    } catch (const ConfigError& error) {
+    } catch (const std::exception& error) {
       return Refuse(error.what());
     }
     if (!load) return;
@@ -255,14 +204,14 @@ class LiveRunner {
       session_->Place(moves);
       moves_ = std::move(moves);
       ++result_.changes;
-    } catch (const ConfigError& error) {
+    } catch (const std::exception& error) {
       Refuse(error.what());
     }
   }
 
   void Change() {
     try {
-      auto next = MakeSession(next_.get(), false);
+      auto next = MakeSession(next_.get());
       next->Adopt(*session_);
       session_->End({});
       next->StartFrom(*session_, Monitor());
@@ -270,13 +219,14 @@ class LiveRunner {
       overrides_ = wanted_;
       ++result_.changes;
       server_.SetParameters(Parameters());
-    } catch (const oca::Error& error) {
+    } catch (const std::exception& error) {
       Refuse(error.what());
     }
   }
 
   void Refuse(const std::string& why) {
     if (options_.refused) options_.refused(why);
+    server_.Tell(StatusLevel::kError, "change refused: " + why);
     server_.SetParameters(Parameters());
   }
 
@@ -286,8 +236,11 @@ class LiveRunner {
   std::uint64_t epoch_;
   std::vector<std::unique_ptr<ContinuedSink>> files_;
   Moves moves_, moved_;  ///< in effect; asked for
-  std::unique_ptr<Session> session_;
+  std::unique_ptr<LiveSession> session_;
   std::future<LoadedDiagram> next_;
+  std::optional<std::vector<std::string>> told_;  ///< what was warned of; none before the run
+  std::shared_ptr<const LoadedDiagram> judged_diagram_;
+  std::future<std::vector<std::string>> judge_;  ///< what that one is warned of
   bool stop_{false};
   LiveRunResult result_{};
 };

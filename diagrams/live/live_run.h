@@ -28,6 +28,8 @@ struct LiveRunOptions {
   std::function<bool()> interrupted;
   /// Told why a change was refused.
   std::function<void(const std::string& why)> refused;
+  /// Told what the diagram is warned of: at first, and after a change what is new.
+  std::function<void(const std::string& warning)> warned;
 };
 
 struct LiveRunResult {
@@ -39,8 +41,8 @@ struct LiveRunResult {
 /// Runs a diagram in step with the wall clock for whoever looks at `server`. An obstacle that is
 /// moved is so at the next tick, by the input `offsets` of its source. A change of a parameter
 /// makes the diagram anew, on a thread of its own, and the run goes on with it from the state it
-/// has at the next tick after that. One that the diagram refuses is undone. throws ConfigError if
-/// the file cannot be loaded.
+/// has at the next tick after that. One that the diagram refuses is undone, and all clients are
+/// told why. throws ConfigError if the file cannot be loaded.
 LiveRunResult RunLive(const LiveRunOptions& options, LiveServer& server);
 
 }  // namespace oca::live

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <boost/asio/dispatch.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -21,6 +22,7 @@
 #include <set>
 #include <thread>
 
+#include "diagrams/live/access.h"
 #include "diagrams/live/ws_protocol.h"
 #include "framework/error.h"
 
@@ -43,6 +45,7 @@ constexpr std::size_t kBytesInFlight = std::size_t{32} << 20;
 constexpr auto kHttpTimeout = std::chrono::seconds(10);
 constexpr auto kAcceptAgainAfter = std::chrono::milliseconds(100);
 constexpr auto kTellAgainAfter = std::chrono::seconds(1);
+constexpr std::size_t kReasonsTold = 10;  // why requests were refused
 
 /// A message on its way to whoever subscribed to its channel.
 struct Message {
@@ -68,10 +71,13 @@ class LiveServer::Server {
   ~Server();
 
   int port() const { return acceptor_.local_endpoint().port(); }
+  std::string url() const;
   void Begin(const std::vector<record::RecordChannel>& channels);
   void Write(int channel, std::uint64_t time, std::string_view json);
   void AddMetadata(const record::McapMetadata& metadata);
+  void ShowMetadata();
   void SetParameters(std::vector<LiveParameter> parameters);
+  void Tell(StatusLevel level, const std::string& text);
   std::vector<LiveParameter> TakeChanges();
   LiveStatistics statistics() const;
 
@@ -83,24 +89,31 @@ class LiveServer::Server {
   void Accept();
   void Publish(const SharedMessage& message);
   void ToAll(const std::string& text);
+  void TellAbout();
   std::vector<LiveParameter> Parameters() const;
   void Change(const std::string& name, const ordered_json& value);
+  void Forbid(const std::string& why);
+  std::string Session() const { return fmt::format("{}-{}", run_, session_); }
 
   const LiveOptions options_;
-  int connections_{0};  // outlives the handlers that io_ holds
+  const std::string run_{RandomToken()};
+  const std::string token_;  ///< empty: none is needed
+  std::optional<Access> access_;
+  std::set<std::string> told_;  ///< why requests were refused
+  int connections_{0};          // outlives the handlers that io_ holds
   asio::io_context io_;
   tcp::acceptor acceptor_{io_};
   asio::steady_timer pause_{io_};
   std::set<std::shared_ptr<Client>> clients_;
   std::vector<record::RecordChannel> channels_;
   std::deque<SharedMessage> kept_;
-  std::map<std::string, std::string> about_;
+  std::map<std::string, std::string> about_, told_about_;
   int session_{0};
 
   std::atomic<int> posts_{0};
   std::atomic<std::size_t> posted_bytes_{0};
   std::atomic<int> client_count_{0};
-  std::atomic<std::uint64_t> sent_{0}, dropped_{0}, refused_{0}, malformed_{0};
+  std::atomic<std::uint64_t> sent_{0}, dropped_{0}, refused_{0}, forbidden_{0}, malformed_{0};
   std::vector<char> keep_;  ///< by channel; of the writing thread
   mutable std::mutex mutex_;
   std::vector<LiveParameter> parameters_, changes_;  ///< under mutex_
@@ -165,7 +178,7 @@ class LiveServer::Server::Client : public std::enable_shared_from_this<Client> {
   void Greet() {
     server_.clients_.insert(shared_from_this());
     ++server_.client_count_;
-    const std::string info = ServerInfo(server_.about_, server_.session_),
+    const std::string info = ServerInfo(server_.about_, server_.Session()),
                       channels = Advertisement(server_.channels_);
     greeting_bytes_ = info.size() + channels.size();
     Send(info);
@@ -198,10 +211,7 @@ class LiveServer::Server::Client : public std::enable_shared_from_this<Client> {
       } else if (op == "getParameters") {
         AnswerParameters(json);
       } else if (op == "setParameters") {
-        for (const auto& item : json.at("parameters")) {
-          server_.Change(item.at("name").get<std::string>(), item.at("value"));
-        }
-        AnswerChange(json);
+        ChangeParameters(json);
       } else if (op == "subscribeParameterUpdates" || op == "unsubscribeParameterUpdates") {
         watches_ = op == "subscribeParameterUpdates";
       } else {
@@ -235,6 +245,19 @@ class LiveServer::Server::Client : public std::enable_shared_from_this<Client> {
       }
     }
     Send(ParameterValues(asked, json.value("id", ordered_json())));
+  }
+
+  /// Says what cannot be done; the answer has the values that count either way.
+  void ChangeParameters(const ordered_json& json) {
+    for (const auto& item : json.at("parameters")) {
+      try {
+        server_.Change(item.at("name").get<std::string>(), item.at("value"));
+      } catch (const std::exception& error) {
+        ++server_.malformed_;
+        Tell(StatusLevel::kError, fmt::format("change refused: {:.200}", error.what()));
+      }
+    }
+    AnswerChange(json);
   }
 
   /// All that watch see the change, and the one that set it if it asked for an answer.
@@ -320,6 +343,11 @@ class LiveServer::Server::Connection : public std::enable_shared_from_this<Conne
  private:
   void Answer() {
     const auto& request = parser_.get();
+    if (const auto refusal = server_.access_->Judge(ClaimsOf(request))) {
+      server_.Forbid(refusal->why);
+      refusal_ = fmt::format("Refused: {}.\n", refusal->why);
+      return Reply(static_cast<http::status>(refusal->status), "text/plain", refusal_);
+    }
     if (websocket::is_upgrade(request)) {
       stream_.expires_never();
       std::make_shared<Client>(server_, stream_.release_socket())->Start(request);
@@ -339,6 +367,19 @@ class LiveServer::Server::Connection : public std::enable_shared_from_this<Conne
     }
   }
 
+  Claims ClaimsOf(const http::request<http::string_body>& request) const {
+    const auto all = [&request](http::field name) {
+      std::vector<std::string> values;
+      const auto [begin, end] = request.equal_range(name);
+      for (auto field = begin; field != end; ++field) values.emplace_back(field->value());
+      return values;
+    };
+    Error ignored;
+    const auto reached = stream_.socket().local_endpoint(ignored).address();
+    return {all(http::field::host), all(http::field::origin), std::string(request.target()),
+            reached.to_string()};
+  }
+
   /// `body` must outlive the connection.
   void Reply(http::status status, const char* type, const std::string& body) {
     response_.emplace(std::piecewise_construct, std::make_tuple(body.data(), body.size()),
@@ -346,6 +387,11 @@ class LiveServer::Server::Connection : public std::enable_shared_from_this<Conne
     response_->set(http::field::content_type, type);
     response_->set(http::field::cache_control, "no-store");
     response_->set("X-Content-Type-Options", "nosniff");
+    // No other page shows this one within itself, reads from it, or learns its token.
+    response_->set("Content-Security-Policy", "frame-ancestors 'none'");
+    response_->set("X-Frame-Options", "DENY");
+    response_->set("Cross-Origin-Resource-Policy", "same-origin");
+    response_->set("Referrer-Policy", "no-referrer");
     response_->keep_alive(false);
     response_->prepare_payload();
     const auto done = [self = shared_from_this()](const Error&, std::size_t) {
@@ -368,11 +414,13 @@ class LiveServer::Server::Connection : public std::enable_shared_from_this<Conne
   beast::tcp_stream stream_;
   beast::flat_buffer buffer_{kLargestRequest};
   http::request_parser<http::string_body> parser_;
+  std::string refusal_;
   std::optional<http::response<Body>> response_;
   std::optional<http::response_serializer<Body>> header_only_;
 };
 
-LiveServer::Server::Server(LiveOptions options) : options_(std::move(options)) {
+LiveServer::Server::Server(LiveOptions options)
+    : options_(std::move(options)), token_(IsLoopback(options_.address) ? "" : RandomToken()) {
   Error error;
   const auto address = asio::ip::make_address(options_.address, error);
   if (error) {
@@ -391,6 +439,7 @@ LiveServer::Server::Server(LiveOptions options) : options_(std::move(options)) {
     throw ConfigError(fmt::format("live: port; got {}:{} ({}); expected one that is free",
                                   options_.address, options_.port, error.message()));
   }
+  access_.emplace(AccessOptions{options_.address, port(), options_.origins, token_});
   Accept();
   thread_ = std::jthread([this] { io_.run(); });
 }
@@ -432,12 +481,12 @@ void LiveServer::Server::Begin(const std::vector<record::RecordChannel>& channel
         channels.begin(), channels.end(), channels_.begin(), channels_.end(),
         [](const auto& a, const auto& b) { return a.topic == b.topic && a.schema == b.schema; });
     kept_.clear();
-    if (same) return;
+    if (same) return ShowMetadata();
     if (!channels_.empty()) ToAll(Unadvertisement(channels_.size()));
     for (const auto& client : clients_) client->Forget();
     channels_ = channels;
     ++session_;
-    ToAll(ServerInfo(about_, session_));
+    TellAbout();
     ToAll(Advertisement(channels_));
   });
 }
@@ -465,6 +514,11 @@ void LiveServer::Server::Publish(const SharedMessage& message) {
   for (const auto& client : clients_) client->Send(message);
 }
 
+void LiveServer::Server::TellAbout() {
+  told_about_ = about_;
+  ToAll(ServerInfo(about_, Session()));
+}
+
 void LiveServer::Server::ToAll(const std::string& text) {
   const auto clients = clients_;  // one that is closed leaves the set
   for (const auto& client : clients) client->Send(text);
@@ -475,6 +529,12 @@ void LiveServer::Server::AddMetadata(const record::McapMetadata& metadata) {
     for (const auto& [key, value] : metadata.values) {
       about_[metadata.name == "oca" ? key : metadata.name + "/" + key] = value;
     }
+  });
+}
+
+void LiveServer::Server::ShowMetadata() {
+  asio::dispatch(io_, [this] {
+    if (about_ != told_about_) TellAbout();
   });
 }
 
@@ -508,6 +568,22 @@ void LiveServer::Server::Change(const std::string& name, const ordered_json& val
   changed_ = true;
 }
 
+void LiveServer::Server::Tell(StatusLevel level, const std::string& text) {
+  asio::post(io_, [this, status = StatusText(level, text)] { ToAll(status); });
+}
+
+void LiveServer::Server::Forbid(const std::string& why) {
+  ++forbidden_;
+  if (!options_.forbidden || told_.size() >= kReasonsTold || !told_.insert(why).second) return;
+  options_.forbidden(why);
+}
+
+std::string LiveServer::Server::url() const {
+  const bool six = options_.address.find(':') != std::string::npos;
+  return fmt::format("http://{}:{}/{}{}", six ? "[" + options_.address + "]" : options_.address,
+                     port(), token_.empty() ? "" : "?token=", token_);
+}
+
 std::vector<LiveParameter> LiveServer::Server::TakeChanges() {
   if (!changed_) return {};
   const std::lock_guard lock(mutex_);
@@ -516,13 +592,14 @@ std::vector<LiveParameter> LiveServer::Server::TakeChanges() {
 }
 
 LiveStatistics LiveServer::Server::statistics() const {
-  return {client_count_, sent_, dropped_, refused_, malformed_};
+  return {client_count_, sent_, dropped_, refused_, forbidden_, malformed_};
 }
 
 LiveServer::LiveServer(LiveOptions options)
     : server_(std::make_unique<Server>(std::move(options))) {}
 LiveServer::~LiveServer() = default;
 int LiveServer::port() const { return server_->port(); }
+std::string LiveServer::url() const { return server_->url(); }
 void LiveServer::Begin(const std::vector<record::RecordChannel>& channels) {
   server_->Begin(channels);
 }
@@ -532,9 +609,11 @@ void LiveServer::Write(int channel, std::uint64_t time, std::string_view json) {
 void LiveServer::AddMetadata(const record::McapMetadata& metadata) {
   server_->AddMetadata(metadata);
 }
+void LiveServer::ShowMetadata() { server_->ShowMetadata(); }
 void LiveServer::SetParameters(std::vector<LiveParameter> parameters) {
   server_->SetParameters(std::move(parameters));
 }
+void LiveServer::Tell(StatusLevel level, const std::string& text) { server_->Tell(level, text); }
 std::vector<LiveParameter> LiveServer::TakeChanges() { return server_->TakeChanges(); }
 LiveStatistics LiveServer::statistics() const { return server_->statistics(); }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -26,13 +27,19 @@ struct LiveOptions {
   std::string record;                ///< MCAP, served at `/record.mcap` unless empty
   std::size_t queue_bytes{std::size_t{4} << 20};  ///< of messages that wait for one client
   int max_clients{64};                            ///< connections at a time
+  std::vector<std::string> origins{};             ///< of other pages that may connect, see Access
+  /// Told why a request was refused, each reason once and some only; on the server's own thread.
+  std::function<void(const std::string& why)> forbidden{};
 };
+
+enum class StatusLevel { kInfo = 0, kWarning = 1, kError = 2 };
 
 struct LiveStatistics {
   int clients{0};              ///< WebSocket clients now
   std::uint64_t sent{0};       ///< messages to all clients
   std::uint64_t dropped{0};    ///< messages that a slow client, or all of them, did not get
   std::uint64_t refused{0};    ///< connections beyond max_clients
+  std::uint64_t forbidden{0};  ///< requests that Access refused
   std::uint64_t malformed{0};  ///< client messages that made no sense
 };
 
@@ -41,24 +48,33 @@ struct LiveStatistics {
 ///
 /// Write never waits: what a slow client cannot take is dropped, counted, and told to it. Messages
 /// on /scene/robots and /scene/obstacles are kept for clients that come later.
+///
+/// Access decides who is answered. On an address that others reach, a request needs the token that
+/// stands in url(). Its session is one that no other server has, so that clients see a new run.
 /// source https://github.com/foxglove/ws-protocol/blob/main/docs/spec.md, version 1
 class LiveServer final : public record::RecordSink {
  public:
-  /// throws ConfigError if the address or the port is bad or taken.
+  /// throws ConfigError if the address or the port is bad or taken, or an origin is none.
   explicit LiveServer(LiveOptions options);
   ~LiveServer() override;
   LiveServer(const LiveServer&) = delete;
   LiveServer& operator=(const LiveServer&) = delete;
 
   int port() const;
+  /// For a browser, with the token if there is one.
+  std::string url() const;
 
   /// A second Begin with the same channels goes on with the same session.
   void Begin(const std::vector<record::RecordChannel>& channels) override;
   void Write(int channel, std::uint64_t time, std::string_view json) override;
   void AddMetadata(const record::McapMetadata& metadata) override;
+  /// Shows what AddMetadata added to the clients of now, as Begin does. Any thread.
+  void ShowMetadata();
 
   /// What clients see of the parameters from now on; only these names can be set. Any thread.
   void SetParameters(std::vector<LiveParameter> parameters);
+  /// Shows a line to all clients. Any thread.
+  void Tell(StatusLevel level, const std::string& text);
   /// What clients set since the last call, the last value of each name. Does not wait for the
   /// network. Any thread.
   std::vector<LiveParameter> TakeChanges();

@@ -41,14 +41,15 @@ std::string StatusText(StatusLevel level, const std::string& text) {
   return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
-std::string ServerInfo(const std::map<std::string, std::string>& about, int session) {
+std::string ServerInfo(const std::map<std::string, std::string>& about,
+                       const std::string& session) {
   return ordered_json{{"op", "serverInfo"},
                       {"name", "OCA simulator"},
                       {"capabilities", {"parameters", "parametersSubscribe"}},
                       {"supportedEncodings", {"json"}},
                       {"metadata", about},
-                      {"sessionId", std::to_string(session)}}
-      .dump();
+                      {"sessionId", session}}
+      .dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
 std::string Advertisement(const std::vector<record::RecordChannel>& channels) {

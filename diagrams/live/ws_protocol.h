@@ -21,10 +21,9 @@ inline constexpr char kProtocol[] = "foxglove.websocket.v1";
 using MessageHeader = std::array<unsigned char, 1 + 4 + 8>;
 MessageHeader MakeHeader(std::uint32_t subscription, std::uint64_t time);
 
-enum class StatusLevel { kInfo = 0, kWarning = 1, kError = 2 };
 /// Bytes of `text` that are no UTF-8 are replaced.
 std::string StatusText(StatusLevel level, const std::string& text);
-std::string ServerInfo(const std::map<std::string, std::string>& about, int session);
+std::string ServerInfo(const std::map<std::string, std::string>& about, const std::string& session);
 /// Channel numbers are places in `channels`.
 std::string Advertisement(const std::vector<record::RecordChannel>& channels);
 /// That the first `count` channels are gone.

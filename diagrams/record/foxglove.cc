@@ -65,7 +65,8 @@ Isometry3d Offset(const Isometry3d& pose, double z) {
 }  // namespace
 
 void SceneEntity::Clear() {
-  for (std::string* list : {&arrows_, &cubes_, &spheres_, &cylinders_, &lines_, &models_}) {
+  for (std::string* list :
+       {&arrows_, &cubes_, &spheres_, &cylinders_, &lines_, &models_, &metadata_}) {
     list->clear();
   }
 }
@@ -176,6 +177,14 @@ void SceneEntity::AddModel(std::string_view bytes, std::string_view media_type,
   EndItem(models_, colour);
 }
 
+void SceneEntity::AddMetadata(std::string_view key, std::string_view value) {
+  metadata_ += metadata_.empty() ? "{\"key\":" : ",{\"key\":";
+  AppendQuoted(metadata_, key);
+  metadata_ += ",\"value\":";
+  AppendQuoted(metadata_, value);
+  metadata_ += '}';
+}
+
 void SceneEntity::Append(std::string& out, std::uint64_t time, bool locked) const {
   out += "{\"timestamp\":";
   AppendTime(out, time);
@@ -185,8 +194,9 @@ void SceneEntity::Append(std::string& out, std::uint64_t time, bool locked) cons
   AppendQuoted(out, id_);
   out += ",\"lifetime\":{\"sec\":0,\"nsec\":0},\"frame_locked\":";
   out += locked ? "true" : "false";
-  out += ",\"metadata\":[],\"triangles\":[],\"texts\":[]";
-  const std::array<std::pair<const char*, const std::string*>, 6> lists{{{"arrows", &arrows_},
+  out += ",\"triangles\":[],\"texts\":[]";
+  const std::array<std::pair<const char*, const std::string*>, 7> lists{{{"metadata", &metadata_},
+                                                                         {"arrows", &arrows_},
                                                                          {"cubes", &cubes_},
                                                                          {"spheres", &spheres_},
                                                                          {"cylinders", &cylinders_},

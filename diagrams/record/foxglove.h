@@ -37,6 +37,8 @@ class SceneEntity {
   /// A model file, `media_type` as in `model/stl`.
   void AddModel(std::string_view bytes, std::string_view media_type, const Eigen::Isometry3d& X_FM,
                 const Colour& colour);
+  /// Words beside the picture.
+  void AddMetadata(std::string_view key, std::string_view value);
   /// Appends the entity as JSON. It stays until another one of its id comes, and moves with its
   /// frame if `locked`.
   void Append(std::string& out, std::uint64_t time, bool locked) const;
@@ -49,7 +51,7 @@ class SceneEntity {
                    const Colour& colour);
 
   std::string id_, frame_;
-  std::string arrows_, cubes_, spheres_, cylinders_, lines_, models_;
+  std::string arrows_, cubes_, spheres_, cylinders_, lines_, models_, metadata_;
 };
 
 /// A transform of a FrameTransforms message, appended; X_WF in the frame `world`.

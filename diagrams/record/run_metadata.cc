@@ -23,6 +23,23 @@ McapTexts OverrideTexts(const std::vector<diagrams::Override>& overrides) {
   return texts;
 }
 
+McapTexts WarningTexts(const std::vector<std::string>& warnings) {
+  using nlohmann::json;
+  const json list(warnings);
+  return {{"warnings", list.dump(-1, ' ', false, json::error_handler_t::replace)}};
+}
+
+std::vector<std::string> WarningsOf(const McapFile& record) {
+  std::vector<std::string> warnings;
+  const McapTexts* const texts = record.FindMetadata("oca.warnings");
+  if (texts == nullptr || !texts->contains("warnings")) return warnings;
+  const auto list = nlohmann::json::parse(texts->at("warnings"), nullptr, false);
+  for (const auto& warning : list) {
+    if (warning.is_string()) warnings.push_back(warning.get<std::string>());
+  }
+  return warnings;
+}
+
 std::string ExpectationsJson(const diagrams::RunResult& result) {
   using nlohmann::ordered_json;
   ordered_json list = ordered_json::array();

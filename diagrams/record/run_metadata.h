@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "diagrams/record/mcap.h"
+#include "diagrams/record/mcap_reader.h"
 #include "diagrams/run.h"
 
 namespace oca::record {
@@ -13,6 +14,9 @@ namespace oca::record {
 McapTexts ParameterTexts(const diagrams::LoadedDiagram& loaded);
 /// What was overridden on the command line: path and value.
 McapTexts OverrideTexts(const std::vector<diagrams::Override>& overrides);
+/// What was warned of when the diagram was loaded, as metadata `oca.warnings`; and back.
+McapTexts WarningTexts(const std::vector<std::string>& warnings);
+std::vector<std::string> WarningsOf(const McapFile& record);
 /// The expectations and how they turned out, a JSON list as `simulator run --json` prints it.
 std::string ExpectationsJson(const diagrams::RunResult& result);
 

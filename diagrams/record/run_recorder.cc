@@ -20,6 +20,9 @@ using diagrams::RecordedSignal;
 
 /// Samples that one group keeps for the recorder's thread.
 constexpr double kMostSamples = 16384.0;
+/// Levels of foxglove.Log.
+constexpr int kWarning = 3;
+constexpr int kError = 4;
 /// Once only, at the start: no run lasts longer.
 const Period kNeverAgain(10'000'000, 1);
 
@@ -37,7 +40,11 @@ int CapacityFor(double duration, const Period& period) {
 
 RunRecorder::RunRecorder(const diagrams::LoadedDiagram& loaded, RecorderOptions options,
                          std::vector<RecordSink*> sinks, Log* log)
-    : loaded_(loaded), options_(std::move(options)), sinks_(std::move(sinks)), log_(log) {
+    : loaded_(loaded),
+      options_(std::move(options)),
+      warnings_(options_.warnings.value_or(loaded.warnings)),
+      sinks_(std::move(sinks)),
+      log_(log) {
   if (options_.start_epoch == 0) options_.start_epoch = WallClock();
 }
 
@@ -160,7 +167,13 @@ void RunRecorder::BeginSinks() {
     const std::string plots = PlotHintsJson(PlotHintsOf(loaded_, *facts_), *facts_);
     const std::string limits = LimitHintsJson(LimitHintsOf(loaded_, *facts_), *facts_);
     sink->AddMetadata({"oca.plots", {{"plots", plots}, {"limits", limits}}});
+    sink->AddMetadata({"oca.warnings", WarningTexts(warnings_)});
     sink->Begin(channels_);
+  }
+  if (!options_.warnings) {
+    for (const std::string& warning : warnings_) {
+      Emit(log_channel_, 0.0, LogMessage(TimeOf(0.0), kWarning, warning));
+    }
   }
   scene_->DrawRobots(options_.start_epoch,
                      [this](int channel, const std::string& json) { Emit(channel, 0.0, json); });
@@ -199,6 +212,15 @@ void RunRecorder::Write(LogLevel level, double time, std::string_view text) {
   if (!queue_) return;
   if (!queue_->HasRoomForText()) WaitFor([this] { return queue_->HasRoomForText(); });
   queue_->StoreText(static_cast<int>(level) + 1, time, text);
+}
+
+void RunRecorder::SetWarnings(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) {
+    if (std::find(warnings_.begin(), warnings_.end(), warning) != warnings_.end()) continue;
+    if (!queue_->HasRoomForText()) WaitFor([this] { return queue_->HasRoomForText(); });
+    queue_->StoreText(kWarning, simulator_->context().time(), warning);
+  }
+  warnings_ = warnings;
 }
 
 /// Runs on the recorder's thread until the run is over and the queue empty.
@@ -268,7 +290,6 @@ void RunRecorder::Finish(const diagrams::RunResult& result) {
     // What failed the run fails here again.
   }
   if (!result.failure.empty()) {
-    constexpr int kError = 4;
     WaitFor([this] { return queue_->HasRoomForText(); });
     queue_->StoreText(kError, result.duration, result.failure);
   }
@@ -284,6 +305,7 @@ void RunRecorder::Finish(const diagrams::RunResult& result) {
                                                       : "done";
   for (RecordSink* const sink : sinks_) {
     sink->AddMetadata(MainMetadata(outcome, &result));
+    sink->AddMetadata({"oca.warnings", WarningTexts(warnings_)});
     sink->End();
   }
 }

@@ -5,6 +5,7 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -25,6 +26,9 @@ struct RecorderOptions {
   std::uint64_t start_epoch{0};               ///< ns; 0: the wall clock's
   bool attach_files{true};                    ///< diagram and models, to run the record again
   bool brief{false};  ///< for a picture: of proximities only names and distance
+  /// What the recorder before this one told, if it goes on with a record; else it tells what the
+  /// diagram is warned of.
+  std::optional<std::vector<std::string>> warnings{};
 };
 
 /// Records a run into sinks: the scene, the signals of section `record` at their rates, those that
@@ -47,6 +51,9 @@ class RunRecorder final : public diagrams::RunObserver, public Log {
 
   bool enabled(LogLevel level) const override;
   void Write(LogLevel level, double time, std::string_view text) override;
+
+  /// What the diagram is warned of from now on: what is new into the log. On the run's thread.
+  void SetWarnings(const std::vector<std::string>& warnings);
 
   /// Samples that found no room.
   std::int64_t dropped() const { return queue_ ? queue_->dropped() : 0; }
@@ -77,6 +84,7 @@ class RunRecorder final : public diagrams::RunObserver, public Log {
 
   const diagrams::LoadedDiagram& loaded_;
   RecorderOptions options_;
+  std::vector<std::string> warnings_;
   std::vector<RecordSink*> sinks_;
   Log* log_;
   Simulator* simulator_{nullptr};

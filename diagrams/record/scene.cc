@@ -208,16 +208,22 @@ void Scene::DrawForces(std::uint64_t time, std::span<const void* const> values, 
   constexpr double kHalfTorque = 2.0;  // Nm
   std::vector<Vector3d> points;
   std::vector<Colour> colours;
+  std::string distances = "[";
   for (const std::size_t source : proximities_) {
     for (const auto& p : As<ProximitySet>(values[source]).proximities) {
       const double near = 1.0 - std::clamp(p.distance / far_, 0.0, 1.0);
       const Colour colour(std::min(1.0, 2.0 * near), std::min(1.0, 2.0 - 2.0 * near), 0.1, 1.0);
       points.insert(points.end(), {p.point_on_link, p.point_on_obstacle});
       colours.insert(colours.end(), 2, colour);
+      if (distances.size() > 1) distances += ',';
+      AppendJson(distances, p.distance);
     }
   }
   distances_entity_.Clear();
   distances_entity_.AddLines(points, colours, false);
+  // A line is as long as the shapes are apart, and as they are deep in each other: this tells
+  // which.
+  distances_entity_.AddMetadata("distances", distances + "]");
   forces_entity_.Clear();
   for (const std::size_t source : forces_) {
     for (const auto& force : As<LinkForceSet>(values[source]).forces) {

@@ -20,14 +20,14 @@ using testing::HasSubstr;
 
 constexpr char kBall[] = R"(
 name: ball
-parameters: {slope: 2.0}
+parameters: {slope: 2.0, tick: 0.01, idle: 1}
 systems:
   obstacles:
     type: ObstacleSource
     obstacles: [{id: ball, shape: {type: sphere, radius: 0.1}, pose: {xyz: [0, 0, 1]}}]
   rate: {type: Constant, value: ["${slope}"]}
   x: {type: Integrator, initial: [0.0]}
-  hold: {type: ZeroOrderHold, period: 0.01, initial: [0.0]}
+  hold: {type: ZeroOrderHold, period: "${tick}", initial: [0.0]}
 connections:
   - rate.value -> x.in
   - x.out -> hold.in
@@ -108,6 +108,62 @@ TEST_F(LiveChangeTest, AMovedObstacleIsAnInputAndKeepsItsPlaceWhenAParameterMake
   EXPECT_THAT(values.front()->data, HasSubstr("[2]"));
   EXPECT_THAT(values.back()->data, HasSubstr("[7.25]"));
   EXPECT_EQ(file.FindMetadata("oca")->at("outcome"), "interrupted");
+}
+
+TEST_F(LiveChangeTest, SaysWhyAChangeIsRefusedAndShowsTheValueThatCounts) {
+  Client client(server_.port()), other(server_.port());
+  ChannelOf(client, "/rate/value");
+  client.Send(R"({"op": "subscribeParameterUpdates", "parameterNames": []})");
+  client.Settle();
+  client.Send(R"({"op": "setParameters", "id": "mine", "parameters":
+      [{"name": "tick", "value": -1}]})");
+  const auto tick = [](const json& answer) {
+    for (const json& parameter : answer["parameters"]) {
+      if (parameter["name"] == "tick") return parameter["value"].get<double>();
+    }
+    return 0.0;
+  };
+  EXPECT_EQ(tick(client.ReadOp("parameterValues")), -1.0);
+  for (Client* const one : {&client, &other}) {
+    const json status = one->ReadOp("status");
+    EXPECT_EQ(status["level"], 2);
+    EXPECT_THAT(status["message"].get<std::string>(), HasSubstr("change refused: "));
+    EXPECT_THAT(status["message"].get<std::string>(), HasSubstr("period"));
+  }
+  EXPECT_EQ(tick(client.ReadOp("parameterValues")), 0.01);
+  client.Send(R"({"op": "setParameters", "parameters": [{"name": "tick", "value": true}]})");
+  EXPECT_THAT(client.ReadOp("status")["message"].get<std::string>(), HasSubstr("change refused: "));
+  Stop();
+  EXPECT_EQ(result_.failure, "");
+  EXPECT_EQ(result_.changes, 0);
+}
+
+TEST_F(LiveChangeTest, ShowsAndRecordsWhatTheDiagramIsWarnedOf) {
+  Client client(server_.port());
+  ChannelOf(client, "/rate/value");
+  Client late(server_.port());
+  const json shown = json::parse(
+      late.ReadOp("serverInfo")["metadata"]["oca.warnings/warnings"].get<std::string>());
+  ASSERT_EQ(shown.size(), 1u);
+  EXPECT_THAT(shown[0].get<std::string>(), HasSubstr("ball.yaml:3"));
+  EXPECT_THAT(shown[0].get<std::string>(), HasSubstr("warning: parameters.idle: nothing uses it"));
+  const record::McapFile file = Stop();
+  EXPECT_EQ(file.FindMetadata("oca.warnings")->at("warnings"), shown.dump());
+  const json line = json::parse(file.MessagesOf("/log").at(0)->data);
+  EXPECT_EQ(line["level"], 3);
+  EXPECT_EQ(line["message"], shown[0]);
+}
+
+TEST_F(LiveChangeTest, TellsWhoLooksOnWhatChangedOfTheDiagram) {
+  Client client(server_.port());
+  ChannelOf(client, "/rate/value");
+  Client late(server_.port());
+  const json before = late.ReadOp("serverInfo");
+  EXPECT_EQ(before["metadata"]["oca.parameters/slope"], "2.0");
+  late.Send(R"({"op": "setParameters", "parameters": [{"name": "slope", "value": 7.25}]})");
+  json after = late.ReadOp("serverInfo");
+  EXPECT_EQ(after["metadata"]["oca.parameters/slope"], "7.25");
+  EXPECT_EQ(after["sessionId"], before["sessionId"]);  // the run goes on
 }
 
 /// Notes where messages go.

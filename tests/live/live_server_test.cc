@@ -116,6 +116,35 @@ TEST(LiveServerTest, GreetsWithItsChannels) {
   EXPECT_EQ(advertised["channels"][2]["encoding"], "json");
 }
 
+TEST(LiveServerTest, HasASessionThatNoOtherServerHas) {
+  const auto session = [](const LiveServer& server) {
+    return Client(server.port()).ReadOp("serverInfo")["sessionId"].get<std::string>();
+  };
+  LiveServer server(AnyPort()), other(AnyPort());
+  server.Begin(kChannels);
+  other.Begin(kChannels);
+  const std::string first = session(server);
+  EXPECT_NE(first, session(other));
+  EXPECT_EQ(first, session(server));
+  server.Begin(kChannels);  // goes on
+  EXPECT_EQ(first, session(server));
+  server.Begin({kChannels[0]});
+  EXPECT_NE(first, session(server));
+}
+
+TEST(LiveServerTest, TellsALineToAll) {
+  LiveServer server(AnyPort());
+  Client one(server.port()), two(server.port());
+  one.Settle();
+  two.Settle();
+  server.Tell(StatusLevel::kWarning, "mind the gap \xff");
+  for (Client* const client : {&one, &two}) {
+    const json status = client->ReadOp("status");
+    EXPECT_EQ(status["level"], 1);
+    EXPECT_THAT(status["message"].get<std::string>(), HasSubstr("mind the gap"));
+  }
+}
+
 TEST(LiveServerTest, SendsWhatAClientSubscribedToAndNothingElse) {
   LiveServer server(AnyPort());
   server.Begin(kChannels);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "diagrams/record/mcap_reader.h"
+#include "diagrams/record/run_metadata.h"
 #include "tests/tools/program.h"
 
 namespace oca::tools {
@@ -43,6 +44,22 @@ TEST_F(RecordCommandTest, AnOverrideChangesOneThingOfARecord) {
   EXPECT_EQ(compared.status, 1);
   EXPECT_THAT(compared.out, StartsWith("first difference at "));
   EXPECT_THAT(compared.out, HasSubstr("* min_distance "));
+}
+
+TEST_F(RecordCommandTest, ARunOfARecordIsWarnedAsTheFirstOneWas) {
+  const Ran first = Run("$S run diagrams/static_test.yaml -t 0.1 --record $D/a.mcap");
+  EXPECT_THAT(first.err, HasSubstr("avoidance_report.yaml:27:15: warning: systems.relaxation: "
+                                   "the loop must chatter"));
+  EXPECT_EQ(Run("$S run $D/a.mcap --record $D/b.mcap").err, first.err);
+  EXPECT_EQ(Run("$S run $D/b.mcap").err, first.err);
+  EXPECT_EQ(record::WarningsOf(Read("b.mcap")).size(), 1u);
+  // With something changed, the diagram is another one; its files are in the record.
+  const Ran gentle = Run("$S run $D/a.mcap -s parameters.relaxation_time=0.4");
+  EXPECT_THAT(gentle.err, Not(HasSubstr("chatter")));
+  const Ran changed = Run("$S run $D/a.mcap -s parameters.relaxation_time=0.01");
+  EXPECT_THAT(changed.err, HasSubstr("/a.mcap/sources/"));
+  EXPECT_THAT(changed.err, HasSubstr("got 0.01 s"));
+  EXPECT_THAT(changed.err, Not(HasSubstr("oca_record_")));
 }
 
 TEST_F(RecordCommandTest, ExportsWhatCsvOfTheRunItselfHolds) {

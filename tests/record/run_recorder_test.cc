@@ -4,10 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "diagrams/record/run_metadata.h"
 #include "diagrams/record/series.h"
 #include "tests/allocation_count.h"
 #include "tests/record/record_runs.h"
@@ -109,6 +112,45 @@ TEST(RunRecorderTest, DrawsALineForEachProximity) {
   const auto last = MessagesOf(StaticTest().file, "/distance/proximities").back();
   EXPECT_EQ(entities[0]["lines"][0]["points"].size(), 2 * last["proximities"].size());
   EXPECT_EQ(entities[0]["lines"][0]["type"], 2);
+}
+
+TEST(RunRecorderTest, SaysOfALineWhetherItIsADistanceOrADepth) {
+  const Recorded recorded =
+      RunRecorded(Load("static_test.yaml", {{"parameters.avoid", "false"}}), {.duration = 6.0});
+  const json metrics = json::parse(recorded.result.metrics);
+  ASSERT_LT(metrics["min_distance"].get<double>(), -0.12);
+  double least = 1.0;
+  for (const json& message : MessagesOf(recorded.file, "/scene/forces")) {
+    const json& entity = message["entities"][0];
+    ASSERT_EQ(entity["metadata"][0]["key"], "distances");
+    const json signed_distances = json::parse(entity["metadata"][0]["value"].get<std::string>());
+    const json& points = entity["lines"][0]["points"];
+    ASSERT_EQ(2 * signed_distances.size(), points.size());
+    for (std::size_t i = 0; i < signed_distances.size(); ++i) {
+      const json &a = points[2 * i], &b = points[2 * i + 1];
+      const double length = std::hypot(a["x"].get<double>() - b["x"].get<double>(),
+                                       a["y"].get<double>() - b["y"].get<double>(),
+                                       a["z"].get<double>() - b["z"].get<double>());
+      EXPECT_NEAR(std::abs(signed_distances[i].get<double>()), length, 2e-6);
+      least = std::min(least, signed_distances[i].get<double>());
+    }
+  }
+  EXPECT_NEAR(least, metrics["min_distance"].get<double>(), 0.003);  // at 60 Hz
+}
+
+TEST(RunRecorderTest, TellsWhatTheDiagramIsWarnedOf) {
+  diagrams::LoadedDiagram loaded = Load("static_test.yaml");
+  EXPECT_EQ(
+      RunRecorded(loaded, {.duration = 0.1}).file.FindMetadata("oca.warnings")->at("warnings"),
+      "[]");
+  loaded.warnings = {"a.yaml:1:2: warning: \xff", "b.yaml:3:4: warning: two"};
+  const Recorded recorded = RunRecorded(loaded, {.duration = 0.1});
+  EXPECT_THAT(WarningsOf(recorded.file),
+              ElementsAre("a.yaml:1:2: warning: \xef\xbf\xbd", "b.yaml:3:4: warning: two"));
+  const auto log = MessagesOf(recorded.file, "/log");
+  ASSERT_EQ(log.size(), 2u);
+  EXPECT_EQ(log[1]["level"], 3);
+  EXPECT_EQ(log[1]["message"], "b.yaml:3:4: warning: two");
 }
 
 TEST(RunRecorderTest, AddsWhatPlotsNeedAndNobodyRecords) {

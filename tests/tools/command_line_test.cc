@@ -82,6 +82,15 @@ TEST_F(CommandLineTest, WarnsOfALoopThatMustChatterInOneLineAndRuns) {
   EXPECT_TRUE(json::accept(ran.out));
 }
 
+TEST_F(CommandLineTest, SaysWhatIsNoOrigin) {
+  for (const char* origin : {"'*'", "null", "https://a.example/path"}) {
+    const Ran ran =
+        run(std::string("$S run diagrams/static_test.yaml --live=0 --live-origin ") + origin);
+    EXPECT_EQ(ran.status, 2);
+    EXPECT_THAT(ran.err, HasSubstr("live: origin; got "));
+  }
+}
+
 TEST_F(CommandLineTest, AnExpectationThatIsNotMetEndsWithThreeAndTheFullResult) {
   const Ran ran = run("$S run diagrams/static_test.yaml -s parameters.avoid=false");
   EXPECT_EQ(ran.status, 3);

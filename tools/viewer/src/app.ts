@@ -6,11 +6,12 @@ import { limitsOf } from "./limits";
 import { LiveSource } from "./live_source";
 import { bindKeys } from "./keys";
 import type { Layer } from "./overlays";
+import type { RunReport } from "./messages";
 import { byId, element, type Page } from "./page";
-import { badges, limits, logLines, parameters, reportOf, summary } from "./panels";
+import { badges, limits, logLines, parameters, reportOf, showWarnings, summary, warningsOf } from "./panels";
 import { Player } from "./player";
 import { Plots } from "./plots";
-import { Recording } from "./recording";
+import { Recording, upperBound } from "./recording";
 import { SceneView } from "./scene_view";
 import { Timeline } from "./timeline";
 
@@ -60,8 +61,10 @@ export class App {
   follow(url: string): void {
     const live = new LiveSource(url, {
       start: (recording) => this.beginLive(recording),
+      about: () => this.aboutChanged(),
       parameters: (list) => knobs.show(list),
-      status: (text) => this.page.message(text),
+      connection: (text) => this.page.message(text),
+      notice: (text, kind) => this.page.notice(text, kind),
     });
     this.live = live;
     const pane = element("div", "knobs");
@@ -114,14 +117,21 @@ export class App {
     document.title = `${title} – OCA`;
     byId("title").textContent = title.replace(/^.*\//, "").replace(/\.ya?ml$/, "");
     byId("subtitle").textContent = recording.about("description") ?? "";
-    byId("badges").replaceChildren(...badges(report, recording.about("outcome")));
+    this.showBadges(report);
     this.fill("Summary", (pane) => summary(pane, recording, report, seek));
     this.fill("Limits", (pane) => limits(pane, recording, limitsOf(recording, this.plots!.specs), seek));
     if (!this.live) this.fill("Parameters", (pane) => parameters(pane, recording));
     this.fill("Log", (pane) => logLines(pane, recording, seek));
   }
 
+  private showBadges(report: RunReport): void {
+    const warnings = warningsOf(this.recording);
+    byId("badges").replaceChildren(...badges(report, this.recording.about("outcome"), warnings.length));
+    showWarnings(byId("warnings"), warnings);
+  }
+
   private makePlots(): void {
+    this.plotsAsked = this.recording.about("plots", "oca.plots");
     const pane = this.panes.get("Plots")!;
     pane.replaceChildren();
     this.plots = new Plots(this.page, pane, this.recording, (time) => this.player.seek(time));
@@ -132,14 +142,22 @@ export class App {
 
   private setNearness(): void {
     const distances = this.plots?.specs.find((spec) => spec.role === "distance");
-    const topic = distances && this.recording.topics.get(distances.signals[0]!);
-    if (!topic) return;
-    const { times, values } = columnsOf(topic);
-    const least = times.map((_, row) => values.reduce((low, column) => Math.min(low, column[row] ?? Infinity), Infinity));
+    const all = (distances?.signals ?? []).flatMap((name) => this.recording.topics.get(name) ?? []).map(columnsOf);
+    if (!distances || all.length === 0) return this.timeline.setNearness([], [], 0.3);
+    const { times } = all[0]!;
+    const least = times.map((time) => {
+      let low = Infinity;
+      for (const { times: own, values } of all) {
+        const row = upperBound(own, time + 1e-9) - 1;
+        for (const column of values) low = Math.min(low, column[row] ?? Infinity);
+      }
+      return low;
+    });
     this.timeline.setNearness(times, least, distances.limit ?? 0.3);
   }
 
   private beginLive(recording: Recording): void {
+    this.topicsSeen = 0;
     this.take(recording);
     this.player.following = true;
   }
@@ -159,6 +177,13 @@ export class App {
     if (!this.player.following) this.show(this.player.time);
   }
   private topicsSeen = 0;
+  private plotsAsked: string | undefined;
+
+  /** A change of parameters made the diagram anew: warnings and plots may be others. */
+  private aboutChanged(): void {
+    this.showBadges(reportOf(this.recording));
+    if (this.recording.about("plots", "oca.plots") !== this.plotsAsked) this.makePlots();
+  }
 
   private fill(tab: Tab, into: (pane: HTMLElement) => void): void {
     const pane = this.panes.get(tab)!;

@@ -3,10 +3,12 @@ import { element } from "./page";
 import type { LiveSource, Parameter } from "./live_source";
 
 const kDigits = 4;
+const kAnswerWithin = 400;  // ms from a change until what came of it is shown
 
 /** Sliders for the parameters of a running diagram. */
 export class Knobs {
   private readonly setters = new Map<string, (value: unknown) => void>();
+  private made = "";
 
   constructor(private readonly parent: HTMLElement, private readonly live: LiveSource) {}
 
@@ -19,8 +21,14 @@ export class Knobs {
     return [null, null];
   }
 
-  /** Makes what is new, and follows what somebody else changed. */
+  /** Follows what the simulator says that the values are; other parameters are other sliders. */
   show(list: Parameter[]): void {
+    const wanted = JSON.stringify(list.map(({ name, value }) => [name, typeof value, this.rangeOf(name)]));
+    if (wanted !== this.made) {
+      this.made = wanted;
+      this.parent.replaceChildren();
+      this.setters.clear();
+    }
     for (const { name, value } of list) {
       const set = this.setters.get(name);
       if (set) set(value);
@@ -53,25 +61,37 @@ export class Knobs {
     number.max = upper === null ? "" : String(upper);
     number.type = "number";
     number.step = "any";
+    let told = value, held = false;
     const put = (to: number): void => {
       slider.value = String(to);
       number.value = String(Number(to.toPrecision(kDigits)));
     };
+    // Nothing moves under a hand; once it is gone, what the simulator says counts.
+    const letGo = (): void => {
+      held = false;
+      setTimeout(() => { if (!held) put(told); }, kAnswerWithin);
+    };
     slider.oninput = () => {
+      held = true;
       number.value = String(Number(Number(slider.value).toPrecision(kDigits)));
       this.live.set(name, Number(number.value));
     };
+    slider.onchange = number.onblur = letGo;
+    number.oninput = () => (held = true);
     number.onchange = () => {
-      if (!Number.isFinite(number.valueAsNumber)) return;
-      slider.value = number.value;
-      this.live.set(name, number.valueAsNumber);
+      if (Number.isFinite(number.valueAsNumber)) {
+        slider.value = number.value;
+        this.live.set(name, number.valueAsNumber);
+      }
+      letGo();
     };
     put(value);
     row.append(element("span", "", name), slider, number);
     this.parent.append(row);
     this.setters.set(name, (to) => {
-      const busy = document.activeElement === slider || document.activeElement === number;
-      if (typeof to === "number" && !busy) put(to);
+      if (typeof to !== "number") return;
+      told = to;
+      if (!held) put(to);
     });
   }
 }

@@ -38,16 +38,18 @@ function fail(error: unknown): void {
 async function start(): Promise<void> {
   const embedded = document.getElementById("oca-record");
   const asked = new URLSearchParams(location.search);
+  // What let this page in lets in what it asks for.
+  const token = asked.has("token") ? `?token=${encodeURIComponent(asked.get("token")!)}` : "";
   const source = document.querySelector<HTMLMetaElement>("meta[name=oca-source]")?.content;
   if (embedded) {
     await open(await fromBase64(embedded.textContent!.trim()));
     embedded.remove();
   } else if (source === "live" || asked.has("ws")) {
     const app = new App(page);
-    app.follow(asked.get("ws") ?? `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/`);
+    app.follow(asked.get("ws") ?? `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/${token}`);
     expose(app);
   } else if (source || asked.has("mcap")) {
-    const answer = await fetch(asked.get("mcap") ?? source!);
+    const answer = await fetch(asked.get("mcap") ?? `${source!}${token}`);
     if (!answer.ok) throw new Error(`${answer.url}: ${answer.status} ${answer.statusText}`);
     await open(new Uint8Array(await answer.arrayBuffer()));
   } else {

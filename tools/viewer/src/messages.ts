@@ -26,7 +26,7 @@ export interface Model {
 }
 export interface SceneEntity {
   id: string; frame_id: string; arrows?: Arrow[]; lines?: Lines[]; cubes?: Cube[]; spheres?: Cube[];
-  cylinders?: Cylinder[]; models?: Model[];
+  cylinders?: Cylinder[]; models?: Model[]; metadata?: { key: string; value: string }[];
 }
 export interface SceneUpdate { deletions?: { type: number; id: string }[]; entities?: SceneEntity[] }
 

@@ -60,18 +60,13 @@ export class Overlays {
     const near = { flat: [] as number[], colors: [] as number[] }, far = { flat: [] as number[], colors: [] as number[] };
     let least = Infinity;
     this.nearestAt = undefined;
-    for (const lines of entities.flatMap((entity) => entity.lines ?? [])) {
-      const points = segments(lines);
-      for (let i = 0; i + 1 < points.length; i += 2) {
-        const a = points[i]!, b = points[i + 1]!;
-        const length = Math.hypot(a.x - b.x, a.y - b.y, a.z - b.z);
-        const into = length < this.limit ? near : far;
-        into.flat.push(a.x, a.y, a.z, b.x, b.y, b.z);
-        for (const colour of [lines.colors?.[i] ?? lines.color, lines.colors?.[i + 1] ?? lines.color]) push(into.colors, colour);
-        if (length < least) {
-          least = length;
-          this.nearestAt = middle(a, b);
-        }
+    for (const { a, b, colours, distance } of entities.flatMap(distanceLines)) {
+      const into = (distance ?? Math.hypot(a.x - b.x, a.y - b.y, a.z - b.z)) < this.limit ? near : far;
+      into.flat.push(a.x, a.y, a.z, b.x, b.y, b.z);
+      for (const colour of colours) push(into.colors, colour);
+      if (distance !== undefined && distance < least) {
+        least = distance;
+        this.nearestAt = middle(a, b);
       }
     }
     const group = this.layers.get("distances")!;
@@ -80,6 +75,7 @@ export class Overlays {
     if (this.nearestAt) {
       this.nearest.textContent = `${least.toFixed(3)} m`;
       this.nearest.classList.toggle("close", least < this.limit);
+      this.nearest.classList.toggle("contact", least <= 0);
     }
   }
 
@@ -108,6 +104,29 @@ export class Overlays {
   resize(width: number, height: number): void {
     for (const material of [this.near, this.far, this.requested, this.actual]) material.resolution.set(width, height);
   }
+}
+
+interface DistanceLine { a: Vector3; b: Vector3; colours: Color[]; distance: number | undefined }
+
+/** The lines of an entity with their signed distances, if it has them: a line is as long as two
+    shapes are apart, and as they are deep in each other, so its length says nothing. */
+function distanceLines(entity: SceneEntity): DistanceLine[] {
+  const text = entity.metadata?.find(({ key }) => key === "distances")?.value;
+  let signed: unknown;
+  try {
+    signed = JSON.parse(text ?? "null");
+  } catch { /* as if there were none */ }
+  const found: DistanceLine[] = [];
+  for (const lines of entity.lines ?? []) {
+    const points = segments(lines);
+    for (let i = 0; i + 1 < points.length; i += 2) {
+      const value: unknown = Array.isArray(signed) ? signed[found.length] : undefined;
+      found.push({ a: points[i]!, b: points[i + 1]!,
+                   colours: [lines.colors?.[i] ?? lines.color, lines.colors?.[i + 1] ?? lines.color],
+                   distance: typeof value === "number" ? value : undefined });
+    }
+  }
+  return found;
 }
 
 function push(colors: number[], colour: Color): void {

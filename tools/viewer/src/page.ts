@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The few things every part of the page needs of the document.
 
+const kNotices = 4;
+const kNoticeFor = 20_000;  // ms
+
 /** Text only ever enters the page as text, never as markup: records may come from anybody. */
 export function element<K extends keyof HTMLElementTagNameMap>(tag: K, className = "", text = ""): HTMLElementTagNameMap[K] {
   const made = document.createElement(tag);
@@ -56,6 +59,18 @@ export class Page {
       this.colours.set(name, value);
     }
     return value;
+  }
+
+  /** A line that goes away by itself, or at a click; said again, it stays longer. */
+  notice(text: string, kind: "info" | "warning" | "error"): void {
+    const notices = byId("notices");
+    [...notices.children].find((one) => one.textContent === text)?.remove();
+    const line = element("button", kind, text);
+    line.title = "Close";
+    line.onclick = () => line.remove();
+    notices.append(line);
+    while (notices.children.length > kNotices) notices.firstElementChild!.remove();
+    setTimeout(() => line.remove(), kNoticeFor);
   }
 
   /** A line for the user; empty hides it. */

@@ -45,7 +45,7 @@ function aboutRun(recording: Recording): RunReport {
 }
 
 /** Words and a sign, so that nobody needs the colour. */
-export function badges(report: RunReport, outcome: string | undefined): HTMLElement[] {
+export function badges(report: RunReport, outcome: string | undefined, warnings: number): HTMLElement[] {
   const made: HTMLElement[] = [];
   const add = (good: boolean, text: string): void => {
     made.push(element("span", `badge ${good ? "good" : "bad"}`, `${good ? "✓" : "✗"} ${text}`));
@@ -53,11 +53,29 @@ export function badges(report: RunReport, outcome: string | undefined): HTMLElem
   const metrics = report.metrics ?? {};
   const nearest = metrics["min_distance"];
   if (report.failure) add(false, "failed");
-  if (typeof nearest === "number") add(nearest > 0, nearest > 0 ? `clear by ${short(nearest)} m` : `contact, ${short(nearest)} m`);
+  if (typeof nearest === "number") add(nearest > 0, nearest > 0 ? `clear by ${short(nearest)} m` : `contact, ${short(-nearest)} m deep`);
   const met = (report.expectations ?? []).filter((one) => one.ok).length, all = report.expectations?.length ?? 0;
   if (all > 0) add(met === all, `${met} of ${all} expectations met`);
   if (made.length === 0 && outcome) made.push(element("span", "badge", outcome));
+  if (warnings > 0) made.push(element("span", "badge warn", `⚠ ${warnings === 1 ? "a warning" : `${warnings} warnings`}`));
   return made;
+}
+
+/** What was warned of when the diagram was loaded. */
+export function warningsOf(recording: Recording): string[] {
+  try {
+    const list: unknown = JSON.parse(recording.about("warnings", "oca.warnings") ?? "[]");
+    return Array.isArray(list) ? list.filter((one): one is string => typeof one === "string") : [];
+  } catch {
+    return ["The record's warnings are no JSON."];
+  }
+}
+
+/** They stand above all tabs: whoever looks at a plot needs to know them too. */
+export function showWarnings(box: HTMLElement, warnings: string[]): void {
+  box.hidden = warnings.length === 0;
+  box.replaceChildren(element("summary", "", warnings.length === 1 ? "A warning" : `${warnings.length} warnings`),
+                      ...warnings.map((warning) => element("p", "warning", `⚠ ${warning}`)));
 }
 
 export function summary(parent: HTMLElement, recording: Recording, report: RunReport, seek: Seek): void {

@@ -2,7 +2,7 @@
 // Which plots a record asks for: its metadata `oca.plots`, or what the names of its signals say.
 import { columnsOf, lowest, rates, type Columns } from "./columns";
 import { activeCounts, constraintsOf } from "./constraints";
-import type { Recording, Topic } from "./recording";
+import { upperBound, type Recording, type Topic } from "./recording";
 
 export type Role = "request" | "delta" | "joints" | "distance" | "speed" | "constraints" | "other";
 export interface PlotSpec {
@@ -90,6 +90,13 @@ export function plotsOf(recording: Recording): PlotSpec[] {
   return specs.sort((a, b) => kOrder.indexOf(a.role) - kOrder.indexOf(b.role));
 }
 
+/** The columns at other times than their own: what they had last. */
+function heldAt(times: number[], columns: Columns): (number | null)[][] {
+  if (times.length === columns.times.length && times.every((time, row) => time === columns.times[row])) return columns.values;
+  const rows = times.map((time) => upperBound(columns.times, time + 1e-9) - 1);
+  return columns.values.map((values) => rows.map((row) => values[row] ?? null));
+}
+
 /** What a plot draws; several signals share the times of the first. */
 export function columnsFor(spec: PlotSpec, recording: Recording, specs: PlotSpec[] = [spec]): Columns {
   if (spec.counts) return activeCounts(constraintsOf(recording, specs));
@@ -97,9 +104,8 @@ export function columnsFor(spec: PlotSpec, recording: Recording, specs: PlotSpec
   const first = all[0] ?? { times: [], names: [], values: [], unit: "" };
   const joined: Columns = { ...first, names: [...first.names], values: [...first.values] };
   for (let i = 1; i < all.length; ++i) {
-    if (all[i]!.times.length !== first.times.length) continue;
     joined.names.push(...all[i]!.names.map((name) => `${spec.signals[i]!.split("/")[1]} ${name}`));
-    joined.values.push(...all[i]!.values);
+    joined.values.push(...heldAt(first.times, all[i]!));
   }
   if (spec.unit) joined.unit = spec.unit;
   if (spec.role === "distance") return lowest({ ...joined, unit: joined.unit || "m" }, kDistancesShown);

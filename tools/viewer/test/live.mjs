@@ -10,12 +10,12 @@ import protocol from "@foxglove/ws-protocol";
 import { WebSocket } from "ws";
 import { openPage } from "./page.mjs";
 
-const kDiagram = join(dirname(fileURLToPath(import.meta.url)), "../../../diagrams/static_test.yaml");
+export const kDiagram = join(dirname(fileURLToPath(import.meta.url)), "../../../diagrams/static_test.yaml");
 const run = promisify(execFile);
 const { FoxgloveClient } = protocol;
 
 /** Starts a simulator that serves something; resolves to its address. */
-async function serve(simulator, args) {
+export async function serve(simulator, args) {
   const child = spawn(simulator, args, { stdio: ["ignore", "pipe", "pipe"] });
   let text = "", errors = "";
   child.stderr.on("data", (data) => (errors += data));
@@ -32,7 +32,7 @@ async function serve(simulator, args) {
     child.on("exit", (code) => resolve({ code, text, errors }));
     child.kill("SIGINT");
   });
-  return { url, stop };
+  return { url, stop, errors: () => errors };
 }
 
 export async function testView({ test, browser, simulator, folder, messagesOf, errorsOf, colours, show }) {
@@ -80,7 +80,7 @@ export async function testView({ test, browser, simulator, folder, messagesOf, e
   });
 }
 
-function connect(url) {
+export function connect(url) {
   const client = new FoxgloveClient({ ws: new WebSocket(url.replace("http", "ws"), [FoxgloveClient.SUPPORTED_SUBPROTOCOL]) });
   const next = (event, wanted = () => true) => new Promise((resolve, reject) => {
     const timer = setTimeout(() => reject(new Error(`no ${event} within 30 s`)), 30000);

@@ -11,6 +11,7 @@ import { McapIndexedReader } from "@mcap/core";
 import { embed, launch, openPage } from "./page.mjs";
 import { delta, final, requested, sampleRecord } from "./sample_record.mjs";
 import { testLive, testView } from "./live.mjs";
+import { testAccess, testTruth } from "./truth.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const simulator = process.argv[2];
@@ -180,6 +181,8 @@ await test("names from a record stay text", async () => {
 if (simulator) {
   await testView({ test, browser, simulator, folder, messagesOf, errorsOf, colours, show });
   await testLive({ test, browser, simulator, errorsOf });
+  await testTruth({ test, browser, simulator, folder, viewer, errorsOf, show });
+  await testAccess({ test, browser, simulator, folder, errorsOf });
 }
 
 await browser.close();

@@ -73,8 +73,9 @@ function forces(now, t) {
     }
   });
   const base = { timestamp: stamp(t), frame_id: "world", lifetime: { sec: 0, nsec: 0 }, frame_locked: false, metadata: [] };
+  const metadata = [{ key: "distances", value: JSON.stringify(proximities.map(({ distance }) => distance)) }];
   return { proximities, update: { deletions: [], entities: [
-    { ...base, id: "distances", lines: [{ type: 2, pose: pose([0, 0, 0]), thickness: 2, scale_invariant: true, points: lines, color: colour(0, 0, 0), colors, indices: [] }] },
+    { ...base, id: "distances", metadata, lines: [{ type: 2, pose: pose([0, 0, 0]), thickness: 2, scale_invariant: true, points: lines, color: colour(0, 0, 0), colors, indices: [] }] },
     { ...base, id: "forces", arrows }, { ...base, id: "torques", arrows: torques }] } };
 }
 

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "diagrams/live/live_session.h"
+
+#include <exception>
+
+#include "diagrams/live/adopt_state.h"
+#include "diagrams/live/live_parameters.h"
+#include "framework/port_access.h"
+
+namespace oca::live {
+namespace {
+
+constexpr double kForever = 1e6;  // s
+
+}  // namespace
+
+LiveSession::LiveSession(diagrams::LoadedDiagram loaded, record::RecorderOptions options,
+                         std::vector<record::RecordSink*> sinks, double realtime_factor, Log* log)
+    : loaded_(std::make_shared<const diagrams::LoadedDiagram>(std::move(loaded))),
+      recorder_(*loaded_, std::move(options), std::move(sinks), log),
+      simulator_(*loaded_->diagram, loaded_->integrator) {
+  simulator_.SetLog(&recorder_);
+  simulator_.SetRealtimeFactor(realtime_factor);
+}
+
+void LiveSession::Start(Simulator::Monitor monitor) {
+  simulator_.AddMonitor(std::move(monitor));
+  recorder_.Attach(simulator_, true, kForever);
+  attached_ = true;
+}
+
+void LiveSession::Adopt(const LiveSession& previous) {
+  const Context& old = previous.simulator_.context();
+  Simulator trial(*loaded_->diagram, simulator_.context(), loaded_->integrator);
+  AdoptFrom(previous, old, trial.context());
+  trial.Initialize();
+  AdoptFrom(previous, old, simulator_.context());
+}
+
+void LiveSession::StartFrom(const LiveSession& previous, Simulator::Monitor monitor) {
+  Start(std::move(monitor));
+  simulator_.Initialize();  // which writes states
+  AdoptFrom(previous, previous.simulator_.context(), simulator_.context());
+}
+
+void LiveSession::End(diagrams::RunResult result) {
+  if (!attached_) return;
+  attached_ = false;
+  result.duration = simulator_.context().time();
+  try {
+    recorder_.Finish(result);
+  } catch (const std::exception&) {
+    // nobody is left to be shown anything
+  }
+}
+
+void LiveSession::Place(const Moves& moves) {
+  std::map<std::string, Eigen::VectorXd> offsets;
+  for (const Diagram::ExportedInput& input : loaded_->diagram->exported_inputs()) {
+    const auto& ports = input.to.front().system->inputs();
+    const int size = ports[static_cast<std::size_t>(input.to.front().index)].spec.size.number();
+    offsets[input.name] = Eigen::VectorXd::Zero(size);
+  }
+  for (const auto& [id, standing] : StandingObstacles(*loaded_)) {
+    const auto move = moves.find(PositionName(id));
+    const auto offset = offsets.find(standing.input);
+    if (move == moves.end() || offset == offsets.end()) continue;
+    offset->second.segment<3>(static_cast<Eigen::Index>(standing.first)) = move->second;
+  }
+  for (const auto& [name, offset] : offsets) {
+    loaded_->diagram->GetInput<Vector>(name).Fix(simulator_.context(), offset);
+  }
+}
+
+void LiveSession::AdoptFrom(const LiveSession& previous, const Context& from, Context& to) const {
+  to.SetTime(from.time());
+  AdoptStates(*previous.loaded_->diagram, from, *loaded_->diagram, to);
+}
+
+}  // namespace oca::live
