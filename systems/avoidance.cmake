@@ -17,4 +17,5 @@ set(avoidance
 set(avoidance_headers geometry_params.h link_colliders.h model_links.h motion_metrics_value.h
     rotation.h)
 set(avoidance_sources geometry_params.cc json_fields.cc link_colliders.cc model_links.cc
-    motion_certificate.cc motion_metrics_value.cc motion_tally.cc rotation.cc waypoint_table.cc)
+    motion_certificate.cc motion_metrics_value.cc motion_tally.cc rotation.cc signal_checks.cc
+    waypoint_table.cc)
