@@ -17,6 +17,7 @@
 #include "framework/dynamic_port.h"
 #include "framework/error.h"
 #include "framework/nearest.h"
+#include "framework/plan.h"
 #include "systems/obstacle_source.h"
 
 namespace oca::diagrams {
@@ -430,6 +431,9 @@ class Loader {
       if (!part_.empty()) ExportOutputs();
       if (movable_) ExportOffsets();
       loaded_.diagram = builder_.Build();
+      loaded_.diagram->plan().CheckStart(loaded_.diagram->MakeContext(), false);
+    } catch (const SimulationError& error) {  // a state starts where it cannot be
+      problems_.Add(locations_.at(error.system), error.what());
     } catch (const WiringError& error) {
       for (const std::string& problem : error.problems) problems_.Add(Place(problem), problem);
     }

@@ -79,6 +79,7 @@ void ControlLoop::Initialize() {
   plan_.CheckInputsFixed(context_);
   for (const int event : plan_.initializations) plan_.RunEvent(context_, plan_.events[event]);
   for (const int event : plan_.initializations) plan_.Commit(context_, plan_.events[event]);
+  plan_.CheckStart(context_, true);
   plan_.TakeCapacity(context_);
   for (const Plan::Event& event : plan_.events) {
     if (event.stage != System::Stage::kPublish) continue;
@@ -104,18 +105,13 @@ Status ControlLoop::Refuse(const InputHandle& input, std::string_view what) cons
 Status ControlLoop::Set(const Input<Vector>& input,
                         const Eigen::Ref<const Eigen::VectorXd>& value) noexcept {
   if (input.system != plan_.root) return Refuse(input, "");
-  const Slot slot = plan_.input(input).slot;
-  if (value.size() != static_cast<Eigen::Index>(slot.size)) {
-    std::array<char, 64> text;
-    const auto end = fmt::format_to_n(text.data(), text.size(), "got {} numbers; expected {}",
-                                      value.size(), slot.size);
-    return Refuse(input, {text.data(), std::min(end.size, text.size())});
+  const Plan::InputEntry& entry = plan_.input(input);
+  const internal::Location at{plan_.arena(context_), entry.slot, entry.plausible};
+  if (const Fault fault = internal::CheckVector(value.data(), value.size(), at); !fault.ok()) {
+    return Refuse(input, fault.text());
   }
-  if (!AllFinite(value.data(), slot.size)) {
-    return Refuse(input, "got a NaN or an infinity; expected finite numbers");
-  }
-  ViewOf<Vector>::Write(plan_.arena(context_), slot) = value;
-  plan_.MarkChanged(context_, plan_.input(input).source);
+  ViewOf<Vector>::Write(at.arena, at.slot) = value;
+  plan_.MarkChanged(context_, entry.source);
   return {};
 }
 
@@ -178,7 +174,7 @@ void ControlLoop::ComputeWatched() {
 }
 
 internal::Location ControlLoop::Locate(const OutputHandle& output) const noexcept {
-  return {plan_.arena(context_), plan_.output(output).slot};
+  return {plan_.arena(context_), plan_.output(output).slot, {}};
 }
 
 }  // namespace oca

@@ -52,7 +52,8 @@ class ControlLoop {
   void Initialize();
 
   /// Gives an exported input its value, which is copied; it stays until the next one. A value that
-  /// is refused, because it is not finite or has the wrong length, leaves the last one.
+  /// is refused leaves the last one: a vector of the wrong length, not finite or outside what its
+  /// port can be (joints far beyond their limits), another signal that its type's Check refuses.
   Status Set(const Input<Vector>& input, const Eigen::Ref<const Eigen::VectorXd>& value) noexcept;
   template <class T>
   requires(!std::is_same_v<T, Vector>) Status Set(const Input<T>& input, const T& value)
@@ -101,9 +102,12 @@ class ControlLoop {
 template <class T>
 requires(!std::is_same_v<T, Vector>) Status ControlLoop::Set(const Input<T>& input, const T& value)
 noexcept {
-  if (!Signal<T>::Finite(value)) return Refuse(input, "got a NaN or an infinity inside");
+  if (const Fault fault = Signal<T>::Check(value, Look::kWhole); !fault.ok()) {
+    return Refuse(input, fault.text());
+  }
   try {
-    input.Fix(context_, value);
+    internal::Store(internal::FindExported(input, context_), value);
+    internal::MarkChanged(input, context_);
     return {};
   } catch (...) {
     return Status::OfCurrentException(time());

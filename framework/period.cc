@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -64,6 +65,16 @@ Period Period::FromSeconds(double seconds) {
       "period: got {:.17g} s; expected a ratio of integers with a denominator up to 1e6, or whole "
       "nanoseconds",
       seconds));
+}
+
+std::int64_t Period::CountAt(double time) const {
+  constexpr double kMost = 9007199254740992.0;  // 2^53
+  const double most = std::floor(kMost / static_cast<double>(numerator_));
+  auto count = static_cast<std::int64_t>(std::clamp(std::floor(time / seconds()), -most, most));
+  // The quotient may miss a whole number by a rounding, no more.
+  if (seconds(count) > time) --count;
+  if (seconds(count + 1) <= time) ++count;
+  return count;
 }
 
 std::string Period::ToString() const {

@@ -26,6 +26,15 @@ class Period {
   double seconds() const {
     return static_cast<double>(numerator_) / static_cast<double>(denominator_);
   }
+  /// So many of it, correctly rounded where the numbers have 53 bits: the times of ticks.
+  double seconds(std::int64_t count) const {
+    return static_cast<double>(count * numerator_) / static_cast<double>(denominator_);
+  }
+  /// How many have gone by at `time`, s: the largest count with seconds(count) <= time. Of a time
+  /// that is no tick of some control, or beyond 2^53 of them, none the worse for a rounding.
+  std::int64_t CountAt(double time) const;
+  /// The first tick after `time`; adding a period to it would miss it by a rounding.
+  double TickAfter(double time) const { return seconds(CountAt(time) + 1); }
   bool positive() const { return numerator_ > 0; }
   /// As in `0.01 s` or `1/60 s`.
   std::string ToString() const;

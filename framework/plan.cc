@@ -61,7 +61,7 @@ void Plan::PullRange(const Context& context, std::uint32_t begin, std::uint32_t 
         const std::byte* const value = memory + node.out.offset;
         const bool finite = node.vector
                                 ? AllFinite(reinterpret_cast<const double*>(value), node.out.size)
-                                : node.type->finite(value);
+                                : node.type->check(value, Look::kFinite).ok();
         if (!finite) FailNode(context, index);
         state.computed = epoch;
       }
@@ -86,8 +86,11 @@ int Plan::PortOf(std::uint32_t node) const {
 
 void Plan::FailNode(const Context& context, std::uint32_t index) const {
   const System* const system = nodes[index].system;
-  Fail(context, system, system->outputs()[PortOf(index)].name,
-       "the value is not finite (NaN or infinity)");
+  const Node& node = nodes[index];
+  const std::string& port = system->outputs()[PortOf(index)].name;
+  if (node.vector) Fail(context, system, port, "the value is not finite (NaN or infinity)");
+  const Fault fault = node.type->check(arena(context) + node.out.offset, Look::kFinite);
+  Fail(context, system, port, fmt::format("the value: {}", fault.text()).c_str());
 }
 
 void Plan::FailUnfixed(const Context& context, std::uint32_t source) const {
@@ -108,6 +111,16 @@ void Plan::CheckInputsFixed(const Context& context) const {
 void Plan::Fail(const Context& context, const System* system, const std::string& port,
                 const char* what) const {
   throw SimulationError(PathOf(*system), port, context.time(), what);
+}
+
+void Plan::CheckStart(const Context& context, bool initialized) const {
+  for (const ShownState& shown : shown_states) {
+    if (shown.set_at_start && !initialized) continue;
+    const auto* values = reinterpret_cast<const double*>(arena(context) + shown.slot.offset);
+    const Fault fault = shown.plausible->Check(values);
+    if (fault.ok()) continue;
+    Fail(context, shown.system, shown.system->outputs()[shown.output].name, fault.text());
+  }
 }
 
 std::string Plan::PathOf(const System& system) const {
@@ -168,12 +181,17 @@ void Plan::RunEvent(Context& context, const Event& event) const {
     const bool finite = state.type == &kVectorType
                             ? AllFinite(reinterpret_cast<const double*>(memory + state.next.offset),
                                         state.next.size)
-                            : state.type->finite(memory + state.next.offset);
-    if (!finite) {
-      Fail(context, event.system, state.info->name,
-           "the new state is not finite (NaN or infinity)");
-    }
+                            : state.type->check(memory + state.next.offset, Look::kFinite).ok();
+    if (!finite) FailState(context, event, state);
   }
+}
+
+void Plan::FailState(const Context& context, const Event& event, const StateEntry& state) const {
+  const char* const what = "the new state is not finite (NaN or infinity)";
+  if (state.type == &kVectorType) Fail(context, event.system, state.info->name, what);
+  const Fault fault = state.type->check(arena(context) + state.next.offset, Look::kFinite);
+  Fail(context, event.system, state.info->name,
+       fmt::format("the new state: {}", fault.text()).c_str());
 }
 
 double Plan::EvaluateWitness(Context& context, int index) const {

@@ -36,7 +36,16 @@ class Plan {
   };
   struct InputEntry {
     Slot slot;
-    int source{-1};  ///< of an exported input
+    int source{-1};                           ///< of an exported input
+    std::vector<const Plausible*> plausible;  ///< of an exported input: of all that it drives
+  };
+  /// A state that an input shows, which says what it can be.
+  struct ShownState {
+    const System* system;  ///< whose the output is
+    int output;
+    Slot slot;
+    const Plausible* plausible;
+    bool set_at_start;  ///< by an initialization event
   };
   struct OutputEntry {
     Slot slot;
@@ -110,6 +119,9 @@ class Plan {
   void PullRange(const Context& context, std::uint32_t begin, std::uint32_t end) const;
   /// throws SimulationError naming an exported input that has no value yet.
   void CheckInputsFixed(const Context& context) const;
+  /// throws SimulationError naming an output whose state starts where the inputs that read it say
+  /// that nothing can be. Unless `initialized` what initialization events set does not count.
+  void CheckStart(const Context& context, bool initialized) const;
   /// Derivatives of all continuous state at the context's time and state, into `derivatives`.
   void EvaluateDerivatives(Context& context, double* derivatives) const;
   /// Lets values that are no Vectors grow to what a tick needs, so that the first tick does not
@@ -168,8 +180,9 @@ class Plan {
   std::vector<std::uint32_t> class_sources;
   std::vector<InputEntry> inputs;           ///< of all leaf systems
   std::vector<InputEntry> exported_inputs;  ///< of the root
-  std::vector<OutputEntry> outputs;         ///< of all leaf systems
-  std::vector<StateEntry> states;           ///< of all leaf systems
+  std::vector<ShownState> shown_states;
+  std::vector<OutputEntry> outputs;  ///< of all leaf systems
+  std::vector<StateEntry> states;    ///< of all leaf systems
   std::vector<Derivative> derivatives;
   std::uint32_t derivative_pull_begin{0}, derivative_pull_end{0};
   std::vector<Event> events;
@@ -214,6 +227,8 @@ class Plan {
                          const char* what) const;
   void FailUnfixed(const Context& context, std::uint32_t source) const;
   [[noreturn]] void FailNode(const Context& context, std::uint32_t node) const;
+  [[noreturn]] void FailState(const Context& context, const Event& event,
+                              const StateEntry& state) const;
   void FailDerivative(const Context& context) const;
   void GrowLikeNext(Context& context, const StateEntry& state) const;
   int PortOf(std::uint32_t node) const;

@@ -12,6 +12,14 @@
 #include "framework/error.h"
 
 namespace oca {
+namespace {
+
+void AddOnce(std::vector<const Plausible*>& all, const Plausible* one) {
+  const auto same = [&](const Plausible* other) { return *other == *one; };
+  if (std::none_of(all.begin(), all.end(), same)) all.push_back(one);
+}
+
+}  // namespace
 
 std::unique_ptr<Plan> PlanCompiler::Compile(Diagram& root) {
   PlanCompiler compiler(root);
@@ -27,6 +35,7 @@ std::unique_ptr<Plan> PlanCompiler::Compile(Diagram& root) {
   }
   compiler.LayOut();
   compiler.CompileNodes();
+  compiler.CompilePlausible();
   compiler.CompileStates();
   compiler.CompileWitnesses();
   compiler.CompileEvents();
@@ -377,7 +386,34 @@ void PlanCompiler::CompileNodes() {
       const int exported = leaves[leaf].drivers[i].exported;
       plan_->inputs[system.first_input_ + i] = {
           SlotOf(static_cast<int>(leaf), self),
-          exported < 0 ? -1 : plan_->exported_inputs[exported].source};
+          exported < 0 ? -1 : plan_->exported_inputs[exported].source,
+          {}};
+    }
+  }
+}
+
+void PlanCompiler::CompilePlausible() {
+  const auto& leaves = wiring_.leaves();
+  for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf) {
+    const auto& inputs = leaves[leaf].system->inputs();
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      const Plausible* const plausible = inputs[i].spec.plausible.get();
+      const Wiring::Driver& driver = leaves[leaf].drivers[i];
+      if (plausible == nullptr || driver.none()) continue;
+      if (driver.exported >= 0) {
+        AddOnce(plan_->exported_inputs[driver.exported].plausible, plausible);
+      } else if (node_of_[driver.leaf][driver.output] < 0) {
+        const System& system = *leaves[driver.leaf].system;
+        const int state = system.outputs()[driver.output].state;
+        const auto sets = [&](const System::EventInfo& event) {
+          return event.stage == System::Stage::kInitialization &&
+                 std::find(event.writes.begin(), event.writes.end(), state) != event.writes.end();
+        };
+        const bool set_at_start = std::any_of(system.events().begin(), system.events().end(), sets);
+        const Read self{Read::Kind::kOutput, driver.output};
+        plan_->shown_states.push_back({leaves[driver.leaf].system, driver.output,
+                                       SlotOf(driver.leaf, self), plausible, set_at_start});
+      }
     }
   }
 }

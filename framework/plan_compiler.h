@@ -31,6 +31,7 @@ class PlanCompiler {
   void LayOut();
   void LayOutObject(Slot& slot, const SignalType& type);
   void CompileNodes();
+  void CompilePlausible();
   void CompileStates();
   void CompileWitnesses();
   void CompileEvents();

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "framework/error.h"
+#include "framework/fixed_text.h"
 #include "framework/plan.h"
 #include "framework/port_access.h"
 
@@ -14,12 +15,12 @@ Location Find(const OutputHandle& output, const Context& context) {
   const Plan& plan = Plan::Of(output, context);
   const Plan::OutputEntry& entry = plan.output(output);
   if (entry.node >= 0) plan.Evaluate(context, entry.node);
-  return {plan.arena(context), entry.slot};
+  return {plan.arena(context), entry.slot, {}};
 }
 
 Location Find(const StateHandle& state, const Context& context) {
   const Plan& plan = Plan::Of(state, context);
-  return {plan.arena(context), plan.state(state).slot};
+  return {plan.arena(context), plan.state(state).slot, {}};
 }
 
 Location FindExported(const InputHandle& input, const Context& context) {
@@ -30,7 +31,7 @@ Location FindExported(const InputHandle& input, const Context& context) {
         {fmt::format("{}.{}: only an input that the root diagram exports can be fixed",
                      plan.PathOf(*input.system), input.system->inputs()[input.index].name)});
   }
-  return {plan.arena(context), entry.slot};
+  return {plan.arena(context), entry.slot, entry.plausible};
 }
 
 void MarkChanged(const InputHandle& input, Context& context) {
@@ -43,20 +44,31 @@ void MarkChanged(const StateHandle& state, Context& context) {
   plan.MarkChanged(context, plan.state(state).source);
 }
 
-void CheckVector(const double* values, Eigen::Index size, Slot slot) {
-  if (size != static_cast<Eigen::Index>(slot.size)) {
-    throw ConfigError(fmt::format("vector: got {} numbers; expected {}", size, slot.size));
+Fault CheckVector(const double* values, Eigen::Index size, const Location& at) {
+  if (size != static_cast<Eigen::Index>(at.slot.size)) {
+    return FaultOf("got {} numbers; expected {}", size, at.slot.size);
   }
-  if (!AllFinite(values, static_cast<std::size_t>(size))) {
-    throw ConfigError("vector: got a NaN or an infinity; expected finite numbers");
+  if (!AllFinite(values, at.slot.size)) return Fault::UnlessFinite(false);
+  for (const Plausible* const plausible : at.plausible) {
+    if (const Fault fault = plausible->Check(values); !fault.ok()) return fault;
   }
+  return {};
 }
 
-void ThrowNotFinite(const char* type) {
-  throw ConfigError(fmt::format("{}: got a NaN or an infinity; expected finite numbers", type));
+void ThrowIf(const char* type, const Fault& fault) {
+  if (!fault.ok()) throw ConfigError(fmt::format("{}: {}", type, fault.text()));
 }
 
 }  // namespace internal
+
+Fault Plausible::Check(const double* values) const {
+  for (Eigen::Index i = 0; i < lower.size(); ++i) {
+    if (values[i] >= lower[i] && values[i] <= upper[i]) continue;
+    return FaultOf("{}; got {:.6g}; expected {:.6g} to {:.6g}, {}",
+                   names[static_cast<std::size_t>(i)], values[i], lower[i], upper[i], rule);
+  }
+  return {};
+}
 
 VectorView ContinuousState::Get(const Context& context) const {
   const internal::Location at = internal::Find(*this, context);
@@ -65,7 +77,7 @@ VectorView ContinuousState::Get(const Context& context) const {
 
 void ContinuousState::Set(Context& context, const Eigen::Ref<const Eigen::VectorXd>& value) const {
   const internal::Location at = internal::Find(*this, context);
-  internal::CheckVector(value.data(), value.size(), at.slot);
+  internal::ThrowIf("vector", internal::CheckVector(value.data(), value.size(), at));
   ViewOf<Vector>::Write(at.arena, at.slot) = value;
   internal::MarkChanged(*this, context);
 }

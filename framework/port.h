@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "framework/signal.h"
 
@@ -59,10 +61,26 @@ class Unit {
   int rates_{0};
 };
 
-/// Length and unit of a vector port or state. Ports of other types ignore it.
+/// What the numbers of an input can be at all: one that lies outside is no value but the mistake of
+/// who gave it, and refused. One entry a number; `names` say what each is ("joint 'a1'"), `rule`
+/// where the bounds come from.
+struct Plausible {
+  Eigen::VectorXd lower;
+  Eigen::VectorXd upper;
+  std::vector<std::string> names;
+  std::string rule;
+
+  /// What is wrong with the numbers, as many as there are bounds; takes no memory.
+  Fault Check(const double* values) const;
+  friend bool operator==(const Plausible&, const Plausible&) = default;
+};
+
+/// Length and unit of a vector port or state, and what an input can be; null: anything finite.
+/// Ports of other types ignore it.
 struct PortSpec {
   Size size{1};
   Unit unit{Unit::Any()};
+  std::shared_ptr<const Plausible> plausible{};
 };
 
 /// Where a port, a state or an update sits in its system. Handles are small values; the system

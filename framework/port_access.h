@@ -3,6 +3,8 @@
 
 // The templates behind port.h's handles; include it where handles are read or written.
 
+#include <span>
+
 #include "framework/port.h"
 
 namespace oca {
@@ -11,6 +13,7 @@ namespace internal {
 struct Location {
   std::byte* arena;
   Slot slot;
+  std::span<const Plausible* const> plausible;  ///< of an exported input
 };
 
 Location Find(const OutputHandle& output, const Context& context);
@@ -18,21 +21,29 @@ Location Find(const StateHandle& state, const Context& context);
 Location FindExported(const InputHandle& input, const Context& context);
 void MarkChanged(const InputHandle& input, Context& context);
 void MarkChanged(const StateHandle& state, Context& context);
-/// throws ConfigError unless the vector has the slot's length and is finite.
-void CheckVector(const double* values, Eigen::Index size, Slot slot);
-/// throws ConfigError.
-[[noreturn]] void ThrowNotFinite(const char* type);
+/// What is wrong with a vector: its length, its numbers.
+Fault CheckVector(const double* values, Eigen::Index size, const Location& at);
+/// throws ConfigError `type: what` if anything is wrong.
+void ThrowIf(const char* type, const Fault& fault);
+
+/// Keeps a value from outside that is good.
+template <class T>
+void Store(const Location& at, const T& value) {
+  T& kept = ViewOf<T>::Write(at.arena, at.slot);
+  kept = value;
+  if constexpr (requires { Signal<T>::FromOutside(kept); }) Signal<T>::FromOutside(kept);
+}
 
 template <class T, class Value>
 void Assign(Location at, const Value& value) {
   if constexpr (std::is_same_v<T, Vector>) {
     const Eigen::Ref<const Eigen::VectorXd> vector(value);
-    CheckVector(vector.data(), vector.size(), at.slot);
+    ThrowIf("vector", CheckVector(vector.data(), vector.size(), at));
     ViewOf<Vector>::Write(at.arena, at.slot) = vector;
   } else {
     const T& object = value;
-    if (!Signal<T>::Finite(object)) ThrowNotFinite(Signal<T>::kName);
-    ViewOf<T>::Write(at.arena, at.slot) = object;
+    ThrowIf(Signal<T>::kName, Signal<T>::Check(object, Look::kWhole));
+    Store(at, object);
   }
 }
 

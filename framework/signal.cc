@@ -17,6 +17,14 @@ namespace oca {
 const SignalType kVectorType{"Vector", 0,       alignof(double), nullptr, nullptr,
                              nullptr,  nullptr, nullptr,         nullptr};
 
+namespace internal {
+
+void ThrowIf(const Fault& fault) {
+  if (!fault.ok()) throw ConfigError(fault.text());
+}
+
+}  // namespace internal
+
 void WriteVectorJson(const double* values, std::size_t n, std::string& out) {
   out += '[';
   for (std::size_t i = 0; i < n; ++i) {

@@ -11,6 +11,9 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
+
+#include "framework/fault.h"
 
 namespace oca {
 
@@ -20,6 +23,11 @@ struct Vector {};
 using VectorView = Eigen::Map<const Eigen::VectorXd>;
 using MutableVectorView = Eigen::Map<Eigen::VectorXd>;
 
+namespace internal {
+/// throws ConfigError with what is wrong, if anything is.
+void ThrowIf(const Fault& fault);
+}  // namespace internal
+
 /// What the engine, the recorder and `eval` know of a signal type, without its C++ type.
 struct SignalType {
   const char* name;
@@ -28,17 +36,21 @@ struct SignalType {
   void (*construct)(void* at);
   void (*destroy)(void* at);
   void (*assign)(void* to, const void* from);
-  bool (*finite)(const void* value);  ///< no NaN and no infinity anywhere inside
+  Fault (*check)(const void* value, Look look);
   void (*write_json)(const void* value, std::string& out);
-  /// throws ConfigError saying what is wrong.
+  /// Reads and checks; throws ConfigError saying what is wrong.
   void (*read_json)(std::string_view text, void* value);
 };
 
 /// Trait of a type that ports carry. A signal type specialises it with
-/// `static constexpr const char* kName`, `static bool Finite(const T&)`,
+/// `static constexpr const char* kName`, `static Fault Check(const T&, Look)`,
 /// `static void WriteJson(const T&, std::string&)` and `static T ReadJson(std::string_view)`,
-/// the last three defined in a source file. Values are copied by assignment, so a type whose
-/// assignment does not allocate once its capacity suffices keeps the run free of the heap.
+/// the last three defined in a source file. Check alone judges what a value may be: whoever takes
+/// one from outside asks with Look::kWhole, the engine asks of all that it computes with
+/// Look::kFinite, which costs no more than a look at the numbers. `static void FromOutside(T&)`, if
+/// there is one, drops what only systems may say to each other. Values are copied by assignment, so
+/// a type whose assignment does not allocate once its capacity suffices keeps the run free of the
+/// heap.
 template <class T>
 struct Signal;
 
@@ -57,12 +69,16 @@ const SignalType& TypeOf() {
         [](void* at) { new (at) T; },
         [](void* at) { static_cast<T*>(at)->~T(); },
         [](void* to, const void* from) { *static_cast<T*>(to) = *static_cast<const T*>(from); },
-        [](const void* value) { return Signal<T>::Finite(*static_cast<const T*>(value)); },
+        [](const void* value, Look look) {
+          return Signal<T>::Check(*static_cast<const T*>(value), look);
+        },
         [](const void* value, std::string& out) {
           Signal<T>::WriteJson(*static_cast<const T*>(value), out);
         },
         [](std::string_view text, void* value) {
-          *static_cast<T*>(value) = Signal<T>::ReadJson(text);
+          T read = Signal<T>::ReadJson(text);
+          internal::ThrowIf(Signal<T>::Check(read, Look::kWhole));
+          *static_cast<T*>(value) = std::move(read);
         }};
     return kType;
   }

@@ -182,6 +182,7 @@ void Simulator::Initialize() {
   }
   for (const int event : plan.initializations) plan.RunEvent(context_, plan.events[event]);
   for (const int event : plan.initializations) plan.Commit(context_, plan.events[event]);
+  plan.CheckStart(context_, true);
   plan.TakeCapacity(context_);
   context_.header().initialized = 1;
   RunPublishes();

@@ -9,8 +9,8 @@ namespace oca {
 
 using systems::AvoidanceVelocity;
 
-bool Signal<AvoidanceVelocity>::Finite(const AvoidanceVelocity& value) {
-  return value.velocity.allFinite() && std::isfinite(value.share);
+Fault Signal<AvoidanceVelocity>::Check(const AvoidanceVelocity& value, Look /*look*/) {
+  return Fault::UnlessFinite(value.velocity.allFinite() && std::isfinite(value.share));
 }
 
 void Signal<AvoidanceVelocity>::WriteJson(const AvoidanceVelocity& value, std::string& out) {

@@ -27,7 +27,7 @@ namespace oca {
 template <>
 struct Signal<systems::AvoidanceVelocity> {
   static constexpr const char* kName = "AvoidanceVelocity";
-  static bool Finite(const systems::AvoidanceVelocity& value);
+  static Fault Check(const systems::AvoidanceVelocity& value, Look look);
   static void WriteJson(const systems::AvoidanceVelocity& value, std::string& out);
   static systems::AvoidanceVelocity ReadJson(std::string_view text);
 };

@@ -12,9 +12,10 @@ using systems::BandMemory;
 using systems::Json;
 using systems::JsonReader;
 
-bool Signal<BandMemory>::Finite(const BandMemory& value) {
-  return value.held.controls().allFinite() && value.next.controls().allFinite() &&
-         std::isfinite(value.nearest) && std::isfinite(value.cost);
+Fault Signal<BandMemory>::Check(const BandMemory& value, Look /*look*/) {
+  return Fault::UnlessFinite(value.held.controls().allFinite() &&
+                             value.next.controls().allFinite() && std::isfinite(value.nearest) &&
+                             std::isfinite(value.cost));
 }
 
 void Signal<BandMemory>::WriteJson(const BandMemory& value, std::string& out) {

@@ -57,7 +57,7 @@ namespace oca {
 template <>
 struct Signal<systems::BandMemory> {
   static constexpr const char* kName = "BandMemory";
-  static bool Finite(const systems::BandMemory& value);
+  static Fault Check(const systems::BandMemory& value, Look look);
   static void WriteJson(const systems::BandMemory& value, std::string& out);
   static systems::BandMemory ReadJson(std::string_view text);
 };

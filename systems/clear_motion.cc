@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/fixed_text.h"
 #include "systems/json_fields.h"
 
 namespace oca::systems {
@@ -21,8 +22,10 @@ using systems::ClearMotion;
 using systems::Json;
 using systems::JsonReader;
 
-bool Signal<ClearMotion>::Finite(const ClearMotion& value) {
-  return std::isfinite(value.clear_for);
+Fault Signal<ClearMotion>::Check(const ClearMotion& value, Look look) {
+  if (!std::isfinite(value.clear_for)) return Fault::UnlessFinite(false);
+  if (look == Look::kFinite || value.clear_for >= 0.0) return {};
+  return FaultOf("clear_for: got {} s; expected at least 0", value.clear_for);
 }
 
 void Signal<ClearMotion>::WriteJson(const ClearMotion& value, std::string& out) {

@@ -27,7 +27,7 @@ namespace oca {
 template <>
 struct Signal<systems::ClearMotion> {
   static constexpr const char* kName = "ClearMotion";
-  static bool Finite(const systems::ClearMotion& value);
+  static Fault Check(const systems::ClearMotion& value, Look look);
   static void WriteJson(const systems::ClearMotion& value, std::string& out);
   static systems::ClearMotion ReadJson(std::string_view text);
 };

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "systems/contact_slopes.h"
 
-#include <algorithm>
-
+#include "framework/fixed_text.h"
 #include "systems/json_fields.h"
+#include "systems/signal_limits.h"
 
 namespace oca::systems {
 
@@ -25,11 +25,24 @@ namespace oca {
 using systems::ContactSlope;
 using systems::ContactSlopes;
 
-bool Signal<ContactSlopes>::Finite(const ContactSlopes& value) {
-  return std::all_of(value.slopes.begin(), value.slopes.end(), [](const ContactSlope& s) {
-    return s.point_on_link.allFinite() && s.point_on_obstacle.allFinite() && s.normal.allFinite() &&
-           s.slope.allFinite() && s.damping.allFinite();
-  });
+Fault Signal<ContactSlopes>::Check(const ContactSlopes& value, Look look) {
+  for (const ContactSlope& s : value.slopes) {
+    if (!s.point_on_link.allFinite() || !s.point_on_obstacle.allFinite() || !s.normal.allFinite() ||
+        !s.slope.allFinite() || !s.damping.allFinite()) {
+      return Fault::UnlessFinite(false);
+    }
+    if (look == Look::kFinite) continue;
+    if (s.link.empty()) return Fault("slope: link; got an empty name; expected a link");
+    if (!systems::IsUnit(s.normal)) {
+      return FaultOf("slope on '{}': normal; got length {:.12g}; expected 1, within 1e-9",
+                     s.link.text(), s.normal.norm());
+    }
+    if (!systems::Near(s.point_on_link) || !systems::Near(s.point_on_obstacle)) {
+      return FaultOf("slope on '{}': got a point beyond 1e6 m; expected a nearer one",
+                     s.link.text());
+    }
+  }
+  return {};
 }
 
 void Signal<ContactSlopes>::WriteJson(const ContactSlopes& value, std::string& out) {

@@ -42,7 +42,7 @@ namespace oca {
 template <>
 struct Signal<systems::ContactSlopes> {
   static constexpr const char* kName = "ContactSlopes";
-  static bool Finite(const systems::ContactSlopes& value);
+  static Fault Check(const systems::ContactSlopes& value, Look look);
   static void WriteJson(const systems::ContactSlopes& value, std::string& out);
   static systems::ContactSlopes ReadJson(std::string_view text);
 };

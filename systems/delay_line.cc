@@ -24,8 +24,8 @@ void DelayLine::Push(const Eigen::Ref<const Eigen::VectorXd>& sample) {
 
 namespace oca {
 
-bool Signal<systems::DelayLine>::Finite(const systems::DelayLine& line) {
-  return AllFinite(line.values().data(), line.values().size());
+Fault Signal<systems::DelayLine>::Check(const systems::DelayLine& line, Look /*look*/) {
+  return Fault::UnlessFinite(AllFinite(line.values().data(), line.values().size()));
 }
 
 void Signal<systems::DelayLine>::WriteJson(const systems::DelayLine& line, std::string& out) {

@@ -36,7 +36,7 @@ namespace oca {
 template <>
 struct Signal<systems::DelayLine> {
   static constexpr const char* kName = "DelayLine";
-  static bool Finite(const systems::DelayLine& line);
+  static Fault Check(const systems::DelayLine& line, Look look);
   static void WriteJson(const systems::DelayLine& line, std::string& out);
   static systems::DelayLine ReadJson(std::string_view text);
 };

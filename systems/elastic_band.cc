@@ -17,15 +17,16 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kArrived = 0.01;         // rad, m; of all joints
-constexpr double kSameSpeed = 1e-6;       // m/s, rad/s: stands
-constexpr double kSamePlace = 1e-4;       // m, of an obstacle that stands
-constexpr double kOnPlan = 0.005;         // rad, m; of the arm
-constexpr double kForeseen = 0.005;       // m; that what was foreseen may be wrong by,
-constexpr double kForeseenSpan = 0.3;     // s; after so long too
-constexpr double kForeseenLever = 0.5;    // m; at which a turn counts
-constexpr std::uint64_t kFreshPlans = 8;  // that look for a better way though theirs is clear
-constexpr int kMostPause = 20;            // plans between two searches that fail
+constexpr double kArrived = 0.01;          // rad, m; of all joints
+constexpr double kSameSpeed = 1e-6;        // m/s, rad/s: stands
+constexpr double kSamePlace = 1e-4;        // m, of an obstacle that stands
+constexpr double kOnPlan = 0.005;          // rad, m; of the arm
+constexpr double kForeseen = 0.005;        // m; that what was foreseen may be wrong by,
+constexpr double kForeseenSpan = 0.3;      // s; after so long too
+constexpr double kForeseenLever = 0.5;     // m; at which a turn counts
+constexpr std::uint64_t kFreshPlans = 8;   // that look for a better way though theirs is clear
+constexpr double kLongestHorizon = 600.0;  // s; a plan looks at 2.5 to 20 places a second
+constexpr int kMostPause = 20;             // plans between two searches that fail
 
 ElasticBand::Params Checked(const ElasticBand::Params& params) {
   RequirePositive("period", params.period);
@@ -61,6 +62,11 @@ ElasticBand::Params Checked(const ElasticBand::Params& params) {
   RequireAtLeast("prediction", params.prediction, 0.0);
   RequireAtLeast("least_horizon", params.least_horizon, 0.5);
   RequireAtLeast("most_horizon", params.most_horizon, params.least_horizon);
+  for (const double horizon : {params.moving_horizon, params.most_horizon}) {
+    if (horizon <= kLongestHorizon) continue;
+    throw ConfigError(fmt::format("moving_horizon, most_horizon: got {} s; expected at most {} s",
+                                  horizon, kLongestHorizon));
+  }
   RequireAbove("restart_distance", params.restart_distance, 0.0);
   RequireAbove("stuck_time", params.stuck_time, 0.0);
   RequireAbove("stuck_motion", params.stuck_motion, 0.0);
@@ -135,11 +141,14 @@ void ElasticBand::Params::Describe(Fields<Params>& fields) {
   fields
       .Add("moving_horizon", &Params::moving_horizon, "s",
            "largest time that a plan looks ahead while something moves")
-      .AtLeast(0.5);
+      .AtLeast(0.5)
+      .AtMost(kLongestHorizon);
   fields.Add("least_horizon", &Params::least_horizon, "s", "least time that a plan looks ahead")
-      .AtLeast(0.5);
+      .AtLeast(0.5)
+      .AtMost(kLongestHorizon);
   fields.Add("most_horizon", &Params::most_horizon, "s", "largest time that a plan looks ahead")
-      .AtLeast(0.5);
+      .AtLeast(0.5)
+      .AtMost(kLongestHorizon);
   fields
       .Add("restart_distance", &Params::restart_distance, "rad",
            "distance of arm and band above which plans start from the arm")
@@ -208,7 +217,7 @@ void ElasticBand::Sample(double time, const RequestAhead& request, const BandMem
     return;
   }
   RequireSize(*request.trajectory, next_position.size());
-  const double end = time + params_.period.seconds();
+  const double end = params_.period.TickAfter(time);
   const models::BandCurve& band = memory.At(end);
   MutableVectorView* const next[] = {&next_position, &next_velocity, &next_acceleration};
   for (int d = 0; d < 3; ++d) {
@@ -307,7 +316,7 @@ models::BandTask ElasticBand::MakeTask(double time, const Trajectory* request,
                                        VectorView measured, OptionalVector rate,
                                        BandMemory& memory) const {
   models::BandTask task;
-  task.start = time + params_.plan_period.seconds();
+  task.start = params_.plan_period.TickAfter(time);
   task.request = [request](double t, int derivative, Eigen::Ref<VectorXd> out) {
     request->Evaluate(t, derivative, out);
   };

@@ -69,13 +69,14 @@ namespace oca {
 
 using systems::FilterActivity;
 
-bool Signal<FilterActivity>::Finite(const FilterActivity& value) {
+Fault Signal<FilterActivity>::Check(const FilterActivity& value, Look /*look*/) {
   const auto finite = [](const auto& bound) {
     return std::isfinite(bound.multiplier) && std::isfinite(bound.slack);
   };
-  return std::isfinite(value.slack) && std::isfinite(value.margin) &&
-         std::isfinite(value.kkt_residual) && std::isfinite(value.gap) &&
-         std::all_of(value.bounds.begin(), value.bounds.begin() + value.num_bounds, finite);
+  return Fault::UnlessFinite(
+      std::isfinite(value.slack) && std::isfinite(value.margin) &&
+      std::isfinite(value.kkt_residual) && std::isfinite(value.gap) &&
+      std::all_of(value.bounds.begin(), value.bounds.begin() + value.num_bounds, finite));
 }
 
 void Signal<FilterActivity>::WriteJson(const FilterActivity& value, std::string& out) {

@@ -57,7 +57,7 @@ namespace oca {
 template <>
 struct Signal<systems::FilterActivity> {
   static constexpr const char* kName = "FilterActivity";
-  static bool Finite(const systems::FilterActivity& value);
+  static Fault Check(const systems::FilterActivity& value, Look look);
   static void WriteJson(const systems::FilterActivity& value, std::string& out);
   static systems::FilterActivity ReadJson(std::string_view text);
 };

@@ -50,7 +50,7 @@ JacobianMapping::JacobianMapping(const Params& params, const ModelSet& models)
       links(DeclareInput<LinkPoses>("links")),
       solution(DeclareOutput<MappingSolution, &JacobianMapping::CalcSolution>("solution", {},
                                                                               wrenches, links)),
-      delta(DeclareOutput<Vector, &JacobianMapping::CalcDelta>("delta", PositionSpec(*model_),
+      delta(DeclareOutput<Vector, &JacobianMapping::CalcDelta>("delta", DeltaSpec(*model_),
                                                                solution)) {}
 
 void JacobianMapping::CalcSolution(const WrenchSet& wrench_set, const LinkPoses& poses,
@@ -81,8 +81,9 @@ namespace oca {
 
 using systems::MappingSolution;
 
-bool Signal<MappingSolution>::Finite(const MappingSolution& value) {
-  return AllFinite(value.delta.data(), static_cast<std::size_t>(value.delta.size()));
+Fault Signal<MappingSolution>::Check(const MappingSolution& value, Look /*look*/) {
+  return Fault::UnlessFinite(
+      AllFinite(value.delta.data(), static_cast<std::size_t>(value.delta.size())));
 }
 
 void Signal<MappingSolution>::WriteJson(const MappingSolution& value, std::string& out) {

@@ -95,7 +95,7 @@ namespace oca {
 template <>
 struct Signal<systems::MappingSolution> {
   static constexpr const char* kName = "MappingSolution";
-  static bool Finite(const systems::MappingSolution& value);
+  static Fault Check(const systems::MappingSolution& value, Look look);
   static void WriteJson(const systems::MappingSolution& value, std::string& out);
   static systems::MappingSolution ReadJson(std::string_view text);
 };

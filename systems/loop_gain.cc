@@ -95,7 +95,9 @@ namespace oca {
 
 using systems::GainEstimate;
 
-bool Signal<GainEstimate>::Finite(const GainEstimate& value) { return std::isfinite(value.gain); }
+Fault Signal<GainEstimate>::Check(const GainEstimate& value, Look /*look*/) {
+  return Fault::UnlessFinite(std::isfinite(value.gain));
+}
 
 void Signal<GainEstimate>::WriteJson(const GainEstimate& value, std::string& out) {
   out += systems::Json(value.gain).dump();

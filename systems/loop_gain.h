@@ -99,7 +99,7 @@ namespace oca {
 template <>
 struct Signal<systems::GainEstimate> {
   static constexpr const char* kName = "GainEstimate";
-  static bool Finite(const systems::GainEstimate& value);
+  static Fault Check(const systems::GainEstimate& value, Look look);
   static void WriteJson(const systems::GainEstimate& value, std::string& out);
   static systems::GainEstimate ReadJson(std::string_view text);
 };

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <numbers>
+
 #include "framework/error.h"
 #include "models/robot/robot_model.h"
 
@@ -27,13 +30,35 @@ std::shared_ptr<const models::RobotModel> MovableModel(const ModelSet& models,
                                 model->name().text()));
 }
 
-PortSpec PositionSpec(const models::RobotModel& model) {
+PortSpec DeltaSpec(const models::RobotModel& model) {
   const std::string_view unit = model.position_unit();
   return {model.num_positions(), unit == "mixed" ? Unit::Any() : Unit(std::string(unit))};
 }
 
+PortSpec PositionSpec(const models::RobotModel& model) {
+  constexpr double kFarthest = 1e6;
+  constexpr double kBeyondAngle = 2.0 * std::numbers::pi;
+  constexpr double kBeyondLength = 10.0;  // m
+  Plausible plausible{model.lower_limits(),
+                      model.upper_limits(),
+                      {},
+                      "2 pi rad or 10 m beyond the limits, within 1e6"};
+  for (const models::Joint& joint : model.joints()) {
+    if (joint.position_index < 0) continue;
+    const int i = joint.position_index;
+    const bool slides = joint.type == models::JointType::kPrismatic;
+    const double beyond = slides ? kBeyondLength : kBeyondAngle;
+    plausible.lower[i] = std::max(plausible.lower[i] - beyond, -kFarthest);
+    plausible.upper[i] = std::min(plausible.upper[i] + beyond, kFarthest);
+    plausible.names.push_back("joint '" + joint.name.text() + "'");
+  }
+  PortSpec spec = DeltaSpec(model);
+  spec.plausible = std::make_shared<const Plausible>(std::move(plausible));
+  return spec;
+}
+
 PortSpec RateSpec(const models::RobotModel& model) {
-  const PortSpec position = PositionSpec(model);
+  const PortSpec position = DeltaSpec(model);
   return {position.size, position.unit.Rate()};
 }
 

@@ -18,8 +18,13 @@ namespace oca::systems {
 std::shared_ptr<const models::RobotModel> MovableModel(const ModelSet& models,
                                                        const std::string& name);
 
-/// Length and unit of the joint positions.
+/// Length and unit of the joint positions, and where they can be: 2 pi rad or 10 m beyond the
+/// limits, and never beyond 1e6 (a joint without limits that has turned 160,000 times, or a length
+/// that doubles no longer tell to 1e-10). A reading out there is no posture of the robot.
 PortSpec PositionSpec(const models::RobotModel& model);
+
+/// The same of differences of positions, which can be anything.
+PortSpec DeltaSpec(const models::RobotModel& model);
 
 /// Length and unit of their rates.
 PortSpec RateSpec(const models::RobotModel& model);

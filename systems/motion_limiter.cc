@@ -170,9 +170,10 @@ namespace oca {
 
 using systems::MotionClips;
 
-bool Signal<MotionClips>::Finite(const MotionClips& value) {
-  return std::all_of(value.clips.begin(), value.clips.end(),
-                     [](const auto& clip) { return std::isfinite(clip.amount); });
+Fault Signal<MotionClips>::Check(const MotionClips& value, Look /*look*/) {
+  return Fault::UnlessFinite(
+      std::all_of(value.clips.begin(), value.clips.end(),
+                  [](const auto& clip) { return std::isfinite(clip.amount); }));
 }
 
 void Signal<MotionClips>::WriteJson(const MotionClips& value, std::string& out) {

@@ -123,7 +123,7 @@ namespace oca {
 template <>
 struct Signal<systems::MotionClips> {
   static constexpr const char* kName = "MotionClips";
-  static bool Finite(const systems::MotionClips& value);
+  static Fault Check(const systems::MotionClips& value, Look look);
   static void WriteJson(const systems::MotionClips& value, std::string& out);
   static systems::MotionClips ReadJson(std::string_view text);
 };

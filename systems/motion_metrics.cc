@@ -23,7 +23,7 @@ MotionMetrics::MotionMetrics(const Params& params, const ModelSet& models)
       position(DeclareOptionalInput<Vector>("position", spec_)),
       request(DeclareOptionalInput<Vector>("request", spec_)),
       goal(DeclareOptionalInput<Vector>("goal", spec_)),
-      delta(DeclareOptionalInput<Vector>("delta", spec_)),
+      delta(DeclareOptionalInput<Vector>("delta", PortSpec{spec_.size, spec_.unit})),
       proximities(DeclareOptionalInput<ProximitySet>("proximities")),
       tally(DeclareOutput<MotionTally, &MotionMetrics::CalcTally>(
           "tally", {}, kTime, position, request, goal, delta, proximities, x_)),

@@ -59,11 +59,12 @@ void ReadPair(const JsonReader& pair, models::Name& link, models::Name& obstacle
 
 }  // namespace
 
-bool Signal<MotionMetricsValue>::Finite(const MotionMetricsValue& value) {
-  return std::all_of(kNumbers.begin(), kNumbers.end(), [&](const NumberField& field) {
-    const auto& number = value.*field.member;
-    return !number || AllFinite(&*number, 1);
-  });
+Fault Signal<MotionMetricsValue>::Check(const MotionMetricsValue& value, Look /*look*/) {
+  return Fault::UnlessFinite(
+      std::all_of(kNumbers.begin(), kNumbers.end(), [&](const NumberField& field) {
+        const auto& number = value.*field.member;
+        return !number || AllFinite(&*number, 1);
+      }));
 }
 
 void Signal<MotionMetricsValue>::WriteJson(const MotionMetricsValue& value, std::string& out) {
@@ -102,7 +103,7 @@ MotionMetricsValue Signal<MotionMetricsValue>::ReadJson(std::string_view text) {
   return value;
 }
 
-bool Signal<MotionTally>::Finite(const MotionTally& value) {
+Fault Signal<MotionTally>::Check(const MotionTally& value, Look /*look*/) {
   const auto finite = [](const std::vector<double>& vector) {
     return AllFinite(vector.data(), static_cast<std::size_t>(vector.size()));
   };
@@ -120,8 +121,9 @@ bool Signal<MotionTally>::Finite(const MotionTally& value) {
                            value.limit_violations_,
                            value.goal_time_.value_or(0.0),
                            value.stuck_time_};
-  return AllFinite(numbers.data(), numbers.size()) && finite(value.position_) &&
-         finite(value.velocity_) && finite(value.request_) && finite(value.delta_);
+  return Fault::UnlessFinite(AllFinite(numbers.data(), numbers.size()) && finite(value.position_) &&
+                             finite(value.velocity_) && finite(value.request_) &&
+                             finite(value.delta_));
 }
 
 void Signal<MotionTally>::WriteJson(const MotionTally& value, std::string& out) {

@@ -139,14 +139,14 @@ namespace oca {
 template <>
 struct Signal<systems::MotionMetricsValue> {
   static constexpr const char* kName = "MotionMetrics";
-  static bool Finite(const systems::MotionMetricsValue& value);
+  static Fault Check(const systems::MotionMetricsValue& value, Look look);
   static void WriteJson(const systems::MotionMetricsValue& value, std::string& out);
   static systems::MotionMetricsValue ReadJson(std::string_view text);
 };
 template <>
 struct Signal<systems::MotionTally> {
   static constexpr const char* kName = "MotionTally";
-  static bool Finite(const systems::MotionTally& value);
+  static Fault Check(const systems::MotionTally& value, Look look);
   static void WriteJson(const systems::MotionTally& value, std::string& out);
   static systems::MotionTally ReadJson(std::string_view text);
 };

@@ -38,7 +38,7 @@ double SpeedBound(const Obstacle& obstacle) {
 
 void ObstacleScene::Follow(const ObstacleSet& set) {
   const auto& obstacles = set.obstacles;
-  if (set.layout != 0 && set.layout == layout_) {
+  if (set.layout != 0 && set.layout == layout_ && obstacles.size() == kept_.size()) {
     fastest_ = 0.0;
     for (const int i : set.moving) {
       const Obstacle& obstacle = obstacles[static_cast<std::size_t>(i)];
@@ -99,7 +99,7 @@ using systems::JsonReader;
 using systems::NearObstacles;
 using systems::ObstacleScene;
 
-bool Signal<ObstacleScene>::Finite(const ObstacleScene& /*value*/) { return true; }
+Fault Signal<ObstacleScene>::Check(const ObstacleScene& /*value*/, Look /*look*/) { return {}; }
 
 void Signal<ObstacleScene>::WriteJson(const ObstacleScene& value, std::string& out) {
   out += fmt::format(R"({{"obstacles":{}}})", value.balls().size());
@@ -109,7 +109,7 @@ ObstacleScene Signal<ObstacleScene>::ReadJson(std::string_view /*text*/) {
   throw ConfigError("scene: got one to read; expected none, it follows from the obstacles");
 }
 
-bool Signal<NearObstacles>::Finite(const NearObstacles& /*value*/) { return true; }
+Fault Signal<NearObstacles>::Check(const NearObstacles& /*value*/, Look /*look*/) { return {}; }
 
 void Signal<NearObstacles>::WriteJson(const NearObstacles& value, std::string& out) {
   Json list = Json::array();

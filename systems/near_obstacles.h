@@ -74,14 +74,14 @@ namespace oca {
 template <>
 struct Signal<systems::ObstacleScene> {
   static constexpr const char* kName = "ObstacleScene";
-  static bool Finite(const systems::ObstacleScene& value);
+  static Fault Check(const systems::ObstacleScene& value, Look look);
   static void WriteJson(const systems::ObstacleScene& value, std::string& out);
   static systems::ObstacleScene ReadJson(std::string_view text);
 };
 template <>
 struct Signal<systems::NearObstacles> {
   static constexpr const char* kName = "NearObstacles";
-  static bool Finite(const systems::NearObstacles& value);
+  static Fault Check(const systems::NearObstacles& value, Look look);
   static void WriteJson(const systems::NearObstacles& value, std::string& out);
   static systems::NearObstacles ReadJson(std::string_view text);
 };

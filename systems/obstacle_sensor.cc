@@ -13,9 +13,6 @@
 namespace oca::systems {
 namespace {
 
-// A tick's time is a product of integers; this much forgives its rounding.
-constexpr double kRounding = 1e-9;
-
 ObstacleSensor::Params Checked(const ObstacleSensor::Params& params) {
   RequirePositive("period", params.period);
   RequireNotNegative("latency", params.latency);
@@ -87,13 +84,11 @@ Output<ObstacleSet> ObstacleSensor::DeclareObstacles() {
   return DeclareOutput<ObstacleSet, &ObstacleSensor::CalcNow>("obstacles", {}, kTime, in, line_);
 }
 
-std::int64_t ObstacleSensor::TickOf(double time) const {
-  return static_cast<std::int64_t>(std::floor(time / params_.period.seconds() + kRounding));
-}
+std::int64_t ObstacleSensor::TickOf(double time) const { return params_.period.CountAt(time); }
 
 bool ObstacleSensor::Lost(std::int64_t tick) const {
-  const double time = static_cast<double>(tick) * params_.period.seconds();
-  if (time >= params_.stale_from - kRounding && time < params_.stale_until - kRounding) return true;
+  const double time = params_.period.seconds(tick);
+  if (time >= params_.stale_from && time < params_.stale_until) return true;
   const std::uint64_t seed = static_cast<std::uint64_t>(params_.seed);
   models::Random random(models::Random::Seed(models::Random::Seed(seed, "dropout"),
                                              static_cast<std::uint64_t>(tick)));
@@ -151,8 +146,8 @@ void ObstacleSensor::Sample(double time, const ObstacleSet& truth, SensorLine& l
 
 namespace oca {
 
-bool Signal<systems::SensorLine>::Finite(const systems::SensorLine& line) {
-  return Signal<systems::ObstacleSet>::Finite(line.held);
+Fault Signal<systems::SensorLine>::Check(const systems::SensorLine& line, Look look) {
+  return Signal<systems::ObstacleSet>::Check(line.held, look);
 }
 
 void Signal<systems::SensorLine>::WriteJson(const systems::SensorLine& line, std::string& out) {

@@ -86,7 +86,7 @@ namespace oca {
 template <>
 struct Signal<systems::SensorLine> {
   static constexpr const char* kName = "SensorLine";
-  static bool Finite(const systems::SensorLine& line);
+  static Fault Check(const systems::SensorLine& line, Look look);
   static void WriteJson(const systems::SensorLine& line, std::string& out);
   static systems::SensorLine ReadJson(std::string_view text);
 };

@@ -141,7 +141,21 @@ std::vector<ObstacleSource::Entry> ObstacleSource::MakeEntries(const Params& par
     const std::string where = fmt::format("obstacles[{}] '{}'", i, obstacle.id);
     entries.push_back(MakeEntry(obstacle, FindFrame(frames, obstacle.frame, where + ".frame")));
   }
+  CheckStarts(entries);
   return entries;
+}
+
+/// What files may say of one obstacle is bounded, but frames and motions add up.
+void ObstacleSource::CheckStarts(const std::vector<Entry>& entries) {
+  ObstacleSet set;
+  for (const Entry& entry : entries) {
+    Obstacle& obstacle = set.obstacles.emplace_back();
+    obstacle.body = entry.body;
+    Place(obstacle, entry.X_WF, entry.motion(std::max(entry.appear, 0.0)));
+  }
+  if (const Fault fault = Signal<ObstacleSet>::Check(set, Look::kWhole); !fault.ok()) {
+    throw ConfigError(fault.text());
+  }
 }
 
 ObstacleSource::Entry ObstacleSource::MakeEntry(const ObstacleParams& params,

@@ -80,6 +80,7 @@ class ObstacleSource final : public System {
     bool There(double time) const { return time >= appear && time < disappear; }
   };
   std::vector<Entry> MakeEntries(const Params& params);
+  static void CheckStarts(const std::vector<Entry>& entries);
   Entry MakeEntry(const ObstacleParams& params, const Eigen::Isometry3d& X_WF);
 
   const Period period_;

@@ -24,7 +24,7 @@ namespace oca {
 template <>
 struct Signal<systems::RequestAhead> {
   static constexpr const char* kName = "RequestAhead";
-  static bool Finite(const systems::RequestAhead& /*value*/) { return true; }
+  static Fault Check(const systems::RequestAhead& /*value*/, Look /*look*/) { return {}; }
   static void WriteJson(const systems::RequestAhead& value, std::string& out);
   static systems::RequestAhead ReadJson(std::string_view text);
 };

@@ -132,8 +132,8 @@ SafetyFilter::SafetyFilter(const Params& params, const ModelSet& models)
       solution(DeclareOutput<FilterSolution, &SafetyFilter::CalcSolution>(
           "solution", {}, proximities, links, position, velocity, acceleration, command, clear, c_,
           u_, l_, activity_)),
-      delta(DeclareOutput<Vector, &SafetyFilter::CalcDelta>("delta", PositionSpec(*model_),
-                                                            position, c_, u_)),
+      delta(DeclareOutput<Vector, &SafetyFilter::CalcDelta>("delta", DeltaSpec(*model_), position,
+                                                            c_, u_)),
       activity(DeclareStateOutput("activity", activity_)) {
   const PerComponent& weights = params_.weights;
   if (!weights.scalar() && weights.values().size() != model_->num_positions()) {
@@ -203,9 +203,10 @@ namespace oca {
 using systems::FilterActivity;
 using systems::FilterSolution;
 
-bool Signal<FilterSolution>::Finite(const FilterSolution& value) {
-  return AllFinite(value.velocity.data(), static_cast<std::size_t>(value.velocity.size())) &&
-         Signal<FilterActivity>::Finite(value.activity);
+Fault Signal<FilterSolution>::Check(const FilterSolution& value, Look look) {
+  if (!AllFinite(value.velocity.data(), static_cast<std::size_t>(value.velocity.size())))
+    return Fault::UnlessFinite(false);
+  return Signal<FilterActivity>::Check(value.activity, look);
 }
 
 void Signal<FilterSolution>::WriteJson(const FilterSolution& value, std::string& out) {

@@ -205,7 +205,7 @@ namespace oca {
 template <>
 struct Signal<systems::FilterSolution> {
   static constexpr const char* kName = "FilterSolution";
-  static bool Finite(const systems::FilterSolution& value);
+  static Fault Check(const systems::FilterSolution& value, Look look);
   static void WriteJson(const systems::FilterSolution& value, std::string& out);
   static systems::FilterSolution ReadJson(std::string_view text);
 };

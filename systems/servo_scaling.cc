@@ -54,11 +54,11 @@ ServoScaling::ServoScaling(const Params& params, const ModelSet& models)
       solution(DeclareOutput<AvoidanceVelocity, &ServoScaling::CalcSolution>(
           "solution", {}, proximities, links, ahead, s_)),
       scale(DeclareOutput<Vector, &ServoScaling::CalcScale>("scale", {1, Unit::Any()}, solution)),
-      delta(DeclareOutput<Vector, &ServoScaling::CalcDelta>("delta", PositionSpec(*model_), ahead,
+      delta(DeclareOutput<Vector, &ServoScaling::CalcDelta>("delta", DeltaSpec(*model_), ahead,
                                                             position, s_)),
       path_time(DeclareStateOutput("path_time", s_)) {
   DeclareInitialization<&ServoScaling::Start>(Writes(s_), kTime);
-  DeclareUpdate<&ServoScaling::Update>(Every{params_.period}, Writes(s_), scale);
+  DeclareUpdate<&ServoScaling::Update>(Every{params_.period}, Writes(s_), kTime, scale);
 }
 
 double ServoScaling::Law(double distance, bool own) const {
@@ -115,8 +115,10 @@ void ServoScaling::CalcDelta(const RequestAhead& request, VectorView now, Vector
   out -= now;
 }
 
-void ServoScaling::Update(VectorView value, MutableVectorView s) const {
-  s[0] += value[0] * params_.period.seconds();
+/// What is not slowed stays exactly on time: it is the lag that adds up.
+void ServoScaling::Update(double time, VectorView value, MutableVectorView s) const {
+  const double lag = time - s[0] + (1.0 - value[0]) * params_.period.seconds();
+  s[0] = params_.period.TickAfter(time) - lag;
 }
 
 }  // namespace oca::systems

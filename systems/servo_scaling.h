@@ -79,7 +79,7 @@ class ServoScaling final : public System {
   void CalcScale(const AvoidanceVelocity& result, MutableVectorView out) const;
   void CalcDelta(const RequestAhead& request, VectorView now, VectorView s,
                  MutableVectorView out) const;
-  void Update(VectorView scale_value, MutableVectorView s) const;
+  void Update(double time, VectorView scale_value, MutableVectorView s) const;
 
  public:
   const Input<ProximitySet> proximities;

@@ -16,10 +16,6 @@
 namespace oca::systems {
 namespace {
 
-bool Finite3(const Eigen::Vector3d& vector) { return AllFinite(vector.data(), 3); }
-
-bool FinitePose(const Eigen::Isometry3d& pose) { return AllFinite(pose.data(), 16); }
-
 Json ToJson(const SolidParams& shape) {
   Json json{{"type", EnumNames(shape.type)[static_cast<int>(shape.type)]}};
   if (shape.radius) json["radius"] = *shape.radius;
@@ -175,12 +171,6 @@ namespace oca {
 using namespace systems;  // NOLINT: the traits of this file's own types
 using systems::ToJson;
 
-bool Signal<ObstacleSet>::Finite(const ObstacleSet& value) {
-  return std::all_of(value.obstacles.begin(), value.obstacles.end(), [](const Obstacle& o) {
-    return FinitePose(o.X_WO) && Finite3(o.linear) && Finite3(o.angular);
-  });
-}
-
 void Signal<ObstacleSet>::WriteJson(const ObstacleSet& value, std::string& out) {
   WriteList(value.obstacles, out, [](const Obstacle& o) { return ToJson(o); });
 }
@@ -194,12 +184,6 @@ ObstacleSet Signal<ObstacleSet>::ReadJson(std::string_view text) {
     if (!ids.insert(id).second) item.Fail("the id '" + id + "' again", "unique ids");
   });
   return set;
-}
-
-bool Signal<LinkPoses>::Finite(const LinkPoses& value) {
-  return std::all_of(value.poses.begin(), value.poses.end(), FinitePose) &&
-         std::all_of(value.velocities.begin(), value.velocities.end(),
-                     [](const auto& V) { return Finite3(V.linear) && Finite3(V.angular); });
 }
 
 void Signal<LinkPoses>::WriteJson(const LinkPoses& value, std::string& out) {
@@ -224,15 +208,6 @@ LinkPoses Signal<LinkPoses>::ReadJson(std::string_view text) {
   return links;
 }
 
-bool Signal<ProximitySet>::Finite(const ProximitySet& value) {
-  return AllFinite(&value.max_distance, 1) && AllFinite(&value.fastest, 1) &&
-         std::all_of(value.proximities.begin(), value.proximities.end(), [](const Proximity& p) {
-           return AllFinite(&p.distance, 1) && Finite3(p.point_on_link) &&
-                  Finite3(p.point_on_obstacle) && Finite3(p.normal) &&
-                  Finite3(p.obstacle_velocity) && AllFinite(&p.obstacle_speed, 1);
-         });
-}
-
 void Signal<ProximitySet>::WriteJson(const ProximitySet& value, std::string& out) {
   WriteList(value.proximities, out, [](const Proximity& p) -> Json {
     return {{"link", p.link.text()},
@@ -252,11 +227,6 @@ ProximitySet Signal<ProximitySet>::ReadJson(std::string_view text) {
   return set;
 }
 
-bool Signal<LinkForceSet>::Finite(const LinkForceSet& value) {
-  return std::all_of(value.forces.begin(), value.forces.end(),
-                     [](const LinkForce& f) { return Finite3(f.force) && Finite3(f.point); });
-}
-
 void Signal<LinkForceSet>::WriteJson(const LinkForceSet& value, std::string& out) {
   WriteList(value.forces, out, [](const LinkForce& f) -> Json {
     return {{"link", f.link.text()},
@@ -270,12 +240,6 @@ LinkForceSet Signal<LinkForceSet>::ReadJson(std::string_view text) {
   LinkForceSet set;
   ReadList(text, "forces", [&](const JsonReader& item) { set.forces.push_back(ReadForce(item)); });
   return set;
-}
-
-bool Signal<WrenchSet>::Finite(const WrenchSet& value) {
-  return std::all_of(value.wrenches.begin(), value.wrenches.end(), [](const LinkWrench& w) {
-    return Finite3(w.force) && Finite3(w.torque) && Finite3(w.origin);
-  });
 }
 
 void Signal<WrenchSet>::WriteJson(const WrenchSet& value, std::string& out) {

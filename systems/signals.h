@@ -137,35 +137,37 @@ namespace oca {
 template <>
 struct Signal<systems::ObstacleSet> {
   static constexpr const char* kName = "ObstacleSet";
-  static bool Finite(const systems::ObstacleSet& value);
+  static Fault Check(const systems::ObstacleSet& value, Look look);
+  /// `layout` is between systems: a caller who moves an obstacle need not know of it.
+  static void FromOutside(systems::ObstacleSet& value);
   static void WriteJson(const systems::ObstacleSet& value, std::string& out);
   static systems::ObstacleSet ReadJson(std::string_view text);
 };
 template <>
 struct Signal<systems::LinkPoses> {
   static constexpr const char* kName = "LinkPoses";
-  static bool Finite(const systems::LinkPoses& value);
+  static Fault Check(const systems::LinkPoses& value, Look look);
   static void WriteJson(const systems::LinkPoses& value, std::string& out);
   static systems::LinkPoses ReadJson(std::string_view text);
 };
 template <>
 struct Signal<systems::ProximitySet> {
   static constexpr const char* kName = "ProximitySet";
-  static bool Finite(const systems::ProximitySet& value);
+  static Fault Check(const systems::ProximitySet& value, Look look);
   static void WriteJson(const systems::ProximitySet& value, std::string& out);
   static systems::ProximitySet ReadJson(std::string_view text);
 };
 template <>
 struct Signal<systems::LinkForceSet> {
   static constexpr const char* kName = "LinkForceSet";
-  static bool Finite(const systems::LinkForceSet& value);
+  static Fault Check(const systems::LinkForceSet& value, Look look);
   static void WriteJson(const systems::LinkForceSet& value, std::string& out);
   static systems::LinkForceSet ReadJson(std::string_view text);
 };
 template <>
 struct Signal<systems::WrenchSet> {
   static constexpr const char* kName = "WrenchSet";
-  static bool Finite(const systems::WrenchSet& value);
+  static Fault Check(const systems::WrenchSet& value, Look look);
   static void WriteJson(const systems::WrenchSet& value, std::string& out);
   static systems::WrenchSet ReadJson(std::string_view text);
 };

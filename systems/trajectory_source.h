@@ -80,7 +80,7 @@ class TrajectorySource final : public System {
   void CalcAhead(RequestAhead& out) const { out = ahead_; }
   void Sample(double time, MutableVectorView next_position, MutableVectorView next_velocity,
               MutableVectorView next_acceleration) const {
-    const double end = time + params_.period.seconds();
+    const double end = params_.period.TickAfter(time);
     trajectory_.Evaluate(end, 0, next_position);
     trajectory_.Evaluate(end, 1, next_velocity);
     trajectory_.Evaluate(end, 2, next_acceleration);

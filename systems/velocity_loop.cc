@@ -50,8 +50,8 @@ VelocityLoop::VelocityLoop(const Params& params, const ModelSet& models)
       chosen(DeclareInput<Vector>("chosen", RateSpec(*model_))),
       wish(DeclareOutput<Vector, &VelocityLoop::CalcWish>("wish", RateSpec(*model_), position,
                                                           velocity, acceleration, command, c_, u_)),
-      delta(DeclareOutput<Vector, &VelocityLoop::CalcDelta>("delta", PositionSpec(*model_),
-                                                            position, c_, u_)) {
+      delta(DeclareOutput<Vector, &VelocityLoop::CalcDelta>("delta", DeltaSpec(*model_), position,
+                                                            c_, u_)) {
   DeclareInitialization<&VelocityLoop::Start>(Writes(c_), measured_position);
   DeclareUpdate<&VelocityLoop::Update>(Every{params_.period}, Writes(c_, u_), chosen, command);
 }

@@ -159,7 +159,9 @@ namespace oca {
 
 using systems::VortexAxes;
 
-bool Signal<VortexAxes>::Finite(const VortexAxes& value) { return value.axes.allFinite(); }
+Fault Signal<VortexAxes>::Check(const VortexAxes& value, Look /*look*/) {
+  return Fault::UnlessFinite(value.axes.allFinite());
+}
 
 void Signal<VortexAxes>::WriteJson(const VortexAxes& value, std::string& out) {
   systems::Json list = systems::Json::array();

@@ -116,7 +116,7 @@ namespace oca {
 template <>
 struct Signal<systems::VortexAxes> {
   static constexpr const char* kName = "VortexAxes";
-  static bool Finite(const systems::VortexAxes& value);
+  static Fault Check(const systems::VortexAxes& value, Look look);
   static void WriteJson(const systems::VortexAxes& value, std::string& out);
   static systems::VortexAxes ReadJson(std::string_view text);
 };

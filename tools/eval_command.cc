@@ -2,8 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <iostream>
-#include <limits>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -52,7 +53,8 @@ bool NestsTooDeep(const std::string& line) {
 }
 
 /// One system on its own. A line's inputs are held; `time` moves the clock there first. If the
-/// system has discrete updates a line is one period: computed outputs are shown as the updates of
+/// system has discrete updates a line is one period, the tick after that of the line before:
+/// computed outputs are shown as the updates of
 /// the line's tick read them, held ones as the period leaves them.
 class Evaluator {
  public:
@@ -63,7 +65,8 @@ class Evaluator {
     for (const auto& input : probe->inputs()) input_names_.push_back(input.name);
     for (const auto& event : probe->events()) {
       if (event.stage == System::Stage::kUpdate || event.stage == System::Stage::kReset) {
-        period_ = std::min(period_, event.every.period.seconds());
+        const Period& period = event.every.period;
+        if (!Ticks() || period.seconds() < period_.seconds()) period_ = period;
       }
     }
   }
@@ -81,16 +84,44 @@ class Evaluator {
     // A line that is refused leaves everything as it was.
     if (!simulator_) Start(given);
     const Context before = simulator_->context();
+    const Clock stood = clock_;
     try {
       return Advance(given);
     } catch (...) {
       simulator_->context() = before;
+      clock_ = stood;
       if (!served_) simulator_.reset();
       throw;
     }
   }
 
  private:
+  /// Where a line stands, counted: `periods` after `start`, which is 0 for the ticks themselves.
+  struct Clock {
+    double start{0.0};
+    std::int64_t periods{0};
+  };
+
+  /// Whether a line is a period.
+  bool Ticks() const { return period_.positive(); }
+
+  double TimeOf(const Clock& clock) const {
+    return clock.start + static_cast<double>(clock.periods * period_.numerator()) /
+                             static_cast<double>(period_.denominator());
+  }
+
+  /// A time that misses a tick by the rounding of who added up periods is that tick.
+  Clock ClockAt(double time) const {
+    constexpr double kRounding = 1e-9;  // of a period
+    constexpr double kExact = 9e15;     // that a double counts to
+    if (!Ticks()) return {time, 0};
+    const double ticks = time / period_.seconds();
+    const double nearest = std::round(ticks);
+    const bool on_tick = std::fabs(nearest) * static_cast<double>(period_.numerator()) <= kExact &&
+                         std::fabs(ticks - nearest) <= kRounding;
+    return on_tick ? Clock{0.0, static_cast<std::int64_t>(nearest)} : Clock{time, 0};
+  }
+
   bool HasInput(const std::string& name) const {
     return std::find(input_names_.begin(), input_names_.end(), name) != input_names_.end();
   }
@@ -123,8 +154,9 @@ class Evaluator {
     const auto time = given.find("time");
     const bool timed = time != given.end() && !HasInput("time");
     if (timed && !time->is_number()) throw ConfigError("time: expected a number of seconds");
-    if (timed && !served_) simulator_->context().SetTime(std::min(0.0, time->get<double>()));
-    if (timed && period_ < kNever && served_) simulator_->AdvanceTo(time->get<double>());
+    const Clock clock = timed ? ClockAt(time->get<double>()) : clock_;
+    if (timed && !served_) simulator_->context().SetTime(std::min(0.0, TimeOf(clock)));
+    if (timed && Ticks() && served_) simulator_->AdvanceTo(TimeOf(clock));
     for (const auto& input : diagram_->inputs()) {
       const auto value = given.find(input.name);
       if (value == given.end()) {
@@ -140,13 +172,17 @@ class Evaluator {
     }
     if (!served_) simulator_->Initialize();
     if (timed && stateless_) {
-      simulator_->context().SetTime(time->get<double>());  // back in time, too
-    } else if (timed && (period_ == kNever || !served_)) {
-      simulator_->AdvanceTo(time->get<double>());
+      simulator_->context().SetTime(TimeOf(clock));  // back in time, too
+    } else if (timed && (!Ticks() || !served_)) {
+      simulator_->AdvanceTo(TimeOf(clock));
     }
     ordered_json outputs = ordered_json::object();
     for (const auto& output : diagram_->outputs()) Show(output.name, outputs, false);
-    if (period_ < kNever) simulator_->AdvanceTo(simulator_->context().time() + period_);
+    clock_ = clock;
+    if (Ticks()) {
+      ++clock_.periods;
+      simulator_->AdvanceTo(TimeOf(clock_));
+    }
     for (const auto& output : diagram_->outputs()) Show(output.name, outputs, true);
     served_ = true;
     return outputs;
@@ -160,13 +196,12 @@ class Evaluator {
     outputs[name] = ordered_json::parse(text);
   }
 
-  static constexpr double kNever = std::numeric_limits<double>::infinity();
-
   const diagrams::CatalogueRow& row_;
   const Value params_;
   const systems::ModelSet models_;
   std::vector<std::string> input_names_;
-  double period_{kNever};
+  Period period_{};  ///< 0: nothing ticks
+  Clock clock_{};
   bool stateless_{false};
   std::unique_ptr<Diagram> diagram_;
   std::unique_ptr<Simulator> simulator_;

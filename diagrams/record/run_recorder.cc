@@ -144,7 +144,7 @@ void RunRecorder::Attach(Simulator& simulator, bool paced, double duration) {
   }
   simulator.AddPublish(kNeverAgain, [this](const Context& context) { SampleScene(context); });
   simulator.AddMonitor([this](const Context& context) {
-    if (context.time() >= static_cast<double>(scene_count_) * loaded_.scene_period.seconds()) {
+    if (context.time() >= loaded_.scene_period.seconds(scene_count_)) {
       SampleScene(context);
     }
     return true;
@@ -198,9 +198,7 @@ void RunRecorder::SampleScene(const Context& context) {
   if (context.time() == scene_time_) return;
   Store(scene_group_, context);
   scene_time_ = context.time();
-  const double period = loaded_.scene_period.seconds();
-  scene_count_ = static_cast<std::int64_t>(std::floor(scene_time_ / period)) + 1;
-  while (static_cast<double>(scene_count_) * period <= scene_time_) ++scene_count_;
+  scene_count_ = loaded_.scene_period.CountAt(scene_time_) + 1;
 }
 
 bool RunRecorder::enabled(LogLevel level) const {

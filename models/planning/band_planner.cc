@@ -18,6 +18,7 @@ constexpr double kFine = 0.1;  // of the first fine_span while something moves
 constexpr double kGrowth = 1.3;
 constexpr double kCoarse = 0.4;
 constexpr int kFewest = 8;
+constexpr std::size_t kMostGrowing = 10;  // intervals from kFine to kCoarse, and a few
 
 constexpr int kFewestSteps = 5;  // on a start, less is no trial
 // Of paths where the work of a plan is bounded.
@@ -70,7 +71,10 @@ std::vector<double> BandPlanner::TimesOf(const BandTask& task) const {
   const double horizon = HorizonOf(task, moving);
   std::vector<double> times{task.start};
   double step = kFine;
-  while (moving && times.back() - task.start + step < horizon && step < kCoarse) {
+  // Even where the start is so late that a step does not show.
+  const auto most = static_cast<std::size_t>(settings_.fine_span / kFine) + kMostGrowing;
+  while (moving && times.back() - task.start + step < horizon && step < kCoarse &&
+         times.size() < most) {
     times.push_back(times.back() + step);
     if (times.back() - task.start > settings_.fine_span) step *= kGrowth;
   }

@@ -42,15 +42,16 @@ class Tree {
     return nearest;
   }
 
-  /// Grows from the nearest node towards q as far as it is clear; whether it arrived, and grew.
+  /// Grows from the nearest node towards q as far as it is clear, and as `most` nodes go however
+  /// far q is; whether it arrived, and grew.
   struct Growth {
     bool arrived;
     bool grew;
   };
-  Growth Grow(const Eigen::VectorXd& q, double step, CertifiedMotion& motion) {
+  Growth Grow(const Eigen::VectorXd& q, double step, int most, CertifiedMotion& motion) {
     int from = Nearest(q);
     bool grew = false;
-    for (;;) {
+    while (size() < most) {
       const Eigen::VectorXd way = q - nodes_[from].q;
       const double length = way.norm();
       if (length == 0.0) return {true, grew};
@@ -65,6 +66,7 @@ class Tree {
       grew = true;
       if (!whole || share == 1.0) return {whole, grew};
     }
+    return {false, grew};
   }
 
   /// From the root to a node.
@@ -120,9 +122,13 @@ std::optional<Path> RrtConnect(Clearance& clearance, const Eigen::VectorXd& star
     if (from_start.size() + from_goal.size() >= options.most_nodes) break;
     Tree& growing = start_grows ? from_start : from_goal;
     Tree& other = start_grows ? from_goal : from_start;
-    if (growing.Grow(room.Draw(random), options.step, motion).grew) {
+    const auto grow = [&](Tree& tree, const Eigen::VectorXd& towards) {
+      const int most = options.most_nodes - (&tree == &growing ? other : growing).size();
+      return tree.Grow(towards, options.step, most, motion);
+    };
+    if (grow(growing, room.Draw(random)).grew) {
       const Eigen::VectorXd meeting = growing.q(growing.last());
-      if (other.Grow(meeting, options.step, motion).arrived) {
+      if (grow(other, meeting).arrived) {
         const int other_node = other.Nearest(meeting);
         Path path = start_grows ? Join(from_start, growing.last(), from_goal, other_node)
                                 : Join(from_start, other_node, from_goal, growing.last());

@@ -26,7 +26,9 @@ struct Label {
 template <>
 struct Signal<Label> {
   static constexpr const char* kName = "Label";
-  static bool Finite(const Label& label) { return label.text != "nan"; }
+  static Fault Check(const Label& label, Look /*look*/) {
+    return Fault::UnlessFinite(label.text != "nan");
+  }
   static void WriteJson(const Label& label, std::string& out) { out += '"' + label.text + '"'; }
   static Label ReadJson(std::string_view text) { return {std::string(text)}; }
 };

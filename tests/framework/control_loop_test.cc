@@ -215,6 +215,67 @@ TEST(ControlLoopTest, RefusesPeriodsThatAreNotMultiplesOfItsOwn) {
 }
 
 /// A guard on the time.
+/// Takes angles between -1 and 1, and refuses a Label that says nan.
+class Choosy final : public System {
+ public:
+  Choosy() : out(DeclareOutput<Vector, &Choosy::Calc>("out", 2, angles)) {}
+
+ private:
+  static PortSpec Spec() {
+    const Plausible plausible{
+        Vec({-1.0, -1.0}), Vec({1.0, 2.0}), {"joint 'a'", "joint 'b'"}, "by design"};
+    return {2, Unit::Any(), std::make_shared<const Plausible>(plausible)};
+  }
+  void Calc(VectorView in, MutableVectorView value) const { value = in; }
+
+ public:
+  const Input<Vector> angles{DeclareInput<Vector>("angles", Spec())};
+  const Output<Vector> out;
+};
+
+TEST(ControlLoopTest, RefusesWhatAPortCannotBeByNameAndKeepsTheLastValue) {
+  DiagramBuilder builder;
+  const auto& twice = builder.Add<blocks::Map>("twice", [](double x) { return 2.0 * x; });
+  const auto& choosy = builder.Add<Choosy>("choosy");
+  builder.ExportInput("q", choosy.angles);
+  builder.ExportInput("q", twice.in);
+  builder.ExportOutput("out", choosy.out);
+  const auto diagram = builder.Build();
+  ControlLoop loop(*diagram, kMillisecond);
+  const auto q = diagram->GetInput<Vector>("q");
+  const auto out = diagram->GetOutput<Vector>("out");
+  loop.Watch(out);
+  EXPECT_TRUE(loop.Set(q, Vec({-1.0, 2.0})).ok());
+  loop.Initialize();
+  const Status status = loop.Set(q, Vec({0.0, 2.5}));
+  EXPECT_THAT(status.port(), StrEq("q"));
+  EXPECT_THAT(status.message(),
+              StrEq("input q at t = 0 s: joint 'b'; got 2.5; expected -1 to 2, by design"));
+  EXPECT_FALSE(loop.Set(q, Vec({-1.0001, 0.0})).ok());
+  ASSERT_TRUE(loop.Tick().ok());
+  EXPECT_EQ(loop.Get(out), Vec({-1.0, 2.0}));
+  Context context = diagram->MakeContext();
+  EXPECT_THROW(q.Fix(context, Vec({0.0, 2.5})), ConfigError);
+}
+
+TEST(ControlLoopTest, RefusesAStartThatAPortCannotBe) {
+  DiagramBuilder builder;
+  const auto& hold = builder.Add<blocks::Delay>("hold", Every{kMillisecond}, Vec({0.0, 7.0}));
+  const auto& choosy = builder.Add<Choosy>("choosy");
+  builder.Connect(hold.out, choosy.angles);
+  builder.ExportInput("in", hold.in);
+  const auto diagram = builder.Build();
+  ControlLoop loop(*diagram, kMillisecond);
+  ASSERT_TRUE(loop.Set(diagram->GetInput<Vector>("in"), Vec({0.0, 0.0})).ok());
+  try {
+    loop.Initialize();
+    FAIL();
+  } catch (const SimulationError& error) {
+    EXPECT_THAT(error.what(), StrEq("hold.out at t = 0 s: joint 'b'; got 7; expected -1 to 2, by "
+                                    "design"));
+  }
+}
+
 class Alarm final : public System {
  public:
   Alarm() { DeclareWitness<&Alarm::Left>("left", Direction::kBoth, kTime); }

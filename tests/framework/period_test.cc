@@ -29,6 +29,24 @@ TEST(PeriodTest, FromSecondsFindsTheSimplestRatio) {
   EXPECT_EQ(Period::FromSeconds(-0.25), Period(-1, 4));
 }
 
+TEST(PeriodTest, ItsTicksAreRationalsAndNoSums) {
+  const Period tenth(1, 10);
+  double sum = 0.0;
+  for (int k = 0; k < 1000; ++k) {
+    EXPECT_EQ(tenth.seconds(k), k / 10.0);
+    EXPECT_EQ(tenth.CountAt(k / 10.0), k);
+    EXPECT_EQ(tenth.CountAt(std::nextafter(k / 10.0, -1.0)), k - 1);
+    EXPECT_EQ(tenth.TickAfter(k / 10.0), (k + 1) / 10.0);
+    sum += 0.1;
+  }
+  EXPECT_NE(sum, 100.0);  // what the above is good for
+  EXPECT_NE(3 * 0.1, 0.3);
+  EXPECT_EQ(Period(1, 60).CountAt(86400.0), 86400 * 60);
+  EXPECT_EQ(tenth.CountAt(0.25), 2);
+  EXPECT_EQ(tenth.CountAt(-0.25), -3);
+  EXPECT_GT(tenth.CountAt(1e300), std::int64_t{1} << 52);
+}
+
 TEST(PeriodTest, FromSecondsForgivesOneRoundingInAFormula) {
   EXPECT_EQ(Period::FromSeconds(0.1 + 0.2), Period(3, 10));
   EXPECT_EQ(Period::FromSeconds(3 * 0.1), Period(3, 10));

@@ -120,9 +120,9 @@ TEST(SignalTest, TheTypeEntryHandlesValuesWithoutTheirCppType) {
   std::string json;
   type.write_json(memory[1], json);
   EXPECT_EQ(json, "\"hello\"");
-  EXPECT_TRUE(type.finite(memory[1]));
+  EXPECT_TRUE(type.check(memory[1], Look::kFinite).ok());
   type.read_json("nan", memory[1]);
-  EXPECT_FALSE(type.finite(memory[1]));
+  EXPECT_FALSE(type.check(memory[1], Look::kFinite).ok());
   type.destroy(memory[0]);
   type.destroy(memory[1]);
 }

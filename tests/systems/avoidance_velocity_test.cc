@@ -27,9 +27,9 @@ TEST(AvoidanceVelocityTest, RefusesAnUnknownKeyAndTellsNumbersThatAreNone) {
   EXPECT_THROW(Signal<AvoidanceVelocity>::ReadJson(R"({"velocity":[],"share":0,"rows":0,"x":1})"),
                ConfigError);
   AvoidanceVelocity value;
-  EXPECT_TRUE(Signal<AvoidanceVelocity>::Finite(value));
+  EXPECT_TRUE(Signal<AvoidanceVelocity>::Check(value, Look::kFinite).ok());
   value.velocity = Eigen::Vector2d(0, std::nan(""));
-  EXPECT_FALSE(Signal<AvoidanceVelocity>::Finite(value));
+  EXPECT_FALSE(Signal<AvoidanceVelocity>::Check(value, Look::kFinite).ok());
 }
 
 }  // namespace

@@ -51,10 +51,10 @@ TEST(BandMemoryTest, RefusesAStartThatThereIsNot) {
 
 TEST(BandMemoryTest, ABandThatIsNotFiniteIsNoSignal) {
   BandMemory memory;
-  EXPECT_TRUE(Signal<BandMemory>::Finite(memory));
+  EXPECT_TRUE(Signal<BandMemory>::Check(memory, Look::kFinite).ok());
   memory.next = Curve(0.0);
   memory.next.controls()(0, 0) = std::nan("");
-  EXPECT_FALSE(Signal<BandMemory>::Finite(memory));
+  EXPECT_FALSE(Signal<BandMemory>::Check(memory, Look::kFinite).ok());
 }
 
 }  // namespace

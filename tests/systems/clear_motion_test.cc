@@ -41,9 +41,10 @@ TEST(ClearMotionTest, RefusesWhatIsNoSuchText) {
 }
 
 TEST(ClearMotionTest, TellsNumbersThatAreNone) {
-  EXPECT_TRUE(Signal<ClearMotion>::Finite({.clear_for = 1.0}));
-  EXPECT_FALSE(
-      Signal<ClearMotion>::Finite({.clear_for = std::numeric_limits<double>::quiet_NaN()}));
+  EXPECT_TRUE(Signal<ClearMotion>::Check({.clear_for = 1.0}, Look::kFinite).ok());
+  EXPECT_FALSE(Signal<ClearMotion>::Check({.clear_for = std::numeric_limits<double>::quiet_NaN()},
+                                          Look::kFinite)
+                   .ok());
 }
 
 }  // namespace

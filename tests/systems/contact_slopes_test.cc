@@ -38,9 +38,9 @@ TEST(ContactSlopesTest, RefusesAMissingKey) {
 
 TEST(ContactSlopesTest, IsNotFiniteWithOneNumberThatIsNot) {
   ContactSlopes value = One();
-  EXPECT_TRUE(SlopesSignal::Finite(value));
+  EXPECT_TRUE(SlopesSignal::Check(value, Look::kFinite).ok());
   value.slopes[0].damping[2] = std::numeric_limits<double>::infinity();
-  EXPECT_FALSE(SlopesSignal::Finite(value));
+  EXPECT_FALSE(SlopesSignal::Check(value, Look::kFinite).ok());
 }
 
 }  // namespace

@@ -23,9 +23,9 @@ TEST(DelayLineTest, GivesBackTheOldestOfItsSamples) {
 TEST(DelayLineTest, SaysWhetherASampleIsNotFinite) {
   DelayLine line;
   line.Fill(2, 2, Eigen::VectorXd(Vector2d(1.0, 2.0)));
-  EXPECT_TRUE(Signal<DelayLine>::Finite(line));
+  EXPECT_TRUE(Signal<DelayLine>::Check(line, Look::kFinite).ok());
   line.Push(Vector2d(1.0, std::numeric_limits<double>::quiet_NaN()));
-  EXPECT_FALSE(Signal<DelayLine>::Finite(line));
+  EXPECT_FALSE(Signal<DelayLine>::Check(line, Look::kFinite).ok());
 }
 
 TEST(DelayLineTest, AScalarInitialValueCountsForEveryComponent) {

@@ -34,13 +34,13 @@ TEST(FilterActivityTest, RefusesAStatusOrAKindThatThereIsNot) {
 
 TEST(FilterActivityTest, IsNotFiniteIfANumberOfItIsNot) {
   FilterActivity activity = Signal<FilterActivity>::ReadJson(kText);
-  EXPECT_TRUE(Signal<FilterActivity>::Finite(activity));
+  EXPECT_TRUE(Signal<FilterActivity>::Check(activity, Look::kFinite).ok());
   activity.bounds[1].multiplier = std::nan("");
-  EXPECT_FALSE(Signal<FilterActivity>::Finite(activity));
+  EXPECT_FALSE(Signal<FilterActivity>::Check(activity, Look::kFinite).ok());
   activity.num_bounds = 1;  // those beyond do not count
-  EXPECT_TRUE(Signal<FilterActivity>::Finite(activity));
+  EXPECT_TRUE(Signal<FilterActivity>::Check(activity, Look::kFinite).ok());
   activity.gap = INFINITY;
-  EXPECT_FALSE(Signal<FilterActivity>::Finite(activity));
+  EXPECT_FALSE(Signal<FilterActivity>::Check(activity, Look::kFinite).ok());
 }
 
 }  // namespace

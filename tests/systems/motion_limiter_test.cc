@@ -197,7 +197,7 @@ TEST_F(MotionLimiterTest, WritesAndReadsItsClips) {
       Signal<MotionClips>::ReadJson(R"([{"joint":2,"limit":"taste","yields":"none","amount":0}])"),
       ConfigError);
   clips.clips[0].amount = std::nan("");
-  EXPECT_FALSE(Signal<MotionClips>::Finite(clips));
+  EXPECT_FALSE(Signal<MotionClips>::Check(clips, Look::kFinite).ok());
 }
 
 }  // namespace

@@ -268,25 +268,25 @@ TEST(SignalsTest, RefusesShapesWithMissingSurplusOrBadSizes) {
 TEST(SignalsTest, SeesANumberThatIsNotFiniteAnywhere) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   auto obstacles = Signal<ObstacleSet>::ReadJson(kObstacle);
-  EXPECT_TRUE(Signal<ObstacleSet>::Finite(obstacles));
+  EXPECT_TRUE(Signal<ObstacleSet>::Check(obstacles, Look::kFinite).ok());
   obstacles.obstacles[0].angular.z() = kNaN;
-  EXPECT_FALSE(Signal<ObstacleSet>::Finite(obstacles));
+  EXPECT_FALSE(Signal<ObstacleSet>::Check(obstacles, Look::kFinite).ok());
   auto proximities = Signal<ProximitySet>::ReadJson(kProximity);
-  EXPECT_TRUE(Signal<ProximitySet>::Finite(proximities));
+  EXPECT_TRUE(Signal<ProximitySet>::Check(proximities, Look::kFinite).ok());
   proximities.proximities[0].distance = kNaN;
-  EXPECT_FALSE(Signal<ProximitySet>::Finite(proximities));
+  EXPECT_FALSE(Signal<ProximitySet>::Check(proximities, Look::kFinite).ok());
   auto links = Signal<LinkPoses>::ReadJson(kLinks);
-  EXPECT_TRUE(Signal<LinkPoses>::Finite(links));
+  EXPECT_TRUE(Signal<LinkPoses>::Check(links, Look::kFinite).ok());
   links.poses[0].translation().x() = kNaN;
-  EXPECT_FALSE(Signal<LinkPoses>::Finite(links));
+  EXPECT_FALSE(Signal<LinkPoses>::Check(links, Look::kFinite).ok());
   auto forces = Signal<LinkForceSet>::ReadJson(kForce);
-  EXPECT_TRUE(Signal<LinkForceSet>::Finite(forces));
+  EXPECT_TRUE(Signal<LinkForceSet>::Check(forces, Look::kFinite).ok());
   forces.forces[0].point.y() = kNaN;
-  EXPECT_FALSE(Signal<LinkForceSet>::Finite(forces));
+  EXPECT_FALSE(Signal<LinkForceSet>::Check(forces, Look::kFinite).ok());
   auto wrenches = Signal<WrenchSet>::ReadJson(kWrench);
-  EXPECT_TRUE(Signal<WrenchSet>::Finite(wrenches));
+  EXPECT_TRUE(Signal<WrenchSet>::Check(wrenches, Look::kFinite).ok());
   wrenches.wrenches[0].origin.y() = kNaN;
-  EXPECT_FALSE(Signal<WrenchSet>::Finite(wrenches));
+  EXPECT_FALSE(Signal<WrenchSet>::Check(wrenches, Look::kFinite).ok());
 }
 
 TEST(SignalsTest, ALinkWithoutTwistRestsAndATwistIsRead) {

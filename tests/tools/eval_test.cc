@@ -61,6 +61,58 @@ TEST_F(EvalTest, EachLineIsAPeriodOfTheDeltaLimiter) {
   EXPECT_EQ(answers[3]["limited_delta"][1].get<double>(), 0.0);
 }
 
+TEST_F(EvalTest, EveryLineIsOneTickHoweverManyCameBefore) {
+  for (const char* period : {"0.1", "0.01", "0.3", "0.016666666666666666"}) {
+    std::string lines;
+    for (int i = 0; i < 500; ++i) lines += "{\"in\":[" + std::to_string(i) + "]}\n";
+    const auto answers =
+        Eval("ZeroOrderHold --params '{\"period\":" + std::string(period) + "}'", lines);
+    ASSERT_EQ(answers.size(), 500u);
+    for (int i = 0; i < 500; ++i) ASSERT_EQ(answers[i]["out"][0], i) << period;
+  }
+}
+
+TEST_F(EvalTest, TheTicksMayBeGivenAsTimesAndBeAddedUp) {
+  std::string exact, summed;
+  double sum = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    exact += json{{"time", i / 10.0}, {"delta", {99}}}.dump() + "\n";
+    summed += json{{"time", sum}, {"delta", {99}}}.dump() + "\n";
+    sum += 0.1;
+  }
+  for (const std::string& lines : {exact, summed}) {
+    const auto answers =
+        Eval("DeltaLimiter --params '{\"max_joint_velocity\":1,\"period\":0.1}'", lines);
+    ASSERT_EQ(answers.size(), 200u);
+    for (int i = 0; i < 200; ++i) {
+      ASSERT_NEAR(answers[i]["limited_delta"][0].get<double>(), 0.1 * (i + 1), 1e-12);
+    }
+  }
+}
+
+TEST_F(EvalTest, ALineThatIsRefusedIsNoTick) {
+  const auto answers = Eval("DeltaLimiter --params '{\"max_joint_velocity\":1,\"period\":0.1}'",
+                            "{\"delta\":[9]}\n{\"time\":0.05,\"delta\":[9]}\n{\"delta\":[1,2]}\n"
+                            "{\"time\":0.55,\"delta\":[9]}\n{\"delta\":[9]}\n");
+  ASSERT_EQ(answers.size(), 5u);
+  EXPECT_NEAR(answers[0]["limited_delta"][0].get<double>(), 0.1, 1e-15);
+  EXPECT_TRUE(answers[1].contains("error"));  // the first line ended at 0.1 s
+  EXPECT_TRUE(answers[2].contains("error"));
+  // The ticks at 0.1 to 0.5 s, then one a line.
+  EXPECT_NEAR(answers[3]["limited_delta"][0].get<double>(), 0.7, 1e-12);
+  EXPECT_NEAR(answers[4]["limited_delta"][0].get<double>(), 0.8, 1e-12);
+}
+
+TEST_F(EvalTest, JointsFarBeyondTheirLimitsAreRefusedByName) {
+  const auto answers = Eval(
+      "RobotKinematics --model arm=models/robots/lwr4/lwr4.urdf --params '{\"model\":\"arm\"}'",
+      "{\"position\":[0,0,1e6,0,0,0,0]}\n{\"position\":[0,0,3,0,0,0,0]}\n");
+  ASSERT_EQ(answers.size(), 2u);
+  EXPECT_THAT(answers[0]["error"].get<std::string>(),
+              HasSubstr("position: vector: joint 'lwr4_joint_3'; got 1e+06"));
+  EXPECT_TRUE(answers[1].contains("links"));
+}
+
 TEST_F(EvalTest, ABadLineIsAnsweredAndTheNextServed) {
   const auto answers = Eval("DeltaLimiter --params '{\"max_joint_velocity\":1,\"period\":0.01}'",
                             "nonsense\n[]\n{\"dleta\":[1]}\n{}\n{\"delta\":[\"x\"]}\n"

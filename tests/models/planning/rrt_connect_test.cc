@@ -68,6 +68,17 @@ TEST(RrtConnectTest, GivesTheSamePathForTheSameSeedOnly) {
   EXPECT_NE(path, RrtConnect(clearance, kStart, kGoal, {.seed = 4}));
 }
 
+TEST(RrtConnectTest, TheWorkIsBoundedHoweverFarTheWay) {
+  Clearance clearance(Arm("planar2"), false, test::Post());
+  for (const double far : {1e3, 1e6, 1e15}) {
+    Eigen::VectorXd goal = kGoal;
+    goal[0] += far;
+    // 300 edges at most, none longer than half a radian: that far no tree grows.
+    EXPECT_FALSE(RrtConnect(clearance, kStart, goal, {.most_nodes = 300})) << far;
+    EXPECT_FALSE(RrtConnect(clearance, goal, kStart, {.most_nodes = 300})) << far;
+  }
+}
+
 TEST(RrtConnectTest, HasNoPathThroughAClosedWallOrFromContact) {
   // A ring of plates around the stretched arm's end: it cannot fold out of it.
   std::vector<PlacedBody> walls{BoxAt({0.5, 0.01, 0.4}, {0.3, 0.2, 0.0}),
