@@ -23,6 +23,7 @@ const kTabs = ["Plots", "Summary", "Limits", "Parameters", "Log"] as const;
 type Tab = (typeof kTabs)[number];
 const kLivePast = 60;          // s that a live page remembers
 const kLiveRefresh = 250;      // ms between refreshes of the plots of a live page
+const kLiveSaid = 1000;        // ms between those of its words
 
 /** The page: puts a recording into the scene, the plots and the tabs, and moves them together. */
 export class App {
@@ -74,6 +75,7 @@ export class App {
     byId("follow").hidden = false;
     byId("follow").onclick = () => (this.player.following = true);
     setInterval(() => this.refreshLive(), kLiveRefresh);
+    setInterval(() => this.refreshSaid(), kLiveSaid);
     const loop = (): void => {
       if (this.player.following && this.recording.end !== this.player.time) {
         this.player.end = this.recording.end;
@@ -101,6 +103,7 @@ export class App {
   select(tab: Tab): void {
     for (const [name, pane] of this.panes) pane.hidden = name !== tab;
     for (const button of byId("tabs").children) button.setAttribute("aria-selected", String(button.textContent === tab));
+    if (this.live) this.refreshSaid();
   }
   selectNumber(index: number): void { if (kTabs[index]) this.select(kTabs[index]); }
 
@@ -111,17 +114,37 @@ export class App {
     this.player.end = recording.end;
     this.player.frames = recording.topics.get("/tf")?.times ?? [];
     this.makePlots();
-    const seek = (time: number): void => this.player.seek(time);
     const report = reportOf(recording);
     const title = recording.about("name") ?? report.name ?? recording.about("diagram") ?? "OCA";
     document.title = `${title} – OCA`;
     byId("title").textContent = title.replace(/^.*\//, "").replace(/\.ya?ml$/, "");
     byId("subtitle").textContent = recording.about("description") ?? "";
     this.showBadges(report);
-    this.fill("Summary", (pane) => summary(pane, recording, report, seek));
-    this.fill("Limits", (pane) => limits(pane, recording, limitsOf(recording, this.plots!.specs), seek));
     if (!this.live) this.fill("Parameters", (pane) => parameters(pane, recording));
-    this.fill("Log", (pane) => logLines(pane, recording, seek));
+    this.filled.clear();
+    for (const tab of ["Summary", "Limits", "Log"] as const) this.refill(tab, report);
+  }
+
+  /** Puts into a tab what it says of the recording by now, if that is something else. */
+  private refill(tab: Tab, report: RunReport): void {
+    const { recording } = this, seek = (time: number): void => this.player.seek(time);
+    const log = recording.topics.get("/log");
+    const said = tab === "Summary" ? JSON.stringify(report) : tab === "Log" ? String((log?.forgotten ?? 0) + (log?.length ?? 0)) : String(recording.end);
+    if (this.filled.get(tab) === said) return;
+    this.filled.set(tab, said);
+    if (tab === "Summary") this.fill(tab, (pane) => summary(pane, recording, report, seek));
+    if (tab === "Limits") this.fill(tab, (pane) => limits(pane, recording, limitsOf(recording, this.plots!.specs), seek));
+    if (tab === "Log") this.fill(tab, (pane) => logLines(pane, recording, seek));
+  }
+
+  /** The tab that is seen, and the badges; not what somebody presses just now. */
+  private refreshSaid(): void {
+    if (!this.plots) return;
+    const report = reportOf(this.recording);
+    this.showBadges(report);
+    for (const [tab, pane] of this.panes) {
+      if (!pane.hidden && !pane.matches(":active")) this.refill(tab, report);
+    }
   }
 
   private showBadges(report: RunReport): void {
@@ -177,12 +200,13 @@ export class App {
     if (!this.player.following) this.show(this.player.time);
   }
   private topicsSeen = 0;
+  private readonly filled = new Map<Tab, string>();  // what a tab says, in short
   private plotsAsked: string | undefined;
 
   /** A change of parameters made the diagram anew: warnings and plots may be others. */
   private aboutChanged(): void {
     this.showBadges(reportOf(this.recording));
-    if (this.recording.about("plots", "oca.plots") !== this.plotsAsked) this.makePlots();
+    if (this.plots && this.recording.about("plots", "oca.plots") !== this.plotsAsked) this.makePlots();
   }
 
   private fill(tab: Tab, into: (pane: HTMLElement) => void): void {

@@ -73,6 +73,9 @@ export function warningsOf(recording: Recording): string[] {
 
 /** They stand above all tabs: whoever looks at a plot needs to know them too. */
 export function showWarnings(box: HTMLElement, warnings: string[]): void {
+  const said = warnings.join("\n");
+  if (box.dataset["said"] === said) return;
+  box.dataset["said"] = said;
   box.hidden = warnings.length === 0;
   box.replaceChildren(element("summary", "", warnings.length === 1 ? "A warning" : `${warnings.length} warnings`),
                       ...warnings.map((warning) => element("p", "warning", `⚠ ${warning}`)));

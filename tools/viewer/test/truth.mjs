@@ -120,6 +120,27 @@ async function testRefusal({ test, browser, simulator, errorsOf }) {
   });
 }
 
+async function testSaid({ test, browser, simulator }) {
+  await test("what a live page says of the run is what it is by now", async () => {
+    const { url, stop } = await serve(simulator, ["run", kDiagram, "--live=0", "--realtime=4", "-s", "parameters.print_infos=true", "--no-progress"]);
+    const { page } = await openPage(browser, url);
+    await page.evaluate(() => window.oca.selectNumber(1));
+    const card = page.locator(".card", { hasText: "Nearest" }).locator("b");
+    await card.waitFor();
+    const before = Number(await card.textContent());
+    await page.waitForFunction(() => window.oca.recording.end > 7, null, { timeout: 60000 });
+    await page.waitForFunction(() => /clear by 0\.2/.test(document.getElementById("badges").textContent), null, { timeout: 10000 });
+    assert.ok(before > 0.3 && Number(await card.textContent()) < 0.3, `${before}, ${await card.textContent()}`);
+    await page.evaluate(() => window.oca.selectNumber(4));
+    const lines = () => page.locator(".log li").count();
+    const logged = await lines();
+    await page.waitForTimeout(2500);
+    assert.ok(await lines() > logged, `${await lines()} lines`);
+    await page.context().close();
+    await stop();
+  });
+}
+
 async function testWarnings({ test, browser, simulator, folder }) {
   const record = join(folder, "chatter.mcap"), report = join(folder, "chatter.html");
   await test("a report and a view say what the diagram was warned of, and so does a run of the record", async () => {
@@ -187,6 +208,7 @@ export async function testTruth(tools) {
   await testRestart(tools);
   await testRefusal(tools);
   await testWarnings(tools);
+  await testSaid(tools);
 }
 
 export async function testAccess({ test, browser, simulator, folder, errorsOf }) {
