@@ -12,6 +12,7 @@
 
 #include "framework/error.h"
 #include "systems/require.h"
+#include "systems/signal_limits.h"
 
 namespace oca::systems {
 namespace {
@@ -70,6 +71,20 @@ std::shared_ptr<const ObstacleBody> WithSpeed(const ObstacleBody& body, const Mo
   return fast;
 }
 
+PortSpec OffsetsSpec(const ObstacleSource::Params& params) {
+  const auto size = static_cast<Eigen::Index>(3 * params.obstacles.size());
+  Plausible plausible{Eigen::VectorXd::Constant(size, -kFarthest),
+                      Eigen::VectorXd::Constant(size, kFarthest),
+                      {},
+                      "m from where the file has it"};
+  for (const ObstacleSource::ObstacleParams& obstacle : params.obstacles) {
+    for (const char* const axis : {"x", "y", "z"}) {
+      plausible.names.push_back(fmt::format("obstacle '{}' {}", obstacle.id, axis));
+    }
+  }
+  return {static_cast<int>(size), "m", std::make_shared<const Plausible>(std::move(plausible))};
+}
+
 Eigen::Isometry3d StartPose(const ObstacleSource::ObstacleParams& params,
                             const std::string& where) {
   const bool positions_elsewhere = HasOwnPositions(params.motion);
@@ -123,8 +138,7 @@ ObstacleSource::ObstacleSource(const Params& params)
       moving_(MakeMoving()),
       changes_(MakeChanges()),
       layout_(NewLayouts(changes_.size() + 1)),
-      offsets(DeclareOptionalInput<Vector>("offsets",
-                                           {static_cast<int>(3 * params.obstacles.size()), "m"})),
+      offsets(DeclareOptionalInput<Vector>("offsets", OffsetsSpec(params))),
       obstacles(DeclareObstacles(params)) {}
 
 std::vector<ObstacleSource::Entry> ObstacleSource::MakeEntries(const Params& params) {

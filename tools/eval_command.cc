@@ -122,6 +122,16 @@ class Evaluator {
     return on_tick ? Clock{0.0, static_cast<std::int64_t>(nearest)} : Clock{time, 0};
   }
 
+  /// All ticks in between are run.
+  void CheckJump(const Clock& clock) const {
+    constexpr double kMostTicks = 1e7;
+    const double from = served_ ? TimeOf(clock_) : 0.0;
+    const double most = from + kMostTicks * period_.seconds();
+    if (!Ticks() || TimeOf(clock) <= most) return;
+    throw ConfigError(
+        fmt::format("time: got {}; expected at most {}, 1e7 periods on", TimeOf(clock), most));
+  }
+
   bool HasInput(const std::string& name) const {
     return std::find(input_names_.begin(), input_names_.end(), name) != input_names_.end();
   }
@@ -155,6 +165,7 @@ class Evaluator {
     const bool timed = time != given.end() && !HasInput("time");
     if (timed && !time->is_number()) throw ConfigError("time: expected a number of seconds");
     const Clock clock = timed ? ClockAt(time->get<double>()) : clock_;
+    CheckJump(clock);
     if (timed && !served_) simulator_->context().SetTime(std::min(0.0, TimeOf(clock)));
     if (timed && Ticks() && served_) simulator_->AdvanceTo(TimeOf(clock));
     for (const auto& input : diagram_->inputs()) {

@@ -205,6 +205,25 @@ record: {signals: {"ramp.value": 10}, scene: 10}
   EXPECT_EQ(json::parse(messages[1]->data)["deletions"][0]["id"], "obstacle/ball");
 }
 
+TEST(RunRecorderTest, SeesTheSceneAtItsOwnTicksAndNotOneEventLater) {
+  const oca::test::TemporaryFolder folder;
+  const auto file = folder.Write("passing.yaml", R"(
+simulator: {duration: 1}
+systems:
+  obstacles:
+    type: ObstacleSource
+    obstacles:
+      - {id: ball, shape: {type: sphere, radius: 0.1}, pose: {xyz: [1, 0, 0]}, appear: 0.3, disappear: 0.7}
+  ramp: {type: RampSource, slope: 1}
+record: {signals: {"ramp.value": 100}, scene: 10}
+)");
+  const Recorded recorded = RunRecorded(diagrams::LoadDiagram(file));
+  const auto messages = recorded.file.MessagesOf("/scene/obstacles");
+  ASSERT_EQ(messages.size(), 2u);
+  EXPECT_EQ(messages[0]->log_time, kEpoch + 300'000'000);  // 3 * 0.1 > 0.3 in doubles
+  EXPECT_EQ(messages[1]->log_time, kEpoch + 700'000'000);
+}
+
 /// 1e308 t overflows after t = 1.797...
 TEST(RunRecorderTest, IsCompleteUpToAFailure) {
   const oca::test::TemporaryFolder folder;

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "framework/error.h"
 #include "models/geometry/collider.h"
 #include "models/robot/urdf.h"
@@ -101,6 +103,25 @@ TEST(ElasticBandTest, PassesARequestThatIsClear) {
     EXPECT_LT((bench.Position() - request).norm(), 1e-12) << k;
   }
   EXPECT_EQ(bench.Plan().plans, 1u) << "what stands need not be planned for twice";
+}
+
+TEST(ElasticBandTest, EveryPlanTakesEffectAtATickAndNotARoundingLater) {
+  ObstacleSet drifting = BoxAt({3.0, 3.0, 0.0});
+  drifting.obstacles[0].linear.x() = 0.01;
+  Bench bench(drifting);
+  for (int k = 0; k < 200; ++k) {
+    bench.Tick(k);
+    const double change = bench.Plan().change;
+    EXPECT_EQ(change, std::round(50.0 * change) / 50.0) << k;  // 0.02 s from plan to plan
+    EXPECT_GT(change, 0.01 * k);
+  }
+  EXPECT_GT(bench.Plan().plans, 50u);
+}
+
+TEST(ElasticBandTest, RefusesHorizonsWithoutEnd) {
+  EXPECT_THAT(RefusalOf({.period = Period(1, 100), .most_horizon = 1e9}),
+              HasSubstr("got 1000000000 s; expected at most 600 s"));
+  EXPECT_EQ(RefusalOf({.period = Period(1, 100), .most_horizon = 600.0}), "accepted");
 }
 
 TEST(ElasticBandTest, GoesRoundAPostAndArrivesWithoutAJump) {

@@ -43,6 +43,18 @@ TEST(LinearInterpolatorTest, SampledShowsTheRequestForTheEndOfThePeriod) {
   EXPECT_DOUBLE_EQ(bench->velocity.Eval(bench.context())[0], 2.0);
 }
 
+TEST(LinearInterpolatorTest, SampledEndsItsPeriodAtATickAndNotARoundingBefore) {
+  LinearInterpolator::Params params{.key_points = {{.time = 0.0, .position = One(0.0)},
+                                                   {.time = 0.8, .position = One(0.8)},
+                                                   {.time = 1.0, .position = One(0.0)}}};
+  params.period = Period(1, 10);
+  SystemBench<LinearInterpolator> bench(params);
+  bench.AdvanceTo(0.75);
+  EXPECT_LT(0.7 + 0.1, 0.8);  // where the rate was still that of the segment before
+  EXPECT_DOUBLE_EQ(bench->velocity.Eval(bench.context())[0], -4.0);
+  EXPECT_EQ(bench->position.Eval(bench.context())[0], 0.8);
+}
+
 TEST(LinearInterpolatorTest, RefusesNoKeyPointsAndANegativePeriod) {
   EXPECT_THROW(LinearInterpolator(LinearInterpolator::Params{}), ConfigError);
   auto params = UpAndDown();

@@ -343,6 +343,19 @@ TEST(ObstacleSourceTest, MovesOnByItsOffsetsFromWhereTheScriptsPutThem) {
   EXPECT_EQ(position(0), Vector3d(0.5, 0.0, 1.0));
   EXPECT_GT(source.obstacles.Eval(simulator.context()).obstacles[0].body->fastest, 1e5);
   EXPECT_THROW(offsets.Fix(simulator.context(), Eigen::VectorXd(Vector3d::Zero())), ConfigError);
+  shifts[4] = -1.1e6;
+  EXPECT_THROW(offsets.Fix(simulator.context(), shifts), ConfigError);
+}
+
+TEST(ObstacleSourceTest, RefusesWhatFramesAndMotionsAddUpTo) {
+  ObstacleSource::Params params;
+  params.frames = {{"far", {Vector3d(9e5, 0.0, 0.0), {}, {}}, ""},
+                   {"farther", {Vector3d(9e5, 0.0, 0.0), {}, {}}, "far"}};
+  params.obstacles = {Ball("ball", Vector3d::Zero())};
+  params.obstacles[0].frame = "far";
+  EXPECT_NO_THROW(ObstacleSource{params});
+  params.obstacles[0].frame = "farther";
+  EXPECT_THAT(RefusalOf(params), HasSubstr("obstacle 'ball': position; got [1800000, 0, 0] m"));
 }
 
 }  // namespace
