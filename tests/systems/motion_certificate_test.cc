@@ -86,12 +86,12 @@ TEST_F(PlanarCertificateTest, TakesTheFasterEndOfTheObstacle) {
 TEST_F(PlanarCertificateTest, ADistanceThatIsNoneIsNotForgotten) {
   Near("planar2_link_2", 0.3);
   Add(Vector2d::Zero());
-  EXPECT_TRUE(Signal<MotionTally>::Finite(tally_));
+  EXPECT_TRUE(Signal<MotionTally>::Check(tally_, Look::kFinite).ok());
   near_.proximities[0].distance = std::nan("");
   Add(Vector2d::Zero());
   near_.proximities[0].distance = 0.2;
   Add(Vector2d::Zero());
-  EXPECT_FALSE(Signal<MotionTally>::Finite(tally_));
+  EXPECT_FALSE(Signal<MotionTally>::Check(tally_, Look::kFinite).ok());
 }
 
 TEST_F(PlanarCertificateTest, SaysNothingIfNothingWasThereToCompare) {
