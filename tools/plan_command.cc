@@ -104,7 +104,7 @@ int PlanCommand(const PlanArguments& arguments) {
     const int first = arguments.seed.value_or(-1);
     for (int i = 0; i < arguments.samples; ++i) {
       const auto plan = Plan(arguments, first < 0 ? first : first + i, i == 0);
-      std::cout << plan.dump() << std::endl;
+      std::cout << plan.dump(-1, ' ', false, ordered_json::error_handler_t::replace) << std::endl;
       all_clear = all_clear && plan.at("clear").get<bool>();
     }
   } catch (const std::exception& error) {

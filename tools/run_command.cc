@@ -268,7 +268,8 @@ int RunCommand(const RunArguments& arguments) {
   if (report) report->Finish();
 
   if (arguments.json) {
-    std::cout << ToJson(loaded, result).dump(2) << '\n';
+    std::cout << ToJson(loaded, result).dump(2, ' ', false, ordered_json::error_handler_t::replace)
+              << '\n';
   } else {
     std::cout << RunSummary(loaded, result, WantsColour(STDOUT_FILENO)) << ProfileTable(result);
   }

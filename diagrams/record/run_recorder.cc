@@ -2,11 +2,13 @@
 #include "diagrams/record/run_recorder.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
+#include "diagrams/blind_spots.h"
 #include "diagrams/record/plot_hints.h"
 #include "diagrams/record/record_files.h"
 #include "diagrams/record/run_metadata.h"
@@ -277,6 +279,7 @@ McapMetadata RunRecorder::MainMetadata(const std::string& outcome,
   if (result != nullptr) {
     values["duration"] = fmt::format("{}", result->duration);
     values["expectations"] = ExpectationsJson(*result);
+    values["not_seen"] = fmt::format("{}", fmt::join(diagrams::BlindSpots(loaded_), "; "));
   }
   return {"oca", values};
 }

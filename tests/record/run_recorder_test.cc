@@ -172,6 +172,9 @@ TEST(RunRecorderTest, EndsWithTheMetricsOfTheRun) {
   EXPECT_EQ(metrics[0]->data, StaticTest().result.metrics);
   EXPECT_EQ(StaticTest().file.FindMetadata("oca")->at("outcome"), "done");
   EXPECT_EQ(StaticTest().file.FindMetadata("oca")->at("dropped_messages"), "0");
+  EXPECT_EQ(
+      StaticTest().file.FindMetadata("oca")->at("not_seen"),
+      "own links of 'arm' (self_collision is off); model 'frame' (calculate_link_forces is off)");
 }
 
 TEST(RunRecorderTest, ChangesNoBitOfARun) {

@@ -87,6 +87,8 @@ export function summary(parent: HTMLElement, recording: Recording, report: RunRe
   const dropped = Number(recording.about("dropped_messages") ?? 0);
   if (dropped > 0) parent.append(element("p", "warning", `⚠ ${dropped} messages did not fit and are not in this record.`));
   if (report.failure) parent.append(element("p", "warning", `✗ ${report.failure}`));
+  const unseen = recording.about("not_seen");
+  if (unseen) parent.append(element("p", "empty", `Not seen by the distances: ${unseen}`));
   parent.append(expectationTable(report.expectations ?? []));
   const cards = element("div", "cards");
   for (const [key, name, unit] of kMetrics) {
