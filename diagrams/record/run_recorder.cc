@@ -273,6 +273,7 @@ McapMetadata RunRecorder::MainMetadata(const std::string& outcome,
                    {"seed", std::to_string(loaded_.simulator.seed)},
                    {"start_epoch_ns", std::to_string(options_.start_epoch)},
                    {"dropped_messages", std::to_string(dropped())},
+                   {"not_seen", NotSeenJson(loaded_)},
                    {"outcome", outcome}};
   if (result != nullptr) {
     values["duration"] = fmt::format("{}", result->duration);
