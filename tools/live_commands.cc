@@ -34,10 +34,11 @@ constexpr char kNoPage[] = "<!doctype html><title>OCA</title><p>The viewer page 
 void SayWhere(const std::string& what, const live::LiveServer& server, const std::string& address,
               const std::string& can) {
   if (!live::IsLoopback(address)) {
+    const bool any = address == "0.0.0.0" || address == "::";
     fmt::print(stderr,
-               "warning: {} can be reached from elsewhere: whoever has the address below, with its "
-               "token, can {}; nothing is encrypted\n",
-               address, can);
+               "warning: {} can be reached from elsewhere{}: whoever has the address below, with "
+               "its token, can {}; nothing is encrypted\n",
+               address, any ? ", by the address of this machine in its place" : "", can);
   }
   fmt::print("{}: {}\n", what, server.url());
   std::fflush(stdout);

@@ -79,7 +79,8 @@ std::string TextOf(const std::string& warning) {
 /// it was put into.
 void GatherWarnings(const record::McapFile& record, const std::string& file,
                     const std::string& folder, bool changed, diagrams::LoadedDiagram& loaded) {
-  std::vector<std::string> warnings = changed ? loaded.warnings : record::WarningsOf(record);
+  const bool own = changed || record.FindMetadata("oca.warnings") == nullptr;
+  std::vector<std::string> warnings = own ? loaded.warnings : record::WarningsOf(record);
   for (const std::string& found : diagrams::ChatterWarnings(loaded)) {
     const bool told = std::any_of(warnings.begin(), warnings.end(), [&](const auto& other) {
       return TextOf(other) == TextOf(found);

@@ -75,6 +75,9 @@ class LiveRunner {
     end_of_run.interrupted = stop_;
     end_of_run.metrics = diagrams::MetricsOf(session_->loaded(), session_->simulator().context());
     session_->End(end_of_run);
+    if (!result_.failure.empty()) {
+      server_.Tell(StatusLevel::kError, "the run failed: " + result_.failure);
+    }
     return result_;
   }
 

@@ -16,6 +16,7 @@
 #include <boost/beast/websocket.hpp>
 #include <chrono>
 #include <deque>
+#include <future>
 #include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -45,6 +46,7 @@ constexpr std::size_t kBytesInFlight = std::size_t{32} << 20;
 constexpr auto kHttpTimeout = std::chrono::seconds(10);
 constexpr auto kAcceptAgainAfter = std::chrono::milliseconds(100);
 constexpr auto kTellAgainAfter = std::chrono::seconds(1);
+constexpr auto kDrainFor = std::chrono::milliseconds(300);
 constexpr std::size_t kReasonsTold = 10;  // why requests were refused
 
 /// A message on its way to whoever subscribed to its channel.
@@ -86,6 +88,7 @@ class LiveServer::Server {
   class Client;
 
   // On the server's own thread.
+  void Drain();
   void Accept();
   void Publish(const SharedMessage& message);
   void ToAll(const std::string& text);
@@ -173,6 +176,7 @@ class LiveServer::Server::Client : public std::enable_shared_from_this<Client> {
 
   void Forget() { subscriptions_.clear(); }
   bool watches() const { return watches_; }
+  bool idle() const { return !writing_ && queue_.empty(); }
 
  private:
   void Greet() {
@@ -445,9 +449,25 @@ LiveServer::Server::Server(LiveOptions options)
 }
 
 LiveServer::Server::~Server() {
+  Drain();
   io_.stop();
   thread_.join();
   clients_.clear();
+}
+
+/// What was said last reaches whoever reads it soon: how the run ended.
+void LiveServer::Server::Drain() {
+  const auto end = std::chrono::steady_clock::now() + kDrainFor;
+  for (bool idle = false; !idle && std::chrono::steady_clock::now() < end;) {
+    const auto answer = std::make_shared<std::promise<bool>>();
+    asio::post(io_, [this, answer] {
+      answer->set_value(std::all_of(clients_.begin(), clients_.end(),
+                                    [](const auto& client) { return client->idle(); }));
+    });
+    auto future = answer->get_future();
+    idle = future.wait_until(end) == std::future_status::ready && future.get();
+    if (!idle) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
 }
 
 void LiveServer::Server::Accept() {

@@ -26,6 +26,11 @@ ordered_json ToJson(const LiveParameter& parameter) {
   return json;
 }
 
+/// Names may be no UTF-8, as those of files.
+std::string Dump(const ordered_json& json) {
+  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
 }  // namespace
 
 MessageHeader MakeHeader(std::uint32_t subscription, std::uint64_t time) {
@@ -38,18 +43,17 @@ MessageHeader MakeHeader(std::uint32_t subscription, std::uint64_t time) {
 
 std::string StatusText(StatusLevel level, const std::string& text) {
   const ordered_json json{{"op", "status"}, {"level", static_cast<int>(level)}, {"message", text}};
-  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  return Dump(json);
 }
 
 std::string ServerInfo(const std::map<std::string, std::string>& about,
                        const std::string& session) {
-  return ordered_json{{"op", "serverInfo"},
-                      {"name", "OCA simulator"},
-                      {"capabilities", {"parameters", "parametersSubscribe"}},
-                      {"supportedEncodings", {"json"}},
-                      {"metadata", about},
-                      {"sessionId", session}}
-      .dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  return Dump({{"op", "serverInfo"},
+               {"name", "OCA simulator"},
+               {"capabilities", {"parameters", "parametersSubscribe"}},
+               {"supportedEncodings", {"json"}},
+               {"metadata", about},
+               {"sessionId", session}});
 }
 
 std::string Advertisement(const std::vector<record::RecordChannel>& channels) {
@@ -62,20 +66,20 @@ std::string Advertisement(const std::vector<record::RecordChannel>& channels) {
                                 {"schema", channels[i].schema},
                                 {"schemaEncoding", "jsonschema"}});
   }
-  return json.dump();
+  return Dump(json);
 }
 
 std::string Unadvertisement(std::size_t count) {
   ordered_json gone{{"op", "unadvertise"}, {"channelIds", ordered_json::array()}};
   for (std::size_t i = 0; i < count; ++i) gone["channelIds"].push_back(i);
-  return gone.dump();
+  return Dump(gone);
 }
 
 std::string ParameterValues(const std::vector<LiveParameter>& parameters, const ordered_json& id) {
   ordered_json json{{"op", "parameterValues"}, {"parameters", ordered_json::array()}};
   for (const LiveParameter& parameter : parameters) json["parameters"].push_back(ToJson(parameter));
   if (!id.is_null()) json["id"] = id;
-  return json.dump();
+  return Dump(json);
 }
 
 /// A JSON value as one of the type that `like` has. throws std::invalid_argument.

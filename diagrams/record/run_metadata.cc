@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "diagrams/blind_spots.h"
 #include "diagrams/record/yaml_writer.h"
 
 namespace oca::record {
@@ -38,6 +39,11 @@ std::vector<std::string> WarningsOf(const McapFile& record) {
     if (warning.is_string()) warnings.push_back(warning.get<std::string>());
   }
   return warnings;
+}
+
+std::string NotSeenJson(const diagrams::LoadedDiagram& loaded) {
+  using nlohmann::json;
+  return json(diagrams::BlindSpots(loaded)).dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
 std::string ExpectationsJson(const diagrams::RunResult& result) {

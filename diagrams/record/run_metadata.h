@@ -17,6 +17,8 @@ McapTexts OverrideTexts(const std::vector<diagrams::Override>& overrides);
 /// What was warned of when the diagram was loaded, as metadata `oca.warnings`; and back.
 McapTexts WarningTexts(const std::vector<std::string>& warnings);
 std::vector<std::string> WarningsOf(const McapFile& record);
+/// What the distances of a run do not look at (diagrams::BlindSpots), a JSON list.
+std::string NotSeenJson(const diagrams::LoadedDiagram& loaded);
 /// The expectations and how they turned out, a JSON list as `simulator run --json` prints it.
 std::string ExpectationsJson(const diagrams::RunResult& result);
 

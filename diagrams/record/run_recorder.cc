@@ -2,7 +2,6 @@
 #include "diagrams/record/run_recorder.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -275,11 +274,11 @@ McapMetadata RunRecorder::MainMetadata(const std::string& outcome,
                    {"seed", std::to_string(loaded_.simulator.seed)},
                    {"start_epoch_ns", std::to_string(options_.start_epoch)},
                    {"dropped_messages", std::to_string(dropped())},
+                   {"not_seen", NotSeenJson(loaded_)},
                    {"outcome", outcome}};
   if (result != nullptr) {
     values["duration"] = fmt::format("{}", result->duration);
     values["expectations"] = ExpectationsJson(*result);
-    values["not_seen"] = fmt::format("{}", fmt::join(diagrams::BlindSpots(loaded_), "; "));
   }
   return {"oca", values};
 }

@@ -145,6 +145,20 @@ TEST(LiveServerTest, TellsALineToAll) {
   }
 }
 
+TEST(LiveServerTest, SaysItsLastWordBeforeItGoes) {
+  auto server = std::make_unique<LiveServer>(AnyPort());
+  Client client(server->port());
+  client.Settle();
+  for (int i = 0; i < 200; ++i) server->Tell(StatusLevel::kInfo, std::string(1000, 'x'));
+  server->Tell(StatusLevel::kError, "the run failed");
+  server.reset();
+  json status;
+  do {
+    status = client.ReadOp("status");
+  } while (status["level"] == 0);
+  EXPECT_EQ(status["message"], "the run failed");
+}
+
 TEST(LiveServerTest, SendsWhatAClientSubscribedToAndNothingElse) {
   LiveServer server(AnyPort());
   server.Begin(kChannels);

@@ -71,6 +71,16 @@ export function warningsOf(recording: Recording): string[] {
   }
 }
 
+/** What nobody looked at, so that it is not taken for clear. */
+function notSeen(recording: Recording): string {
+  try {
+    const list: unknown = JSON.parse(recording.about("not_seen") ?? "[]");
+    return Array.isArray(list) ? list.join("; ") : "";
+  } catch {
+    return "";
+  }
+}
+
 /** They stand above all tabs: whoever looks at a plot needs to know them too. */
 export function showWarnings(box: HTMLElement, warnings: string[]): void {
   const said = warnings.join("\n");
@@ -87,8 +97,6 @@ export function summary(parent: HTMLElement, recording: Recording, report: RunRe
   const dropped = Number(recording.about("dropped_messages") ?? 0);
   if (dropped > 0) parent.append(element("p", "warning", `⚠ ${dropped} messages did not fit and are not in this record.`));
   if (report.failure) parent.append(element("p", "warning", `✗ ${report.failure}`));
-  const unseen = recording.about("not_seen");
-  if (unseen) parent.append(element("p", "empty", `Not seen by the distances: ${unseen}`));
   parent.append(expectationTable(report.expectations ?? []));
   const cards = element("div", "cards");
   for (const [key, name, unit] of kMetrics) {
@@ -127,6 +135,7 @@ function runTable(recording: Recording, report: RunReport): HTMLElement {
     const row = table.insertRow();
     row.append(element("th", "", name), element("td", "", String(value)));
   };
+  add("Not seen", notSeen(recording));
   add("Diagram", recording.about("diagram"));
   add("Duration", report.duration !== undefined ? `${report.duration} s` : `${recording.end.toFixed(2)} s`);
   add("Took", report.wall_seconds !== undefined ? `${short(report.wall_seconds)} s` : undefined);

@@ -60,6 +60,7 @@ export async function testView({ test, browser, simulator, folder, messagesOf, e
     }
     assert.match(await page.textContent("#badges"), /✓ clear by 0\.2/);
     assert.match(await page.textContent(".pane.summary"), /min_distance/);
+    assert.match(await page.textContent(".pane.summary"), /Not seen.*own links/);
     await show(page, 2);
     const before = await page.evaluate(() => window.oca.view.positionOf("arm/lwr4_link_7"));
     await show(page, 6);
@@ -125,13 +126,18 @@ export async function testLive({ test, browser, simulator, errorsOf }) {
     await page.waitForFunction(() => window.oca.view.positionOf("arm/lwr4_link_7"), null, { timeout: 30000 });
     await page.evaluate(() => window.oca.selectNumber(3));
     const slider = page.locator(".knob", { hasText: "force_gain" }).locator("input[type=number]");
+    const watcher = connect(url);
+    const taken = watcher.next("serverInfo", ({ metadata }) => metadata["oca.parameters/force_gain"] === "2.5");
     await slider.fill("2.5");
     await slider.blur();
     const { client, next } = connect(url);
     await next("serverInfo");
     client.getParameters(["force_gain"], "g");
     assert.equal((await next("parameterValues", ({ id }) => id === "g")).parameters[0].value, 2.5);
+    await page.waitForFunction(() => window.oca.recording.about("force_gain", "oca.parameters") === "2.5", null, { timeout: 30000 });
+    await taken;
     client.close();
+    watcher.client.close();
     assert.deepEqual(errorsOf(problems), []);
     await page.context().close();
   });

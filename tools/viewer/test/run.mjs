@@ -119,6 +119,22 @@ await test("the plots have the values of the record", async () => {
   await page.context().close();
 });
 
+await test("distances of two arms count both, whatever their rates", async () => {
+  const { page } = await openPage(browser, sample);
+  const [least, column] = await page.evaluate(() => {
+    const { recording } = window.oca, topics = ["/distance/proximities", "/other/proximities"];
+    const other = recording.topic(topics[1]), near = [{ link: "other", obstacle: "box", distance: -0.05 }];
+    for (let k = 0; k <= 20; ++k) recording.add(other, 1_700_000_000_000_000_000n + BigInt(k) * 500_000_000n, new TextEncoder().encode(JSON.stringify({ value: near })));
+    recording.metadata.set("oca.plots", new Map([["plots", JSON.stringify([{ id: "distance", title: "Distances", topics }])]]));
+    window.oca.load(recording);
+    return [Math.min(...window.oca.timeline.nearness.values), window.oca.plots.data("Distances").slice(1).find((values) => values[0] === -0.05)];
+  });
+  assert.equal(least, -0.05);
+  assert.equal(column?.length, 601);
+  assert.ok(column.every((value) => value === -0.05));
+  await page.context().close();
+});
+
 await test("a click in a plot moves the scene", async () => {
   const { page } = await openPage(browser, sample);
   const box = await page.locator(".u-over").first().boundingBox();

@@ -127,10 +127,9 @@ async function testSaid({ test, browser, simulator }) {
     await page.evaluate(() => window.oca.selectNumber(1));
     const card = page.locator(".card", { hasText: "Nearest" }).locator("b");
     await card.waitFor();
-    const before = Number(await card.textContent());
     await page.waitForFunction(() => window.oca.recording.end > 7, null, { timeout: 60000 });
     await page.waitForFunction(() => /clear by 0\.2/.test(document.getElementById("badges").textContent), null, { timeout: 10000 });
-    assert.ok(before > 0.3 && Number(await card.textContent()) < 0.3, `${before}, ${await card.textContent()}`);
+    assert.ok(Number(await card.textContent()) < 0.3, await card.textContent());
     await page.evaluate(() => window.oca.selectNumber(4));
     const lines = () => page.locator(".log li").count();
     const logged = await lines();
@@ -247,8 +246,13 @@ export async function testAccess({ test, browser, simulator, folder, errorsOf })
       assert.deepEqual(errorsOf(problems), []);
       assert.match(errors(), /warning: 0\.0\.0\.0 can be reached from elsewhere/);
       assert.equal((await fetch(url.replace("0.0.0.0", "127.0.0.1").replace(/\?.*/, ""))).status, 403);
-      await page.context().close();
       await stop();
+      if (args[0] === "run") {  // started again, it has another token: the page cannot know it
+        const again = await serve(simulator, ["run", kDiagram, `--live=${new URL(url).port}`, "--live-address", "0.0.0.0", ...quiet]);
+        await page.waitForFunction(() => /open the address that it printed/.test(document.getElementById("message").textContent), null, { timeout: 20000 });
+        await again.stop();
+      }
+      await page.context().close();
     }
   });
 }
