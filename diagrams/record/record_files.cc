@@ -8,7 +8,8 @@
 #include <fstream>
 #include <iterator>
 #include <map>
-#include <regex>
+#include <set>
+#include <utility>
 
 #include "diagrams/document.h"
 #include "diagrams/package_paths.h"
@@ -16,7 +17,10 @@
 #include "diagrams/record/yaml_writer.h"
 #include "diagrams/yaml_reader.h"
 #include "framework/error.h"
+#include "models/error.h"
+#include "models/opened_files.h"
 #include "models/robot/mesh_path.h"
+#include "models/robot/urdf_meshes.h"
 
 namespace oca::record {
 namespace {
@@ -56,7 +60,8 @@ bool Inside(const fs::path& name) {
 class FileCollector {
  public:
   explicit FileCollector(const diagrams::LoadedDiagram& loaded)
-      : base_(fs::absolute(loaded.file).parent_path()) {
+      : base_(fs::absolute(loaded.file).parent_path()),
+        opened_(loaded.opened.begin(), loaded.opened.end()) {
     const Value* const packages = loaded.resolved.Find("packages");
     if (packages == nullptr || packages->map() == nullptr) return;
     for (const Value::Entry& entry : *packages->map()) {
@@ -84,7 +89,7 @@ class FileCollector {
       const Value* const own = resolved->Find(entry.key);
       const bool file = own != nullptr && NamesFile(entry.key) && own->string() != nullptr;
       map.push_back({entry.key, entry.location,
-                     file ? Value(Attach(*own->string(), FolderOf(own->location())), {})
+                     file ? Value(Attach(entry.key, *own->string(), FolderOf(own->location())), {})
                           : Rewrite(entry.value, own)});
     }
     return Value(std::move(map), document.location());
@@ -113,17 +118,31 @@ class FileCollector {
   }
 
  private:
-  /// Attaches a file that the diagram names; returns its new name there.
-  std::string Attach(const std::string& name, const fs::path& folder) {
+  /// Attaches a file that the diagram names, if the run was made from it; returns its new name
+  /// there.
+  std::string Attach(const std::string& key, const std::string& name, const fs::path& folder) {
     if (name.empty()) return name;
     const fs::path path = diagrams::ResolvePath(name, folder, packages_);
-    const bool package = name.starts_with(kScheme);
-    const fs::path as =
-        package ? fs::path("packages") / name.substr(kScheme.size()) : PlaceOf(path);
+    if (!Opened(path)) return name;
+    const auto [as, new_name] = NamesOf(name, path);
     const bool fresh = !files_.contains(as.string());
     if (fresh) files_[as.string()] = ReadBytes(path);
-    if (fresh && path.extension() != ".srdf") AttachMeshes(as, path);
-    return package ? name : as.string();
+    if (fresh && key == "urdf") AttachMeshes(as, path);
+    return new_name;
+  }
+
+  bool Opened(const fs::path& path) const { return opened_.contains(models::PlainPath(path)); }
+
+  /// The attachment for a file and the name by which the diagram finds it there: below `packages/`
+  /// what stays within its package.
+  std::pair<fs::path, std::string> NamesOf(const std::string& name, const fs::path& path) const {
+    if (name.starts_with(kScheme)) {
+      const fs::path rest = name.substr(kScheme.size());
+      const fs::path as = (fs::path("packages") / rest).lexically_normal();
+      if (Inside(as.lexically_relative(fs::path("packages") / *rest.begin()))) return {as, name};
+    }
+    const fs::path place = PlaceOf(path);
+    return {place, place.string()};
   }
 
   /// Below `files/`, as it lies to the diagram; without the folders above what lies elsewhere.
@@ -136,21 +155,12 @@ class FileCollector {
     return place;
   }
 
-  /// The meshes that a URDF names. What it finds by an absolute path it is given a relative one
+  /// The meshes of a URDF's links. What it finds by an absolute path it is given a relative one
   /// for.
   void AttachMeshes(const fs::path& urdf, const fs::path& path) {
-    const std::string text = files_.at(urdf.string());
-    if (text.find("<robot") == std::string::npos) return;
-    static const std::regex kMesh("<mesh[^>]*?filename\\s*=\\s*[\"']([^\"']+)[\"']");
-    std::string rewritten;
-    auto copied = text.begin();
-    for (std::sregex_iterator match(text.begin(), text.end(), kMesh), end; match != end; ++match) {
-      rewritten.append(copied, (*match)[1].first);
-      rewritten += AttachMesh((*match)[1].str(), urdf, path);
-      copied = (*match)[1].second;
-    }
-    rewritten.append(copied, text.end());
-    files_[urdf.string()] = rewritten;
+    std::string& text = files_.at(urdf.string());
+    text = models::RenameMeshes(
+        text, path.string(), [&](const std::string& name) { return AttachMesh(name, urdf, path); });
   }
 
   std::string AttachMesh(const std::string& name, const fs::path& urdf, const fs::path& path) {
@@ -160,21 +170,27 @@ class FileCollector {
       return found == packages_.end() ? fs::path() : found->second;
     };
     options.package_directories = diagrams::PackageFolders();
-    const fs::path mesh = models::FindMesh(name, path.parent_path(), options, path.string());
-    if (name.starts_with(kScheme)) {
-      files_.try_emplace((fs::path("packages") / name.substr(kScheme.size())).string(),
-                         ReadBytes(mesh));
-      return name;
+    fs::path mesh;
+    try {
+      mesh = models::FindMesh(name, path.parent_path(), options, path.string());
+    } catch (const models::ModelError&) {
+      return name;  // the run did not need it
     }
-    const fs::path beside = (urdf.parent_path() / name).lexically_normal();
-    const bool stays =
-        fs::path(name).is_relative() && name.find("://") == std::string::npos && Inside(beside);
-    const fs::path as = stays ? beside : PlaceOf(mesh);
-    files_.try_emplace(as.string(), ReadBytes(mesh));
-    return stays ? name : as.lexically_relative(urdf.parent_path()).string();
+    if (!Opened(mesh)) return name;
+    auto [as, new_name] = NamesOf(name, mesh);
+    if (new_name != name) {
+      const fs::path beside = (urdf.parent_path() / name).lexically_normal();
+      const bool stays =
+          fs::path(name).is_relative() && name.find("://") == std::string::npos && Inside(beside);
+      if (stays) as = beside;
+      new_name = stays ? name : as.lexically_relative(urdf.parent_path()).string();
+    }
+    if (!files_.contains(as.string())) files_[as.string()] = ReadBytes(mesh);
+    return new_name;
   }
 
   const fs::path base_;
+  const std::set<fs::path> opened_;
   std::map<std::string, fs::path> packages_;
   std::map<std::string, std::string> files_;  ///< by name of the attachment
 };
@@ -196,13 +212,24 @@ Value ListOf(const std::vector<std::string>& texts) {
   return Value(std::move(list), {});
 }
 
+/// The diagram files that were read; and, if a parameter chose one of the parts that come with OCA,
+/// the others, which it may choose next time. No other file that it could choose: it may hold
+/// anything.
+std::vector<fs::path> SourcesOf(const diagrams::LoadedDiagram& loaded) {
+  std::vector<fs::path> sources = loaded.sources;
+  for (const fs::path& file : loaded.candidates) {
+    const bool there = std::find(sources.begin(), sources.end(), file) != sources.end();
+    if (!there && diagrams::IsPartOfOca(file)) sources.push_back(file);
+  }
+  return sources;
+}
+
 void AddSources(const diagrams::LoadedDiagram& loaded, double duration,
                 std::vector<McapAttachment>& attachments) {
   if (loaded.sources.empty()) return;
-  const fs::path folder = FolderAbove(loaded.sources);
-  for (const fs::path& file : loaded.sources) {
-    std::error_code error;
-    if (!fs::is_regular_file(file, error)) continue;  // one beside those that were read
+  const std::vector<fs::path> sources = SourcesOf(loaded);
+  const fs::path folder = FolderAbove(sources);
+  for (const fs::path& file : sources) {
     const fs::path name = fs::path("sources") / file.lexically_relative(folder);
     attachments.push_back({0, name.string(), "application/yaml", ReadBytes(file)});
   }
@@ -370,6 +397,9 @@ ExtractedRecord::~ExtractedRecord() { Remove(); }
 
 diagrams::LoadedDiagram ExtractedRecord::Load(
     const std::vector<diagrams::Override>& overrides) const {
+  std::vector<fs::path> folders = diagrams::PackageFolders();
+  folders.push_back(folder_);
+  models::OpenedFiles restricted(folders);  // whoever made it knows not what we keep
   if (overrides.empty() && !HasSources(folder_)) return diagrams::LoadDiagram(diagram());
   std::vector<diagrams::Override> packages;
   if (!overrides.empty()) packages = CompletePackages(folder_);
@@ -387,7 +417,12 @@ diagrams::LoadedDiagram ExtractedRecord::Load(
   Problems ignored;
   diagrams::DocumentSources sources;
   diagrams::LoadDocument(main, all, ignored, &sources);
-  loaded.sources = sources.files;
+  loaded.sources = sources.files;  // all that could be chosen came with the record
+  for (const fs::path& file : sources.candidates) {
+    const auto& files = sources.files;
+    if (std::find(files.begin(), files.end(), file) == files.end()) loaded.sources.push_back(file);
+  }
+  loaded.candidates.clear();
   loaded.overrides = all;
   return loaded;
 }
