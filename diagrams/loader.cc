@@ -148,7 +148,8 @@ class Loader {
   /// use: a file says for all of them what each may need.
   std::set<std::string> KnownToAlternatives() const {
     std::set<std::string> known;
-    models::OpenedFiles looked_at;  // the diagram is not made from them
+    // The diagram is not made from them.
+    models::OpenedFiles looked_at(models::OpenedFiles::Elder::kNotesNot);
     for (const fs::path& file : sources_.alternatives) {
       Problems ignored;  // of a part on its own
       try {

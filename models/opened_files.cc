@@ -34,7 +34,8 @@ bool LiesBelow(const fs::path& file, const fs::path& folder) {
   return !error && Below(real, fs::weakly_canonical(root, error)) && !error;
 }
 
-OpenedFiles::OpenedFiles() : outer_(std::exchange(innermost, this)) {}
+OpenedFiles::OpenedFiles(Elder elder)
+    : outer_(std::exchange(innermost, this)), apart_(elder == Elder::kNotesNot) {}
 
 OpenedFiles::OpenedFiles(std::vector<fs::path> roots)
     : outer_(std::exchange(innermost, this)), restricted_(true), roots_(std::move(roots)) {}
@@ -60,7 +61,9 @@ void NoteOpened(const fs::path& file) {
                     "or of a package (package://NAME/PATH)",
                     file.string()));
   }
-  if (!innermost->Contains(file)) innermost->files_.push_back(PlainPath(file));
+  for (OpenedFiles* at = innermost; at != nullptr; at = at->apart_ ? nullptr : at->outer_) {
+    if (!at->Contains(file)) at->files_.push_back(PlainPath(file));
+  }
 }
 
 }  // namespace oca::models

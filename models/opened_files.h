@@ -14,10 +14,12 @@ namespace oca::models {
 ///     LoadUrdf("arm.urdf");
 ///     Attach(opened.files());
 ///
-/// Of two that live at once the younger one takes the notes; what the elder refuses it refuses too.
+/// Of two that live at once both take notes, and what the elder refuses the younger refuses too.
 class OpenedFiles {
  public:
-  OpenedFiles();
+  enum class Elder { kNotes, kNotesNot };  ///< what is read while both live
+
+  explicit OpenedFiles(Elder elder = Elder::kNotes);
   /// Refuses files that do not lie below one of `roots`.
   explicit OpenedFiles(std::vector<std::filesystem::path> roots);
   ~OpenedFiles();
@@ -34,6 +36,7 @@ class OpenedFiles {
   bool Allows(const std::filesystem::path& file) const;
 
   OpenedFiles* const outer_;
+  const bool apart_{false};  // the outer one does not hear of it
   const bool restricted_{false};
   const std::vector<std::filesystem::path> roots_;
   std::vector<std::filesystem::path> files_;

@@ -15,7 +15,7 @@
 
 #include "diagrams/blind_spots.h"
 #include "diagrams/chatter_check.h"
-#include "diagrams/record/record_files.h"
+#include "diagrams/record/extracted_record.h"
 #include "diagrams/record/run_metadata.h"
 #include "diagrams/record/run_recorder.h"
 #include "diagrams/run.h"

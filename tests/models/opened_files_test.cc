@@ -27,16 +27,22 @@ TEST(OpenedFilesTest, NotesWhatIsReadWhileItLivesOnce) {
   EXPECT_FALSE(opened.Contains(one));
 }
 
-TEST(OpenedFilesTest, GivesTheNotesToTheYoungest) {
+TEST(OpenedFilesTest, TellsItsElderUnlessThatIsToBeSpared) {
   const test::TemporaryFolder folder;
-  const fs::path one = folder.Write("one.csv", "1\n");
+  const fs::path one = folder.Write("one.csv", "1\n"), two = folder.Write("two.csv", "2\n");
   OpenedFiles outer;
   {
-    OpenedFiles inner;
+    OpenedFiles inner(OpenedFiles::Elder::kNotesNot);
     CsvTable table(one);
     EXPECT_THAT(inner.files(), ElementsAre(one));
   }
   EXPECT_THAT(outer.files(), IsEmpty());
+  {
+    OpenedFiles inner;
+    CsvTable table(two);
+    EXPECT_THAT(inner.files(), ElementsAre(two));
+  }
+  EXPECT_THAT(outer.files(), ElementsAre(two));
 }
 
 TEST(OpenedFilesTest, RefusesWhatLiesOutsideOfItsFolders) {

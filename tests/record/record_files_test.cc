@@ -6,6 +6,7 @@
 
 #include <sstream>
 
+#include "diagrams/record/extracted_record.h"
 #include "diagrams/record/mcap_writer.h"
 #include "diagrams/run.h"
 #include "framework/error.h"
