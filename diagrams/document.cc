@@ -132,7 +132,7 @@ class Includer {
     const std::string head = pattern.substr(0, pattern.find("${"));
     const std::string tail = pattern.substr(pattern.rfind('}') + 1);
     for (const fs::path& file : found) {
-      AddSource(file);
+      sources_.candidates.push_back(file);
       const std::string name = file.filename().string();
       if (head == pattern || !name.starts_with(head) || !name.ends_with(tail)) continue;
       sources_.alternatives.push_back(file);

@@ -20,12 +20,11 @@ struct Override {
 
 /// The files behind a document.
 struct DocumentSources {
-  /// Those that were read, the first the diagram file; and what lies beside one that a parameter
-  /// chose, as the parameter may choose it next time.
-  std::vector<std::filesystem::path> files;
-  std::vector<std::string> choosing;  ///< parameters that chose files
-  std::set<std::string> chosen;       ///< files, as locations name them, that came by such a choice
-  std::vector<std::filesystem::path> alternatives;  ///< what they could have chosen, and chose
+  std::vector<std::filesystem::path> files;       ///< those that were read, first the diagram file
+  std::vector<std::filesystem::path> candidates;  ///< diagram files beside one that was chosen
+  std::vector<std::string> choosing;              ///< parameters that chose files
+  std::set<std::string> chosen;  ///< files, as locations name them, that came by such a choice
+  std::vector<std::filesystem::path> alternatives;  ///< candidates that the same include can name
 };
 
 /// A diagram file as one tree: the files it includes first, itself over them, overrides over all.

@@ -18,6 +18,7 @@
 #include "framework/error.h"
 #include "framework/nearest.h"
 #include "framework/plan.h"
+#include "models/opened_files.h"
 #include "systems/obstacle_source.h"
 
 namespace oca::diagrams {
@@ -46,6 +47,7 @@ class Loader {
   LoadedDiagram Load(const fs::path& file, const std::vector<Override>& overrides) {
     Value document = LoadFiles(file, overrides, problems_, &sources_);
     loaded_.sources = sources_.files;
+    loaded_.candidates = sources_.candidates;
     loaded_.overrides = overrides;
     problems_.Throw();
     Draw(overrides, document);
@@ -67,6 +69,7 @@ class Loader {
     CheckPart();
     problems_.Throw();
     Build();
+    loaded_.opened = opened_.files();
     if (!part_.empty()) {
       problems_.Throw();
       return std::move(loaded_);
@@ -145,6 +148,8 @@ class Loader {
   /// use: a file says for all of them what each may need.
   std::set<std::string> KnownToAlternatives() const {
     std::set<std::string> known;
+    // The diagram is not made from them.
+    models::OpenedFiles looked_at(models::OpenedFiles::Elder::kNotesNot);
     for (const fs::path& file : sources_.alternatives) {
       Problems ignored;  // of a part on its own
       try {
@@ -468,6 +473,7 @@ class Loader {
 
   const std::vector<std::string> part_;  // systems to build; empty: all
   const bool movable_;
+  models::OpenedFiles opened_;
   LoadedDiagram loaded_;
   DocumentSources sources_;
   Problems problems_;

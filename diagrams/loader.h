@@ -24,8 +24,10 @@ struct LoadedDiagram {
   };
 
   std::string file;
-  std::vector<std::filesystem::path> sources;  ///< as DocumentSources has them
-  std::vector<Override> overrides;             ///< that it was loaded with
+  std::vector<std::filesystem::path> sources;     ///< diagram files that were read, first its own
+  std::vector<std::filesystem::path> candidates;  ///< as DocumentSources has them
+  std::vector<std::filesystem::path> opened;      ///< all files that it was made from
+  std::vector<Override> overrides;                ///< that it was loaded with
   Value document;                     ///< includes merged, scenario drawn, overrides applied
   Scenario scenario;                  ///< what was drawn
   Value resolved;                     ///< the same without parameters, ${...} worked out

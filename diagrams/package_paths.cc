@@ -4,7 +4,11 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <optional>
 #include <sstream>
+#include <string_view>
 
 #include "framework/error.h"
 
@@ -51,6 +55,22 @@ fs::path ResolvePath(const std::string& name, const fs::path& folder,
   }
   throw ConfigError(fmt::format("{}: no package '{}'; looked in packages, {}", name, package,
                                 places.empty() ? "OCA_PACKAGE_PATH" : places));
+}
+
+bool IsPartOfOca(const fs::path& file) {
+  constexpr std::string_view kParts = OCA_PARTS;  // their names, each between two |
+  if (kParts.find("|" + file.filename().string() + "|") == std::string_view::npos) return false;
+  const auto content = [](const fs::path& name) -> std::optional<std::string> {
+    std::ifstream stream(name, std::ios::binary);
+    if (!stream) return std::nullopt;
+    return std::string{std::istreambuf_iterator<char>(stream), {}};
+  };
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  const fs::path installed = program.parent_path().parent_path() / OCA_INSTALLED_PARTS;
+  const auto own = content(file);
+  return own && (own == content(installed / file.filename()) ||
+                 own == content(fs::path(OCA_SOURCE_PARTS) / file.filename()));
 }
 
 }  // namespace oca::diagrams

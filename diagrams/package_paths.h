@@ -18,4 +18,8 @@ std::vector<std::filesystem::path> PackageFolders();
 std::filesystem::path ResolvePath(const std::string& name, const std::filesystem::path& folder,
                                   const std::map<std::string, std::filesystem::path>& packages);
 
+/// Whether a diagram file is one of the parts that come with OCA, by its name and content, wherever
+/// it lies.
+bool IsPartOfOca(const std::filesystem::path& file);
+
 }  // namespace oca::diagrams

@@ -114,7 +114,7 @@ class Runner {
     result_.paced = factor > 0.0;
     if (options.profile) simulator_.EnableProfile();
     if (!options.csv_folder.empty()) {
-      recorder_ = std::make_unique<SignalRecorder>(options.csv_folder, loaded.record, simulator_);
+      recorder_ = std::make_unique<SignalRecorder>(options.csv_folder, loaded, simulator_);
     }
     AddRecordedInstants();
     for (RunObserver* const observer : options.observers) {

@@ -1,72 +1,60 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "diagrams/signal_recorder.h"
 
-#include <fmt/format.h>
+#include <optional>
 
-#include <iterator>
-
+#include "diagrams/signal_facts.h"
 #include "framework/dynamic_port.h"
-#include "framework/error.h"
 
 namespace oca::diagrams {
 
-SignalRecorder::SignalRecorder(const std::filesystem::path& folder,
-                               const std::vector<RecordedSignal>& signals, Simulator& simulator) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) {
-    throw ConfigError(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
-  }
-  for (const RecordedSignal& signal : signals) {
-    auto file = std::make_unique<File>();
-    file->output = signal.output;
-    file->vector = &TypeOfPort(signal.output) == &kVectorType;
-    file->path = folder / (signal.name + (file->vector ? ".csv" : ".jsonl"));
-    file->stream.open(file->path, std::ios::trunc);
-    if (!file->stream) {
-      throw ConfigError(fmt::format("{}: cannot be written", file->path.string()));
+SignalRecorder::SignalRecorder(const std::filesystem::path& folder, const LoadedDiagram& loaded,
+                               Simulator& simulator) {
+  MakeFolder(folder);
+  const SignalFacts facts(loaded, simulator.context());
+  for (const RecordedSignal& signal : loaded.record) {
+    std::optional<std::vector<std::string>> columns;
+    const bool vector = &TypeOfPort(signal.output) == &kVectorType;
+    if (vector) {
+      columns = SignalTable::Columns(signal.name.substr(signal.name.find('.') + 1),
+                                     VectorSize(signal.output, simulator.context()),
+                                     facts.JointsOf(signal.output));
     }
-    if (file->vector) {
-      const std::string port = signal.name.substr(signal.name.find('.') + 1);
-      file->stream << "time";
-      const int size = VectorSize(signal.output, simulator.context());
-      for (int i = 0; i < size; ++i) file->stream << fmt::format(",{}[{}]", port, i);
-      file->stream << '\n';
-    }
-    simulator.AddPublish(signal.period, [this, target = file.get()](const Context& context) {
+    files_.emplace_back(
+        new File{signal.output, vector, SignalTable(folder, signal.name, columns), {}, {}});
+    simulator.AddPublish(signal.period, [target = files_.back().get()](const Context& context) {
       Write(*target, context);
     });
-    files_.push_back(std::move(file));
   }
 }
 
 SignalRecorder::~SignalRecorder() = default;
 
 void SignalRecorder::Write(File& file, const Context& context) {
-  std::string& line = file.line;
-  line.clear();
+  const std::int64_t time = Nanoseconds(context.time());
   if (file.vector) {
-    fmt::format_to(std::back_inserter(line), "{}", context.time());
-    for (const double value : EvalVector(file.output, context)) {
-      fmt::format_to(std::back_inserter(line), ",{}", value);
-    }
+    const auto& numbers = EvalVector(file.output, context);
+    file.numbers.assign(numbers.begin(), numbers.end());
+    file.table.Write(time, file.numbers);
   } else {
-    fmt::format_to(std::back_inserter(line), "{{\"time\":{},\"value\":", context.time());
-    EvalJson(file.output, context, line);
-    line += '}';
+    file.json.clear();
+    EvalJson(file.output, context, file.json);
+    file.table.Write(time, file.json);
   }
-  line += '\n';
-  file.stream.write(line.data(), static_cast<std::streamsize>(line.size()));
 }
 
 void SignalRecorder::Finish() {
-  for (const auto& file : files_) {
-    file->stream.close();
-    if (!file->stream) {
-      throw ConfigError(
-          fmt::format("{}: could not be written to the end (disk full?)", file->path.string()));
-    }
+  for (const auto& file : files_) file->table.Finish();
+}
+
+std::vector<std::filesystem::path> SignalFiles(const std::filesystem::path& folder,
+                                               const LoadedDiagram& loaded) {
+  std::vector<std::filesystem::path> files;
+  for (const RecordedSignal& signal : loaded.record) {
+    files.push_back(
+        SignalTable::FileOf(folder, signal.name, &TypeOfPort(signal.output) == &kVectorType));
   }
+  return files;
 }
 
 }  // namespace oca::diagrams

@@ -2,26 +2,22 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "diagrams/loader.h"
+#include "diagrams/signal_table.h"
 #include "framework/simulator.h"
 
 namespace oca::diagrams {
 
-/// Writes the recorded signals of a run into a folder, a file a signal, while the run goes on.
-///
-/// A Vector becomes `system.output.csv` with a header line, columns `time` (s) and one an element;
-/// every other signal `system.output.jsonl`, one object {"time", "value"} a line. Numbers are
-/// written with all digits they have.
+/// Writes the recorded signals of a run into a folder, a SignalTable each, while the run goes on.
 class SignalRecorder {
  public:
   /// Makes the folder and the files and attaches itself to the simulator; must outlive the run.
   /// throws ConfigError if a file cannot be made.
-  SignalRecorder(const std::filesystem::path& folder, const std::vector<RecordedSignal>& signals,
+  SignalRecorder(const std::filesystem::path& folder, const LoadedDiagram& loaded,
                  Simulator& simulator);
   ~SignalRecorder();
 
@@ -30,15 +26,19 @@ class SignalRecorder {
 
  private:
   struct File {
-    std::filesystem::path path;
     OutputHandle output;
     bool vector;
-    std::ofstream stream;
-    std::string line;
+    SignalTable table;
+    std::vector<double> numbers;
+    std::string json;
   };
-  void Write(File& file, const Context& context);
+  static void Write(File& file, const Context& context);
 
   std::vector<std::unique_ptr<File>> files_;
 };
+
+/// The files that a SignalRecorder would make.
+std::vector<std::filesystem::path> SignalFiles(const std::filesystem::path& folder,
+                                               const LoadedDiagram& loaded);
 
 }  // namespace oca::diagrams

@@ -17,6 +17,8 @@
 
 #include "diagrams/plain_scalar.h"
 #include "framework/error.h"
+#include "models/error.h"
+#include "models/opened_files.h"
 
 namespace oca::diagrams {
 namespace {
@@ -281,6 +283,11 @@ Value ReadYaml(std::string_view text, const std::string& name, Problems& problem
 }
 
 std::string ReadTextFile(const std::filesystem::path& file) {
+  try {
+    models::NoteOpened(file);
+  } catch (const models::ModelError& refused) {
+    throw ConfigError(refused.what());
+  }
   std::error_code error;
   if (std::filesystem::is_directory(file, error)) {
     throw ConfigError(fmt::format("{}: error: is a folder; expected a file", file.string()));

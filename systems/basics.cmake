@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 set(basics
   constant
-  csv_table
   delay
   delay_line
   delta_limiter

@@ -3,57 +3,100 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cctype>
+#include <charconv>
 #include <cmath>
+#include <map>
+#include <numeric>
 #include <string_view>
 
 #include "framework/error.h"
-#include "systems/csv_table.h"
+#include "models/csv_table.h"
+#include "models/error.h"
 
 namespace oca::systems {
 namespace {
 
-/// How many columns hold positions, velocities and accelerations.
+using Numbers = std::vector<std::size_t>;
+
+/// Where the time and the positions, velocities and accelerations of all joints are.
 struct Columns {
-  Eigen::Index joints{0};
-  bool velocities{false};
-  bool accelerations{false};
-  Eigen::Index count() const { return 1 + joints * (1 + velocities + accelerations); }
+  std::size_t time{0};
+  Numbers positions, velocities, accelerations;
 };
 
-/// From the line of names.
-Columns ReadNames(const std::vector<std::string_view>& cells, const std::string& where) {
-  std::string kinds;
-  for (const std::string_view name : cells) kinds += name.empty() ? ' ' : name.front();
-  const auto joints = static_cast<Eigen::Index>(std::count(kinds.begin(), kinds.end(), 'p'));
-  Columns columns{joints, kinds.find('v') != std::string::npos,
-                  kinds.find('a') != std::string::npos};
-  std::string expected = "t" + std::string(joints, 'p');
-  if (columns.velocities) expected += std::string(joints, 'v');
-  if (columns.accelerations) expected += std::string(joints, 'a');
-  if (joints > 0 && kinds == expected) return columns;
-  throw ConfigError(fmt::format(
-      "{}: names of columns; got {} columns; expected time, p1..pn, then v1..vn and a1..an or none",
-      where, cells.size()));
+/// The column of each joint, of names that begin with a letter and end with the joint's number, as
+/// p1 or position[0]; empty if there are none.
+Numbers Numbered(const models::CsvTable& table, char letter) {
+  std::map<std::size_t, std::size_t> columns;
+  const auto& names = table.names();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    std::string_view name = names[i];
+    if (name.empty() || std::tolower(static_cast<unsigned char>(name.front())) != letter) continue;
+    if (name.ends_with(']')) name.remove_suffix(1);
+    const std::size_t last = name.find_last_not_of("0123456789");
+    const std::string_view digits = name.substr(last + 1);
+    if (digits.empty() || digits.size() > 6) continue;
+    std::size_t number = 0;
+    std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    if (columns.emplace(number, i).second) continue;
+    throw ConfigError(fmt::format(
+        "{}: names of columns; got two with number {}; expected each once", table.where(), number));
+  }
+  Numbers ordered;
+  for (const auto& [number, column] : columns) {
+    if (ordered.empty() ? number <= 1 : number == columns.begin()->first + ordered.size()) {
+      ordered.push_back(column);
+      continue;
+    }
+    throw ConfigError(
+        fmt::format("{}: names of columns; got {}{} without those before; expected "
+                    "numbers from 0 or 1 on",
+                    table.where(), letter, number));
+  }
+  return ordered;
 }
 
-KeyPoint ReadRow(const CsvTable& table, const Columns& columns) {
-  if (static_cast<Eigen::Index>(table.cells().size()) != columns.count()) {
-    throw ConfigError(fmt::format("{}: wrong length; got {} numbers; expected {}", table.where(),
-                                  table.cells().size(), columns.count()));
+Columns FindColumns(models::CsvTable& table, const std::vector<std::string>& joints) {
+  Columns columns;
+  std::vector<std::string> wanted{"time"};
+  wanted.insert(wanted.end(), joints.begin(), joints.end());
+  const Numbers found = table.Columns(wanted);
+  if (!joints.empty() && found.empty()) {
+    throw ConfigError(
+        fmt::format("{}: names of columns; got none; expected time and those of "
+                    "`joints`",
+                    table.where()));
   }
-  std::size_t column = 0;
-  const auto vector = [&] {
-    Eigen::VectorXd values(columns.joints);
-    for (double& value : values) value = table.Number(column++);
-    return values;
-  };
-  KeyPoint point;
-  point.time = table.Number(column++);
-  point.position = vector();
-  if (columns.velocities) point.velocity = vector();
-  if (columns.accelerations) point.acceleration = vector();
-  return point;
+  if (!found.empty()) columns.time = found.front();
+  if (!joints.empty()) {
+    columns.positions.assign(found.begin() + 1, found.end());
+  } else if (found.empty()) {
+    columns.positions.resize(table.width() == 0 ? 0 : table.width() - 1);
+    std::iota(columns.positions.begin(), columns.positions.end(), std::size_t{1});
+  } else {
+    columns.positions = Numbered(table, 'p');
+    columns.velocities = Numbered(table, 'v');
+    columns.accelerations = Numbered(table, 'a');
+    const std::size_t count = columns.positions.size();
+    const auto fits = [&](const Numbers& rates) { return rates.empty() || rates.size() == count; };
+    if (count == 0 || !fits(columns.velocities) || !fits(columns.accelerations)) {
+      throw ConfigError(fmt::format(
+          "{}: names of columns; got {} positions, {} velocities, {} accelerations; expected time, "
+          "p1..pn, then v1..vn and a1..an or none; or `joints`, the names of the columns of "
+          "positions in order",
+          table.where(), count, columns.velocities.size(), columns.accelerations.size()));
+    }
+  }
+  return columns;
+}
+
+Eigen::VectorXd VectorAt(const models::CsvTable& table, const Numbers& columns) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    values[static_cast<Eigen::Index>(i)] = table.Number(columns[i]);
+  }
+  return values;
 }
 
 void CheckVector(const std::string& where, const Eigen::VectorXd& values, Eigen::Index size) {
@@ -100,33 +143,45 @@ void KeyPoint::Describe(Fields<KeyPoint>& fields) {
   fields.Add("acceleration", &KeyPoint::acceleration, "", "one number a joint; absent: 0");
 }
 
-std::vector<KeyPoint> ReadKeyPoints(const std::string& path) {
-  CsvTable table(path);
-  std::vector<KeyPoint> points;
-  Columns columns;
-  while (table.NextRow()) {
-    if (columns.joints == 0) {
-      if (table.cells().front() == "time") {
-        columns = ReadNames(table.cells(), table.where());
-        continue;
+std::vector<KeyPoint> ReadKeyPoints(const std::string& path,
+                                    const std::vector<std::string>& joints) {
+  try {
+    models::CsvTable table(path);
+    const Columns columns = FindColumns(table, joints);
+    std::vector<KeyPoint> points;
+    while (table.NextRow()) {
+      if (columns.positions.empty()) {
+        throw ConfigError(fmt::format(
+            "{}: wrong length; got 1 value; expected a time and positions", table.where()));
       }
-      columns.joints = static_cast<Eigen::Index>(table.cells().size()) - 1;
+      KeyPoint& point = points.emplace_back();
+      point.time = table.Number(columns.time);
+      point.position = VectorAt(table, columns.positions);
+      if (!columns.velocities.empty()) point.velocity = VectorAt(table, columns.velocities);
+      if (!columns.accelerations.empty()) {
+        point.acceleration = VectorAt(table, columns.accelerations);
+      }
     }
-    points.push_back(ReadRow(table, columns));
+    return points;
+  } catch (const models::ModelError& error) {
+    throw ConfigError(error.what());
   }
-  return points;
 }
 
 std::vector<KeyPoint> KeyPointsFrom(const std::vector<KeyPoint>& key_points,
-                                    const std::string& file) {
+                                    const std::string& file,
+                                    const std::vector<std::string>& joints) {
   if (file.empty()) {
+    if (!joints.empty()) {
+      throw ConfigError("joints: without a file; got names; expected them with `file` only");
+    }
     CheckPoints(key_points, "key_points");
     return key_points;
   }
   if (!key_points.empty()) {
     throw ConfigError("file: given twice; got key_points too; expected one of the two");
   }
-  std::vector<KeyPoint> points = ReadKeyPoints(file);
+  std::vector<KeyPoint> points = ReadKeyPoints(file, joints);
   CheckPoints(points, file);
   return points;
 }

@@ -19,16 +19,20 @@ struct KeyPoint {
   static void Describe(Fields<KeyPoint>& fields);
 };
 
-/// Reads key points from a CSV file as CsvTable does: one a row, columns `time` (s), then the n
-/// positions. A first row of names may say more: names that start with p, v and a are positions,
-/// velocities and accelerations, n of each, in that order.
-/// throws ConfigError `file:line: ...`.
-std::vector<KeyPoint> ReadKeyPoints(const std::string& path);
+/// Reads key points from a table as models::CsvTable does: one a row, the time (s), then the n
+/// positions. If the columns have names their order is free: `time`; those that start with p, v and
+/// a and end with a number from 0 or 1 on are positions, velocities and accelerations of that
+/// joint; others are ignored. `joints`, if there are any, are the names of the n columns of
+/// positions. throws ConfigError `file:line: ...`.
+std::vector<KeyPoint> ReadKeyPoints(const std::string& path,
+                                    const std::vector<std::string>& joints = {});
 
-/// The points given by the parameters `key_points` and `file`, of which one must be given.
+/// The points given by the parameters `key_points` and `file`, of which one must be given; `joints`
+/// as ReadKeyPoints takes them.
 /// throws ConfigError unless there is a point, all numbers are finite, times increase and all
 /// points have the same number of joints.
 std::vector<KeyPoint> KeyPointsFrom(const std::vector<KeyPoint>& key_points,
-                                    const std::string& file);
+                                    const std::string& file,
+                                    const std::vector<std::string>& joints = {});
 
 }  // namespace oca::systems

@@ -8,6 +8,9 @@ namespace oca::systems {
 void LinearRequest::Params::Describe(Fields<Params>& fields) {
   fields.Add("key_points", &Params::key_points, "", "points in order of time");
   fields.Add("file", &Params::file, "", "CSV file of key points (time, p1..pn) instead");
+  fields.Add(
+      "joints", &Params::joints, "",
+      "names of the columns of positions in `file`, in the order of the joints; none: p1..pn");
   fields
       .Add("period", &Params::period, "s",
            "0: continuous in time; > 0: sampled for the end of each period and held")
@@ -22,7 +25,7 @@ LinearRequest::Params LinearRequest::Example() {
 
 LinearRequest::Params LinearRequest::Checked(Params params) {
   RequireNotNegative("period", params.period);
-  params.key_points = KeyPointsFrom(params.key_points, params.file);
+  params.key_points = KeyPointsFrom(params.key_points, params.file, params.joints);
   return params;
 }
 

@@ -19,6 +19,7 @@ struct LinearRequest {
   struct Params {
     std::vector<KeyPoint> key_points{};
     std::string file{};
+    std::vector<std::string> joints{};
     Period period{};
     std::string unit{"rad"};
     static void Describe(Fields<Params>& fields);

@@ -52,6 +52,9 @@ void SplineRequest::Params::Describe(Fields<Params>& fields) {
   fields.Add("ends", &Params::ends, "", "of a c2 spline: clamped or natural");
   fields.Add("key_points", &Params::key_points, "", "points in order of time");
   fields.Add("file", &Params::file, "", "CSV file of key points (time, p1..pn) instead");
+  fields.Add(
+      "joints", &Params::joints, "",
+      "names of the columns of positions in `file`, in the order of the joints; none: p1..pn");
   fields.Add("goal", &Params::goal, "", "pose to end at, reached from the last key point");
   fields.Add("model", &Params::model, "",
              "robot that has the goal; may be left out if there is but one");
@@ -69,8 +72,9 @@ SplineRequest::Params SplineRequest::Example() {
 
 SplineRequest::Params SplineRequest::Resolved(Params params, const ModelSet& models) {
   if (!params.goal) return params;
-  params.key_points = KeyPointsFrom(params.key_points, params.file);
+  params.key_points = KeyPointsFrom(params.key_points, params.file, params.joints);
   params.file.clear();
+  params.joints.clear();
   const auto model = MovableModel(models, params.model);
   params.key_points.push_back(KeyPointAt(*params.goal, params.key_points.back(), model));
   params.goal.reset();
@@ -82,7 +86,7 @@ SplineRequest::Params SplineRequest::Checked(Params params) {
     throw ConfigError("goal: a pose of a link; got no models; expected the model it is of");
   }
   RequireNotNegative("period", params.period);
-  params.key_points = KeyPointsFrom(params.key_points, params.file);
+  params.key_points = KeyPointsFrom(params.key_points, params.file, params.joints);
   CheckUsed(params);
   return params;
 }

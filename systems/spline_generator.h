@@ -29,6 +29,7 @@ struct SplineRequest {
     Trajectory::Ends ends{Trajectory::Ends::kClamped};
     std::vector<KeyPoint> key_points{};
     std::string file{};
+    std::vector<std::string> joints{};
     std::optional<PoseGoal> goal{};
     std::string model{};
     Period period{};

@@ -9,6 +9,7 @@
 #include "diagrams/package_paths.h"
 #include "models/robot/urdf.h"
 #include "tools/commands.h"
+#include "tools/terminal.h"
 
 namespace oca::tools {
 namespace {
@@ -31,7 +32,7 @@ void PrintPorts(const char* kind, const std::vector<Info>& ports) {
     if constexpr (requires { port.state; }) {
       if (port.state >= 0) text += ", held state";
     }
-    fmt::print("  {:<7} {:<22} {}\n", kind, port.name, text);
+    Print("  {:<7} {:<22} {}\n", kind, port.name, text);
   }
 }
 
@@ -48,7 +49,7 @@ int ListCommand() {
   std::size_t width = 0;
   for (const auto& row : diagrams::Catalogue()) width = std::max(width, row.type.size());
   for (const auto& row : diagrams::Catalogue()) {
-    fmt::print("{:<{}}  {}\n", row.type, width, row.doc.summary);
+    Print("{:<{}}  {}\n", row.type, width, row.doc.summary);
   }
   return kFine;
 }
@@ -56,23 +57,23 @@ int ListCommand() {
 int DescribeCommand(const std::string& type) {
   const diagrams::CatalogueRow& row = diagrams::FindRow(type);
   const auto example = row.make_example(ExampleModels());
-  fmt::print("{}: {}\n\n  {}\n", row.type, row.doc.summary, row.doc.equation);
-  if (*row.doc.source != '\0') fmt::print("  source: {}\n", row.doc.source);
-  fmt::print("\nports\n");
+  Print("{}: {}\n\n  {}\n", row.type, row.doc.summary, row.doc.equation);
+  if (*row.doc.source != '\0') Print("  source: {}\n", row.doc.source);
+  Print("\nports\n");
   PrintPorts("input", example->inputs());
   PrintPorts("output", example->outputs());
-  fmt::print("\nparameters\n");
+  Print("\nparameters\n");
   const auto defaults = row.defaults();
   for (std::size_t i = 0; i < row.fields().size(); ++i) {
     const Field& field = row.fields()[i];
     const std::string bounds = field.bounds.ToString();
-    fmt::print("  {:<22} {}{}{}; {}\n", field.key, field.type->Name(),
-               field.unit.empty() ? "" : " " + field.unit, bounds.empty() ? "" : " " + bounds,
-               field.required ? "required" : "default " + defaults[i]);
-    fmt::print("  {:<22} {}\n", "", field.meaning);
+    Print("  {:<22} {}{}{}; {}\n", field.key, field.type->Name(),
+          field.unit.empty() ? "" : " " + field.unit, bounds.empty() ? "" : " " + bounds,
+          field.required ? "required" : "default " + defaults[i]);
+    Print("  {:<22} {}\n", "", field.meaning);
   }
-  if (row.fields().empty()) fmt::print("  none\n");
-  fmt::print("\nexample parameters\n  {}\n", row.example());
+  if (row.fields().empty()) Print("  none\n");
+  Print("\nexample parameters\n  {}\n", row.example());
   return kFine;
 }
 

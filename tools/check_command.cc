@@ -10,6 +10,7 @@
 #include "models/robot/robot_model.h"
 #include "systems/safety_filter.h"
 #include "tools/commands.h"
+#include "tools/terminal.h"
 
 namespace oca::tools {
 namespace {
@@ -18,16 +19,15 @@ namespace {
 void PrintMargins(const std::string& name, const systems::SafetyFilter& filter) {
   const double reach = filter.Reach();
   const double fastest = filter.model().velocity_limits().sum();
-  fmt::print(
+  Print(
       "  {}: keeps {} m, less {:.3g} m while its joint speeds add up to 1 rad/s, {:.3g} m "
       "with obstacles at 1 m/s besides",
       name, filter.params().safe_distance, filter.TickMargin(1.0, reach, 0.0),
       filter.TickMargin(1.0, reach, 1.0));
   if (std::isfinite(fastest)) {
-    fmt::print(", {:.3g} m with all joints at their limits",
-               filter.TickMargin(fastest, reach, 0.0));
+    Print(", {:.3g} m with all joints at their limits", filter.TickMargin(fastest, reach, 0.0));
   }
-  fmt::print("\n");
+  Print("\n");
 }
 
 }  // namespace

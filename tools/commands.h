@@ -7,6 +7,10 @@
 #include <string>
 #include <vector>
 
+namespace oca::diagrams {
+struct LoadedDiagram;
+}
+
 namespace oca::tools {
 
 /// Exit statuses of `simulator`.
@@ -38,6 +42,9 @@ struct RunArguments {
   std::string log_level{"debug"};
 };
 int RunCommand(const RunArguments& arguments);
+/// Before anything is written: that no file of the run is one that it is made from, or two of them
+/// are one. throws ConfigError
+void CheckRunOutputs(const RunArguments& arguments, const diagrams::LoadedDiagram& loaded);
 
 struct ViewArguments {
   std::string file;

@@ -234,6 +234,7 @@ int EvalCommand(const EvalArguments& arguments, std::istream& in, std::ostream& 
       answer = ordered_json{{"error", error.what()}};
     }
     out << answer.dump() << std::endl;
+    if (!out) return kRunFailed;  // nobody reads any more
   }
   return kFine;
 }

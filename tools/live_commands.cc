@@ -24,6 +24,7 @@
 #include "diagrams/record/mcap_reader.h"
 #include "diagrams/record/record_sink.h"
 #include "framework/error.h"
+#include "tools/terminal.h"
 
 namespace oca::tools {
 namespace {
@@ -35,18 +36,17 @@ void SayWhere(const std::string& what, const live::LiveServer& server, const std
               const std::string& can) {
   if (!live::IsLoopback(address)) {
     const bool any = address == "0.0.0.0" || address == "::";
-    fmt::print(stderr,
-               "warning: {} can be reached from elsewhere{}: whoever has the address below, with "
-               "its token, can {}; nothing is encrypted\n",
-               address, any ? ", by the address of this machine in its place" : "", can);
+    Tell(
+        "warning: {} can be reached from elsewhere{}: whoever has the address below, with its "
+        "token, can {}; nothing is encrypted
+",
+        address, any ? ", by the address of this machine in its place" : "", can);
   }
-  fmt::print("{}: {}\n", what, server.url());
+  Print("{}: {}\n", what, server.url());
   std::fflush(stdout);
 }
 
-void SayForbidden(const std::string& why) {
-  fmt::print(stderr, "warning: a request was refused: {}\n", why);
-}
+void SayForbidden(const std::string& why) { Tell("warning: a request was refused: {}\n", why); }
 
 std::string ReadRecord(const std::string& file) {
   constexpr std::string_view kMagic("\x89MCAP", 5);
@@ -128,11 +128,14 @@ int RunLiveCommand(const RunArguments& arguments, const std::vector<diagrams::Ov
   try {
     server_options.page = live::PageWithSource(live::LoadPage(), "live");
   } catch (const ConfigError& error) {  // Foxglove and Lichtblick need no page of ours
-    fmt::print(stderr, "warning: {}\n", error.what());
+    Tell("warning: {}\n", error.what());
     server_options.page = kNoPage;
   }
   server_options.origins = arguments.live_origins;
   server_options.forbidden = SayForbidden;
+  if (!(arguments.record + arguments.report + arguments.csv_folder).empty()) {
+    CheckRunOutputs(arguments, diagrams::LoadDiagram(arguments.file, overrides));
+  }
   live::LiveServer server(server_options);
   LiveFiles files(arguments);
   live::LiveRunOptions options;
@@ -144,23 +147,20 @@ int RunLiveCommand(const RunArguments& arguments, const std::vector<diagrams::Ov
   options.log = log;
   options.sinks = files.sinks();
   options.interrupted = interrupted;
-  options.refused = [](const std::string& why) {
-    fmt::print(stderr, "warning: change refused: {}\n", why);
-  };
-  options.warned = [](const std::string& warning) { fmt::print(stderr, "{}\n", warning); };
+  options.refused = [](const std::string& why) { Tell("warning: change refused: {}\n", why); };
+  options.warned = [](const std::string& warning) { Tell("{}\n", warning); };
   SayWhere("live, in a browser, Foxglove or Lichtblick; Ctrl-C ends it", server,
            arguments.live_address, "change the run");
   const live::LiveRunResult result = live::RunLive(options, server);
   files.Finish();
   const live::LiveStatistics statistics = server.statistics();
-  fmt::print("{:.2f} s simulated, {} changes of parameters, {} messages sent\n", result.duration,
-             result.changes, statistics.sent);
+  Print("{:.2f} s simulated, {} changes of parameters, {} messages sent\n", result.duration,
+        result.changes, statistics.sent);
   if (statistics.dropped > 0) {
-    fmt::print(stderr, "warning: {} messages left out for clients that were too slow\n",
-               statistics.dropped);
+    Tell("warning: {} messages left out for clients that were too slow\n", statistics.dropped);
   }
   if (result.failure.empty()) return kFine;
-  fmt::print(stderr, "error: {}\n", result.failure);
+  Tell("error: {}\n", result.failure);
   return kRunFailed;
 }
 

@@ -13,6 +13,7 @@
 #include "framework/error.h"
 #include "tools/commands.h"
 #include "tools/method_figure.h"
+#include "tools/output_files.h"
 #include "tools/record_commands.h"
 #include "tools/report_figures.h"
 
@@ -113,6 +114,8 @@ int PlotCommand(const PlotArguments& arguments) {
   if (file.extension() != ".svg" && file.extension() != ".png") {
     throw ConfigError(fmt::format("-o: got '{}'; expected a .svg or .png file", file.string()));
   }
+  CheckOutputs({{"-o", file}},
+               InputsOf({arguments.records.begin(), arguments.records.end()}, "what is drawn"));
   const std::string svg = record::SvgPlot(PanelsOf(arguments));
   if (file.extension() == ".svg") {
     Write(file, svg);

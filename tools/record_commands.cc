@@ -10,7 +10,9 @@
 #include "diagrams/record/comparison.h"
 #include "diagrams/record/csv_export.h"
 #include "tools/commands.h"
+#include "tools/output_files.h"
 #include "tools/report_figures.h"
+#include "tools/terminal.h"
 
 namespace oca::tools {
 namespace {
@@ -18,13 +20,19 @@ namespace {
 /// Reads a record; says so if it was cut.
 record::McapFile ReadRecord(const std::string& file) {
   record::McapFile read = record::McapFile::Read(file);
-  if (!read.complete()) fmt::print(stderr, "warning: {}: {}\n", file, read.problem());
+  if (!read.complete()) Tell("warning: {}: {}\n", file, read.problem());
   return read;
 }
 
 int ExportCommand(const std::string& file, const std::string& folder) {
-  const int files = record::ExportCsv(ReadRecord(file), folder);
-  fmt::print("{}: {} signals\n", folder, files);
+  const record::McapFile record = ReadRecord(file);
+  std::vector<OutputFile> outputs{{"--csv", folder}};
+  for (const auto& output : record::ExportedFiles(record, folder)) {
+    outputs.push_back({"--csv", output});
+  }
+  CheckOutputs(outputs, {{file, "what is exported"}});
+  const int files = record::ExportCsv(record, folder);
+  Print("{}: {} signals\n", folder, files);
   return kFine;
 }
 
@@ -38,17 +46,16 @@ int CompareCommand(const std::string& first, const std::string& second) {
   const record::Comparison comparison = record::Compare(ReadRecord(first), ReadRecord(second));
   if (comparison.difference) {
     const record::Difference& difference = *comparison.difference;
-    fmt::print("first difference at {:.9g} s in {}\n  {}  {}\n  {}  {}\n", difference.time,
-               difference.signal, first, Shortened(difference.first), second,
-               Shortened(difference.second));
+    Print("first difference at {:.9g} s in {}\n  {}  {}\n  {}  {}\n", difference.time,
+          difference.signal, first, Shortened(difference.first), second,
+          Shortened(difference.second));
   } else {
-    fmt::print("no difference in {} messages\n", comparison.messages);
+    Print("no difference in {} messages\n", comparison.messages);
   }
-  if (!comparison.metrics.empty()) fmt::print("\n  {:<31} {:<26} {}\n", "metric", first, second);
+  if (!comparison.metrics.empty()) Print("\n  {:<31} {:<26} {}\n", "metric", first, second);
   for (const auto& metric : comparison.metrics) {
-    fmt::print("{} {:<31} {:<26} {}\n", metric.first == metric.second ? ' ' : '*', metric.name,
-               metric.first.empty() ? "-" : metric.first,
-               metric.second.empty() ? "-" : metric.second);
+    Print("{} {:<31} {:<26} {}\n", metric.first == metric.second ? ' ' : '*', metric.name,
+          metric.first.empty() ? "-" : metric.first, metric.second.empty() ? "-" : metric.second);
   }
   return comparison.difference ? kRunFailed : kFine;
 }

@@ -9,11 +9,14 @@
 
 #include "diagrams/package_paths.h"
 #include "framework/error.h"
+#include "models/opened_files.h"
 #include "models/robot/collision_check.h"
 #include "models/robot/srdf.h"
 #include "models/robot/unseen_links.h"
 #include "models/robot/urdf.h"
 #include "tools/commands.h"
+#include "tools/output_files.h"
+#include "tools/terminal.h"
 
 namespace oca::tools {
 namespace {
@@ -98,11 +101,14 @@ int CheckCollisionsCommand(const CheckCollisionsArguments& arguments) {
   options.load_visuals = false;
   options.visual_as_collision = VisualsFrom(arguments.visual_as_collision);
   const auto warn = [&](const std::string& line) {
-    fmt::print(stderr, "{}: warning: {}\n", arguments.urdf, line);
+    Tell("{}: warning: {}\n", arguments.urdf, line);
   };
   options.warn = warn;
+  models::OpenedFiles opened;
   const models::RobotModel model =
       models::LoadUrdf(diagrams::ResolvePath(arguments.urdf, {}, {}), options);
+  CheckOutputs({{"--write-srdf", arguments.write_srdf}},
+               InputsOf(opened.files(), "what the robot is read from"));
   if (const std::string unseen = models::DescribeUnseen(model, "--visual-as-collision missing");
       !unseen.empty())
     warn(unseen);
@@ -116,7 +122,7 @@ int CheckCollisionsCommand(const CheckCollisionsArguments& arguments) {
     std::cout << ToJson(model, pairs, sampling).dump(2) << '\n';
   } else {
     std::cout << Table(model, pairs, sampling);
-    if (!arguments.write_srdf.empty()) fmt::print(stderr, "wrote {}\n", arguments.write_srdf);
+    if (!arguments.write_srdf.empty()) Tell("wrote {}\n", arguments.write_srdf);
   }
   return kFine;
 }

@@ -15,13 +15,15 @@
 
 #include "diagrams/blind_spots.h"
 #include "diagrams/chatter_check.h"
-#include "diagrams/record/record_files.h"
+#include "diagrams/record/extracted_record.h"
 #include "diagrams/record/run_metadata.h"
 #include "diagrams/record/run_recorder.h"
 #include "diagrams/run.h"
+#include "diagrams/signal_recorder.h"
 #include "framework/error.h"
 #include "tools/commands.h"
 #include "tools/live_commands.h"
+#include "tools/output_files.h"
 #include "tools/report_writer.h"
 #include "tools/run_summary.h"
 #include "tools/terminal.h"
@@ -125,8 +127,8 @@ class FileRecorder {
   /// Says what was lost. throws ConfigError if the file could not be written to the end.
   void Finish() {
     if (recorder_.dropped() > 0) {
-      fmt::print(stderr, "warning: {}: {} samples dropped, the writer was too slow\n", file_,
-                 recorder_.dropped());
+      Tell("warning: {}: {} samples dropped, the writer was too slow\n", file_,
+           recorder_.dropped());
     }
     stream_.close();
     if (!stream_) {
@@ -211,6 +213,19 @@ ExitStatus StatusOf(const diagrams::RunResult& result) {
 
 }  // namespace
 
+void CheckRunOutputs(const RunArguments& arguments, const diagrams::LoadedDiagram& loaded) {
+  std::vector<OutputFile> outputs{{"--record", arguments.record}, {"--report", arguments.report}};
+  if (!arguments.csv_folder.empty()) {
+    outputs.push_back({"--csv", arguments.csv_folder});
+    for (const auto& file : diagrams::SignalFiles(arguments.csv_folder, loaded)) {
+      outputs.push_back({"--csv", file});
+    }
+  }
+  std::vector<InputFile> inputs = InputsOf(loaded.opened, "read by what is run");
+  inputs.insert(inputs.begin(), {arguments.file, "what is run"});
+  CheckOutputs(outputs, inputs);
+}
+
 int RunCommand(const RunArguments& arguments) {
   std::vector<diagrams::Override> overrides;
   for (const std::string& text : arguments.overrides) {
@@ -232,8 +247,9 @@ int RunCommand(const RunArguments& arguments) {
   }
   std::optional<record::ExtractedRecord> extracted;
   const diagrams::LoadedDiagram loaded = Load(arguments.file, overrides, extracted);
+  CheckRunOutputs(arguments, loaded);
 
-  for (const std::string& warning : loaded.warnings) fmt::print(stderr, "{}\n", warning);
+  for (const std::string& warning : loaded.warnings) Tell("{}\n", warning);
   StderrLog log(arguments.log_level);
   diagrams::RunOptions options;
   options.duration = arguments.duration;
@@ -274,7 +290,7 @@ int RunCommand(const RunArguments& arguments) {
   } else {
     std::cout << RunSummary(loaded, result, WantsColour(STDOUT_FILENO)) << ProfileTable(result);
   }
-  if (!result.failure.empty()) fmt::print(stderr, "error: {}\n", result.failure);
+  if (!result.failure.empty()) Tell("error: {}\n", result.failure);
   return StatusOf(result);
 }
 

@@ -14,6 +14,7 @@
 #include "tools/commands.h"
 #include "tools/record_commands.h"
 #include "tools/sweep_commands.h"
+#include "tools/terminal.h"
 
 namespace oca::tools {
 namespace {
@@ -54,16 +55,14 @@ class CommandLine {
     }
     try {
       const int status = command_();
-      if (std::cout.flush() && std::fflush(stdout) == 0) return status;
-      fmt::print(stderr, "error: standard output cannot be written\n");
-      return kRunFailed;
+      return FlushOutput() ? status : kRunFailed;
     } catch (const SimulationError& error) {
-      fmt::print(stderr, "error: {}\n", error.what());
+      Tell("error: {}\n", error.what());
       return kRunFailed;
     } catch (const Error& error) {
-      fmt::print(stderr, "{}\n", error.what());
+      Tell("{}\n", error.what());
     } catch (const models::ModelError& error) {
-      fmt::print(stderr, "{}\n", error.what());
+      Tell("{}\n", error.what());
     }
     return kBadInput;
   }
@@ -220,10 +219,10 @@ class CommandLine {
     } else if (argc > 1 && !first.starts_with("-")) {
       what = fmt::format("unknown command '{}'{}", first, DidYouMean(first, commands));
     }
-    fmt::print(stderr,
-               "error: {}\nusage: simulator COMMAND ...; commands: {}; `simulator COMMAND "
-               "--help` tells more\n",
-               what, fmt::join(commands, ", "));
+    Tell(
+        "error: {}\nusage: simulator COMMAND ...; commands: {}; `simulator COMMAND "
+        "--help` tells more\n",
+        what, fmt::join(commands, ", "));
     return kUsage;
   }
 
@@ -271,10 +270,11 @@ class CommandLine {
 }  // namespace oca::tools
 
 int main(int argc, char** argv) {
+  oca::tools::PrepareTerminal();
   try {
     return oca::tools::CommandLine().Main(argc, argv);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
+    oca::tools::Tell("error: {}\n", error.what());
     return oca::tools::kRunFailed;
   }
 }

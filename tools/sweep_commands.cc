@@ -24,7 +24,9 @@
 #include "diagrams/sweep/summary.h"
 #include "diagrams/sweep/sweep_run.h"
 #include "framework/error.h"
+#include "models/opened_files.h"
 #include "tools/commands.h"
+#include "tools/output_files.h"
 #include "tools/sweep_report.h"
 #include "tools/terminal.h"
 
@@ -92,7 +94,7 @@ Shard ShardOfSurroundings() {
     throw ConfigError(fmt::format("{}: got part {} of {}; expected --shard I/N", engine,
                                   shard.index, shard.count));
   }
-  fmt::print(stderr, "shard {} of {}, as {} says\n", shard.index, shard.count, engine);
+  Tell("shard {} of {}, as {} says\n", shard.index, shard.count, engine);
   return shard;
 }
 
@@ -101,7 +103,7 @@ class SweepBar {
  public:
   explicit SweepBar(bool visible) : visible_(visible) {}
   ~SweepBar() {
-    if (visible_) fmt::print(stderr, "\r\033[K");
+    if (visible_) Tell("\r\033[K");
   }
   void Show(std::int64_t done, std::int64_t all) {
     if (first_ < 0) first_ = done;
@@ -116,9 +118,8 @@ class SweepBar {
       rest = fmt::format(", {:.3g} a second, {}:{:02}:{:02} left", rate, seconds / 3600,
                          seconds / 60 % 60, seconds % 60);
     }
-    fmt::print(stderr, "\r\033[K[{:#<{}}{:.<{}}] {} of {} runs{}", "", filled, "", kWidth - filled,
-               done, all, rest);
-    std::fflush(stderr);
+    Tell("\r\033[K[{:#<{}}{:.<{}}] {} of {} runs{}", "", filled, "", kWidth - filled, done, all,
+         rest);
   }
 
  private:
@@ -156,12 +157,20 @@ int SweepCommand(const SweepArguments& arguments) {
   }
   const Shard shard =
       arguments.shard.empty() ? ShardOfSurroundings() : Shard::Parse(arguments.shard);
-  for (const std::string& warning : Inspect(campaign)) fmt::print(stderr, "{}\n", warning);
   const fs::path folder(arguments.folder);
+  models::OpenedFiles opened;
+  for (const std::string& warning : Inspect(campaign)) Tell("{}\n", warning);
+  std::vector<OutputFile> outputs{{"-o", folder}, {"-o", folder / "results.db"}};
+  for (const char* const end : {".jsonl", ".jsonl.part", ".timings.jsonl"}) {
+    outputs.push_back({"-o", folder / (shard.Stem() + end)});
+  }
+  std::vector<InputFile> inputs = InputsOf(opened.files(), "read by what is run");
+  inputs.insert(inputs.begin(), {campaign.file, "what is run"});
+  CheckOutputs(outputs, inputs);
   sweep::ResultFile file(folder, campaign, shard);
   const std::int64_t before = std::ssize(file.results().rows);
   if (before > 0) {
-    fmt::print(stderr, "{} of {} runs are there already\n", before, CountRuns(campaign, shard));
+    Tell("{} of {} runs are there already\n", before, CountRuns(campaign, shard));
   }
   std::signal(SIGINT, Interrupt);
   std::signal(SIGTERM, Interrupt);
@@ -176,25 +185,32 @@ int SweepCommand(const SweepArguments& arguments) {
   bar.reset();
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   const std::int64_t ran = std::ssize(file.results().rows) - before;
-  fmt::print(stderr, "{} runs in {:.3g} s, {:.3g} a second, on {} threads\n", ran, taken.count(),
-             static_cast<double>(ran) / taken.count(), arguments.jobs);
+  Tell("{} runs in {:.3g} s, {:.3g} a second, on {} threads\n", ran, taken.count(),
+       static_cast<double>(ran) / taken.count(), arguments.jobs);
   if (finished && shard.count == 1) WriteDatabase(folder / "results.db", file.results());
   const int status = Report(file.results(), arguments.json ? Form::kJson : Form::kTable,
                             WantsColour(STDOUT_FILENO));
   if (finished) return status;
-  fmt::print(stderr, "interrupted: {} of {} runs are kept, the same command goes on with them\n",
-             file.results().rows.size(), CountRuns(campaign, shard));
+  Tell("interrupted: {} of {} runs are kept, the same command goes on with them\n",
+       file.results().rows.size(), CountRuns(campaign, shard));
   return kInterrupted;
 }
 
 int MergeCommand(const MergeArguments& arguments) {
   const Results results = sweep::MergeShards(arguments.folder);
+  const fs::path database = arguments.database.empty() ? fs::path(arguments.folder) / "results.db"
+                                                       : fs::path(arguments.database);
+  std::vector<InputFile> inputs;
+  for (const auto& entry : fs::directory_iterator(arguments.folder)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with("shard-") && !name.starts_with("results.jsonl")) continue;
+    inputs.push_back({entry.path(), "what is merged"});
+  }
+  CheckOutputs({{"--jsonl", arguments.lines}, {"-o", database}}, inputs);
   if (!arguments.lines.empty()) {
     sweep::WriteResults(arguments.lines, results.campaign, results.rows);
   }
-  WriteDatabase(arguments.database.empty() ? fs::path(arguments.folder) / "results.db"
-                                           : fs::path(arguments.database),
-                results);
+  WriteDatabase(database, results);
   const Form form = arguments.json       ? Form::kJson
                     : arguments.markdown ? Form::kMarkdown
                                          : Form::kTable;

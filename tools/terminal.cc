@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/terminal.h"
 
-#include <fmt/format.h>
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <string_view>
+#include <iostream>
 
 namespace oca::tools {
 namespace {
@@ -17,6 +19,32 @@ std::string Paint(const std::string& text, const char* code, bool colour) {
 }
 
 }  // namespace
+
+void PrepareTerminal() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) continue;
+    // The least number that is free, hence this one; opened the wrong way round.
+    open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+  }
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+void WriteError(std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
+
+void WriteOutput(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
+
+bool FlushOutput() {
+  errno = 0;
+  std::cout.flush();
+  const bool flushed = std::fflush(stdout) == 0;
+  const bool reader_gone = errno == EPIPE;
+  if (std::cout && flushed && std::ferror(stdout) == 0) return true;
+  if (!reader_gone) WriteError("error: standard output cannot be written\n");
+  return false;
+}
 
 bool IsTerminal(int descriptor) {
   const char* const term = std::getenv("TERM");
@@ -33,7 +61,7 @@ std::string Bad(const std::string& text, bool colour) { return Paint(text, "1;31
 std::string Dim(const std::string& text, bool colour) { return Paint(text, "2", colour); }
 
 ProgressBar::~ProgressBar() {
-  if (visible_) fmt::print(stderr, "\r\033[K");
+  if (visible_) WriteError("\r\033[K");
 }
 
 void ProgressBar::Show(double time) {
@@ -51,8 +79,8 @@ void ProgressBar::Show(double time) {
   const double share = end_ > 0.0 ? std::clamp(time / end_, 0.0, 1.0) : 1.0;
   const int filled = static_cast<int>(share * kWidth);
   const double seconds = std::chrono::duration<double>(now - start_).count();
-  fmt::print(stderr, "\r\033[K[{:#<{}}{:.<{}}] {:.1f} of {:g} s, {:.0f} times real time", "",
-             filled, "", kWidth - filled, time, end_, time / seconds);
+  Tell("\r\033[K[{:#<{}}{:.<{}}] {:.1f} of {:g} s, {:.0f} times real time", "", filled, "",
+       kWidth - filled, time, end_, time / seconds);
   std::fflush(stderr);
 }
 

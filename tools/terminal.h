@@ -1,10 +1,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <string>
+#include <string_view>
+#include <utility>
 
 namespace oca::tools {
+
+/// To be called first. Standard streams that are closed get a descriptor that cannot be used, lest
+/// a file of ours takes its number and gets our messages; a closed pipe is an error of the write,
+/// not the end of the program.
+void PrepareTerminal();
+
+/// Writes to standard error and to standard output. Neither fails, so that a run goes on and its
+/// record is complete when nobody reads: what cannot be written is lost.
+void WriteError(std::string_view text);
+void WriteOutput(std::string_view text);
+/// At the end: whether all that was written to standard output, in any way, has got there. Says so
+/// on standard error if not, unless the reader has gone.
+bool FlushOutput();
+
+/// The same with formatting.
+template <class... Values>
+void Tell(fmt::format_string<Values...> format, Values&&... values) {
+  WriteError(fmt::format(format, std::forward<Values>(values)...));
+}
+template <class... Values>
+void Print(fmt::format_string<Values...> format, Values&&... values) {
+  WriteOutput(fmt::format(format, std::forward<Values>(values)...));
+}
 
 /// Whether the stream behind a file descriptor is a terminal that moves the cursor.
 bool IsTerminal(int descriptor);

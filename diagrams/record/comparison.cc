@@ -28,7 +28,7 @@ std::optional<Difference> DifferenceOf(const McapFile& first, const McapFile& se
       continue;
     }
     const std::uint64_t time = std::min(time_a, time_b);
-    return Difference{static_cast<double>(time) * 1e-9, SignalName(channel),
+    return Difference{static_cast<double>(time) / 1e9, SignalName(channel),
                       time_a == time ? std::string(a->data) : "",
                       time_b == time ? std::string(b->data) : ""};
   }

@@ -1,71 +1,87 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "diagrams/record/csv_export.h"
 
-#include <fmt/format.h>
-
-#include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
 
 #include "diagrams/record/series.h"
-#include "framework/error.h"
+#include "diagrams/signal_table.h"
 
 namespace oca::record {
 namespace {
 
 namespace fs = std::filesystem;
+using diagrams::SignalTable;
 using nlohmann::ordered_json;
 
-/// Columns and cells of a vector's message; false if it is another signal's.
-bool Cells(const ordered_json& json, std::vector<std::string>& names,
-           std::vector<std::string>& cells) {
-  names.clear();
-  cells.clear();
-  const bool listed = json.is_object() && json.size() == 1 && json.contains("values");
-  const ordered_json& numbers = listed ? json["values"] : json;
-  if (!numbers.is_structured() || (!listed && !numbers.is_object())) return false;
-  for (const auto& [key, value] : numbers.items()) {
+/// Names and numbers of a vector's message, without names but numbered ones; false if it is another
+/// signal's.
+bool Numbers(const ordered_json& json, std::vector<std::string>& joints,
+             std::vector<double>& numbers) {
+  joints.clear();
+  numbers.clear();
+  const bool listed =
+      json.is_object() && json.size() == 1 && json.contains("values") && json["values"].is_array();
+  const ordered_json& values = listed ? json["values"] : json;
+  if (!listed && !values.is_object()) return false;
+  for (const auto& [key, value] : values.items()) {
     if (!value.is_number() && !value.is_null()) return false;
-    names.push_back(listed ? fmt::format("[{}]", key) : key);
-    cells.push_back(value.is_null() ? "nan" : value.dump());
+    if (!listed) joints.push_back(key);
+    numbers.push_back(value.is_null() ? std::numeric_limits<double>::quiet_NaN()
+                                      : value.get<double>());
   }
   return true;
 }
 
-std::string LineOf(const std::vector<std::string>& cells) {
-  std::string line;
-  for (const std::string& cell : cells) line += "," + cell;
-  return line + "\n";
+bool IsVector(std::string_view data) {
+  std::vector<std::string> joints;
+  std::vector<double> numbers;
+  return Numbers(ordered_json::parse(data), joints, numbers);
 }
 
 }  // namespace
 
-int ExportCsv(const McapFile& record, const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) {
-    throw ConfigError(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
+std::vector<fs::path> ExportedFiles(const McapFile& record, const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const McapChannel& channel : record.channels()) {
+    if (!IsSignal(channel)) continue;
+    const auto messages = record.MessagesOf(channel.topic);
+    if (messages.empty()) continue;
+    files.push_back(
+        SignalTable::FileOf(folder, SignalName(channel), IsVector(messages.front()->data)));
   }
+  return files;
+}
+
+int ExportCsv(const McapFile& record, const fs::path& folder) {
+  diagrams::MakeFolder(folder);
   const std::uint64_t start = StartOf(record);
   int files = 0;
   for (const McapChannel& channel : record.channels()) {
     if (!IsSignal(channel)) continue;
     const auto messages = record.MessagesOf(channel.topic);
     if (messages.empty()) continue;
-    std::vector<std::string> header, names, cells;
-    const bool vector = Cells(ordered_json::parse(messages.front()->data), header, cells);
-    const fs::path file = folder / (SignalName(channel) + (vector ? ".csv" : ".jsonl"));
-    std::ofstream stream(file, std::ios::trunc);
-    if (vector) stream << "time" << LineOf(header);
+    const std::string signal = SignalName(channel);
+    std::vector<std::string> joints;
+    std::vector<double> numbers;
+    std::optional<std::vector<std::string>> columns;
+    if (Numbers(ordered_json::parse(messages.front()->data), joints, numbers)) {
+      columns = SignalTable::Columns(signal.substr(signal.find('.') + 1),
+                                     static_cast<int>(numbers.size()), joints);
+    }
+    SignalTable table(folder, signal, columns);
     for (const McapMessage* const message : messages) {
-      const double time = static_cast<double>(message->log_time - start) * 1e-9;
-      if (vector) {
-        Cells(ordered_json::parse(message->data), names, cells);
-        stream << fmt::format("{}", time) << LineOf(cells);
+      const auto time = static_cast<std::int64_t>(message->log_time - start);
+      if (columns) {
+        Numbers(ordered_json::parse(message->data), joints, numbers);
+        table.Write(time, numbers);
       } else {
-        stream << fmt::format("{{\"time\":{},\"value\":{}}}\n", time, message->data);
+        table.Write(time, message->data);
       }
     }
-    if (!stream.flush()) throw ConfigError(fmt::format("{}: cannot be written", file.string()));
+    table.Finish();
     ++files;
   }
   return files;

@@ -2,15 +2,19 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "diagrams/record/mcap_reader.h"
 
 namespace oca::record {
 
-/// Writes the signals of a record into a folder, a file a signal: `system.port.csv` with columns
-/// `time` (s) and one a number for vectors, `system.port.jsonl` with {"time", "value"} a line for
-/// all others. Numbers keep the digits they have in the record. Returns how many files there are.
-/// throws ConfigError naming what cannot be written.
+/// Writes the signals of a record into a folder, a diagrams::SignalTable each, as the run would
+/// have done with `--csv`. Returns how many files there are. throws ConfigError naming what cannot
+/// be written.
 int ExportCsv(const McapFile& record, const std::filesystem::path& folder);
+
+/// The files that it would write.
+std::vector<std::filesystem::path> ExportedFiles(const McapFile& record,
+                                                 const std::filesystem::path& folder);
 
 }  // namespace oca::record

@@ -20,7 +20,7 @@ bool Recorded(const LoadedDiagram& loaded, const std::string& name) {
 }
 
 /// The held delta of a limiter that has the same robot, if that one is recorded and `delta` is not.
-OutputHandle RecordedDelta(const LoadedDiagram& loaded, const SignalFacts& facts,
+OutputHandle RecordedDelta(const LoadedDiagram& loaded, const diagrams::SignalFacts& facts,
                            const OutputHandle& delta) {
   if (Recorded(loaded, facts.NameOf(delta))) return delta;
   for (const OutputHandle& other : facts.OutputsOf("DeltaLimiter", kVectorType.name)) {
@@ -31,7 +31,7 @@ OutputHandle RecordedDelta(const LoadedDiagram& loaded, const SignalFacts& facts
 }
 
 /// What an overlay applies of a limited delta, if that is recorded and the delta itself is not.
-OutputHandle AppliedDelta(const LoadedDiagram& loaded, const SignalFacts& facts,
+OutputHandle AppliedDelta(const LoadedDiagram& loaded, const diagrams::SignalFacts& facts,
                           const OutputHandle& limited) {
   if (Recorded(loaded, facts.NameOf(limited))) return limited;
   for (const LoadedDiagram::Block& block : loaded.systems) {
@@ -45,7 +45,7 @@ OutputHandle AppliedDelta(const LoadedDiagram& loaded, const SignalFacts& facts,
   return limited;
 }
 
-std::string TopicOf(const OutputHandle& output, const SignalFacts& facts) {
+std::string TopicOf(const OutputHandle& output, const diagrams::SignalFacts& facts) {
   std::string topic = "/" + facts.NameOf(output);
   std::replace(topic.begin(), topic.end(), '.', '/');
   return topic;
@@ -83,7 +83,8 @@ Period SamplingOf(const LoadedDiagram::Block& block) {
 
 }  // namespace
 
-std::vector<LimitHint> LimitHintsOf(const LoadedDiagram& loaded, const SignalFacts& facts) {
+std::vector<LimitHint> LimitHintsOf(const LoadedDiagram& loaded,
+                                    const diagrams::SignalFacts& facts) {
   std::vector<LimitHint> hints;
   for (const LoadedDiagram::Block& block : loaded.systems) {
     if (SwitchedOff(block)) continue;
@@ -115,7 +116,8 @@ std::vector<LimitHint> LimitHintsOf(const LoadedDiagram& loaded, const SignalFac
   return hints;
 }
 
-std::string LimitHintsJson(const std::vector<LimitHint>& hints, const SignalFacts& facts) {
+std::string LimitHintsJson(const std::vector<LimitHint>& hints,
+                           const diagrams::SignalFacts& facts) {
   ordered_json list = ordered_json::array();
   for (const LimitHint& hint : hints) {
     ordered_json json{{"system", hint.system},
@@ -129,7 +131,7 @@ std::string LimitHintsJson(const std::vector<LimitHint>& hints, const SignalFact
   return list.dump();
 }
 
-std::vector<PlotHint> PlotHintsOf(const LoadedDiagram& loaded, const SignalFacts& facts) {
+std::vector<PlotHint> PlotHintsOf(const LoadedDiagram& loaded, const diagrams::SignalFacts& facts) {
   PlotHint requested{"requested", "Requested joints", ""};
   PlotHint delta{"delta", "Deltas of the avoidance", ""};
   PlotHint final_joints{"final", "Final joints", ""};
@@ -167,7 +169,7 @@ std::vector<PlotHint> PlotHintsOf(const LoadedDiagram& loaded, const SignalFacts
   return hints;
 }
 
-std::string PlotHintsJson(const std::vector<PlotHint>& hints, const SignalFacts& facts) {
+std::string PlotHintsJson(const std::vector<PlotHint>& hints, const diagrams::SignalFacts& facts) {
   ordered_json list = ordered_json::array();
   for (const PlotHint& hint : hints) {
     ordered_json topics = ordered_json::array();

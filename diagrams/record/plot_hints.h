@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "diagrams/record/signal_facts.h"
+#include "diagrams/signal_facts.h"
 
 namespace oca::record {
 
@@ -21,7 +21,8 @@ struct PlotHint {
 /// The plots that a diagram's systems suggest: requested joints, deltas and final joints (what
 /// MotionMetrics judges), distances (with the range of RepulsiveField), speeds of plants. Where
 /// several signals would do, one that is recorded already.
-std::vector<PlotHint> PlotHintsOf(const diagrams::LoadedDiagram& loaded, const SignalFacts& facts);
+std::vector<PlotHint> PlotHintsOf(const diagrams::LoadedDiagram& loaded,
+                                  const diagrams::SignalFacts& facts);
 
 /// A system that may hold a motion back, and the signal that shows when it does.
 struct LimitHint {
@@ -38,10 +39,10 @@ struct LimitHint {
 /// The systems of a diagram that limit: DeltaLimiter, RepulsiveField, SafetyFilter, MotionLimiter,
 /// without those that are switched off. Where several signals would do, one that is recorded.
 std::vector<LimitHint> LimitHintsOf(const diagrams::LoadedDiagram& loaded,
-                                    const SignalFacts& facts);
+                                    const diagrams::SignalFacts& facts);
 
 /// As JSON lists, for metadata `oca.plots`.
-std::string PlotHintsJson(const std::vector<PlotHint>& hints, const SignalFacts& facts);
-std::string LimitHintsJson(const std::vector<LimitHint>& hints, const SignalFacts& facts);
+std::string PlotHintsJson(const std::vector<PlotHint>& hints, const diagrams::SignalFacts& facts);
+std::string LimitHintsJson(const std::vector<LimitHint>& hints, const diagrams::SignalFacts& facts);
 
 }  // namespace oca::record

@@ -2,21 +2,22 @@
 #include "diagrams/record/record_files.h"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 
 #include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <map>
-#include <regex>
+#include <set>
+#include <utility>
 
 #include "diagrams/document.h"
 #include "diagrams/package_paths.h"
-#include "diagrams/record/mcap_bytes.h"
 #include "diagrams/record/yaml_writer.h"
-#include "diagrams/yaml_reader.h"
 #include "framework/error.h"
+#include "models/error.h"
+#include "models/opened_files.h"
 #include "models/robot/mesh_path.h"
+#include "models/robot/urdf_meshes.h"
 
 namespace oca::record {
 namespace {
@@ -56,7 +57,8 @@ bool Inside(const fs::path& name) {
 class FileCollector {
  public:
   explicit FileCollector(const diagrams::LoadedDiagram& loaded)
-      : base_(fs::absolute(loaded.file).parent_path()) {
+      : base_(fs::absolute(loaded.file).parent_path()),
+        opened_(loaded.opened.begin(), loaded.opened.end()) {
     const Value* const packages = loaded.resolved.Find("packages");
     if (packages == nullptr || packages->map() == nullptr) return;
     for (const Value::Entry& entry : *packages->map()) {
@@ -84,7 +86,7 @@ class FileCollector {
       const Value* const own = resolved->Find(entry.key);
       const bool file = own != nullptr && NamesFile(entry.key) && own->string() != nullptr;
       map.push_back({entry.key, entry.location,
-                     file ? Value(Attach(*own->string(), FolderOf(own->location())), {})
+                     file ? Value(Attach(entry.key, *own->string(), FolderOf(own->location())), {})
                           : Rewrite(entry.value, own)});
     }
     return Value(std::move(map), document.location());
@@ -113,17 +115,31 @@ class FileCollector {
   }
 
  private:
-  /// Attaches a file that the diagram names; returns its new name there.
-  std::string Attach(const std::string& name, const fs::path& folder) {
+  /// Attaches a file that the diagram names, if the run was made from it; returns its new name
+  /// there.
+  std::string Attach(const std::string& key, const std::string& name, const fs::path& folder) {
     if (name.empty()) return name;
     const fs::path path = diagrams::ResolvePath(name, folder, packages_);
-    const bool package = name.starts_with(kScheme);
-    const fs::path as =
-        package ? fs::path("packages") / name.substr(kScheme.size()) : PlaceOf(path);
+    if (!Opened(path)) return name;
+    const auto [as, new_name] = NamesOf(name, path);
     const bool fresh = !files_.contains(as.string());
     if (fresh) files_[as.string()] = ReadBytes(path);
-    if (fresh && path.extension() != ".srdf") AttachMeshes(as, path);
-    return package ? name : as.string();
+    if (fresh && key == "urdf") AttachMeshes(as, path);
+    return new_name;
+  }
+
+  bool Opened(const fs::path& path) const { return opened_.contains(models::PlainPath(path)); }
+
+  /// The attachment for a file and the name by which the diagram finds it there: below `packages/`
+  /// what stays within its package.
+  std::pair<fs::path, std::string> NamesOf(const std::string& name, const fs::path& path) const {
+    if (name.starts_with(kScheme)) {
+      const fs::path rest = name.substr(kScheme.size());
+      const fs::path as = (fs::path("packages") / rest).lexically_normal();
+      if (Inside(as.lexically_relative(fs::path("packages") / *rest.begin()))) return {as, name};
+    }
+    const fs::path place = PlaceOf(path);
+    return {place, place.string()};
   }
 
   /// Below `files/`, as it lies to the diagram; without the folders above what lies elsewhere.
@@ -136,21 +152,12 @@ class FileCollector {
     return place;
   }
 
-  /// The meshes that a URDF names. What it finds by an absolute path it is given a relative one
+  /// The meshes of a URDF's links. What it finds by an absolute path it is given a relative one
   /// for.
   void AttachMeshes(const fs::path& urdf, const fs::path& path) {
-    const std::string text = files_.at(urdf.string());
-    if (text.find("<robot") == std::string::npos) return;
-    static const std::regex kMesh("<mesh[^>]*?filename\\s*=\\s*[\"']([^\"']+)[\"']");
-    std::string rewritten;
-    auto copied = text.begin();
-    for (std::sregex_iterator match(text.begin(), text.end(), kMesh), end; match != end; ++match) {
-      rewritten.append(copied, (*match)[1].first);
-      rewritten += AttachMesh((*match)[1].str(), urdf, path);
-      copied = (*match)[1].second;
-    }
-    rewritten.append(copied, text.end());
-    files_[urdf.string()] = rewritten;
+    std::string& text = files_.at(urdf.string());
+    text = models::RenameMeshes(
+        text, path.string(), [&](const std::string& name) { return AttachMesh(name, urdf, path); });
   }
 
   std::string AttachMesh(const std::string& name, const fs::path& urdf, const fs::path& path) {
@@ -160,21 +167,27 @@ class FileCollector {
       return found == packages_.end() ? fs::path() : found->second;
     };
     options.package_directories = diagrams::PackageFolders();
-    const fs::path mesh = models::FindMesh(name, path.parent_path(), options, path.string());
-    if (name.starts_with(kScheme)) {
-      files_.try_emplace((fs::path("packages") / name.substr(kScheme.size())).string(),
-                         ReadBytes(mesh));
-      return name;
+    fs::path mesh;
+    try {
+      mesh = models::FindMesh(name, path.parent_path(), options, path.string());
+    } catch (const models::ModelError&) {
+      return name;  // the run did not need it
     }
-    const fs::path beside = (urdf.parent_path() / name).lexically_normal();
-    const bool stays =
-        fs::path(name).is_relative() && name.find("://") == std::string::npos && Inside(beside);
-    const fs::path as = stays ? beside : PlaceOf(mesh);
-    files_.try_emplace(as.string(), ReadBytes(mesh));
-    return stays ? name : as.lexically_relative(urdf.parent_path()).string();
+    if (!Opened(mesh)) return name;
+    auto [as, new_name] = NamesOf(name, mesh);
+    if (new_name != name) {
+      const fs::path beside = (urdf.parent_path() / name).lexically_normal();
+      const bool stays =
+          fs::path(name).is_relative() && name.find("://") == std::string::npos && Inside(beside);
+      if (stays) as = beside;
+      new_name = stays ? name : as.lexically_relative(urdf.parent_path()).string();
+    }
+    if (!files_.contains(as.string())) files_[as.string()] = ReadBytes(mesh);
+    return new_name;
   }
 
   const fs::path base_;
+  const std::set<fs::path> opened_;
   std::map<std::string, fs::path> packages_;
   std::map<std::string, std::string> files_;  ///< by name of the attachment
 };
@@ -196,13 +209,24 @@ Value ListOf(const std::vector<std::string>& texts) {
   return Value(std::move(list), {});
 }
 
+/// The diagram files that were read; and, if a parameter chose one of the parts that come with OCA,
+/// the others, which it may choose next time. No other file that it could choose: it may hold
+/// anything.
+std::vector<fs::path> SourcesOf(const diagrams::LoadedDiagram& loaded) {
+  std::vector<fs::path> sources = loaded.sources;
+  for (const fs::path& file : loaded.candidates) {
+    const bool there = std::find(sources.begin(), sources.end(), file) != sources.end();
+    if (!there && diagrams::IsPartOfOca(file)) sources.push_back(file);
+  }
+  return sources;
+}
+
 void AddSources(const diagrams::LoadedDiagram& loaded, double duration,
                 std::vector<McapAttachment>& attachments) {
   if (loaded.sources.empty()) return;
-  const fs::path folder = FolderAbove(loaded.sources);
-  for (const fs::path& file : loaded.sources) {
-    std::error_code error;
-    if (!fs::is_regular_file(file, error)) continue;  // one beside those that were read
+  const std::vector<fs::path> sources = SourcesOf(loaded);
+  const fs::path folder = FolderAbove(sources);
+  for (const fs::path& file : sources) {
     const fs::path name = fs::path("sources") / file.lexically_relative(folder);
     attachments.push_back({0, name.string(), "application/yaml", ReadBytes(file)});
   }
@@ -218,84 +242,6 @@ void AddSources(const diagrams::LoadedDiagram& loaded, double duration,
   map.push_back({"diagram", {}, Value(main.string(), {})});
   map.push_back({"overrides", {}, ListOf(changes)});
   attachments.push_back({0, "sources.yaml", "application/yaml", WriteYaml(Value(map, {}))});
-}
-
-/// Puts the files that a diagram names by their place to where its sources look for them; false if
-/// one would leave the folder.
-bool PlaceFiles(const fs::path& folder, const fs::path& beside) {
-  std::error_code error;
-  for (fs::recursive_directory_iterator at(folder / "files", error), end; !error && at != end;
-       at.increment(error)) {
-    if (!at->is_regular_file(error)) continue;
-    fs::path place = beside;
-    for (const fs::path& part : at->path().lexically_relative(folder / "files")) {
-      place /= part == "up" ? fs::path("..") : part;
-    }
-    place = place.lexically_normal();
-    if (!Inside(place.lexically_relative(folder))) return false;
-    if (fs::exists(place, error)) continue;
-    fs::create_directories(place.parent_path(), error);
-    fs::create_symlink(at->path(), place, error);
-  }
-  return true;
-}
-
-/// What the copy of a package in a record lacks, from the package of this machine.
-void CompletePackage(const fs::path& copy) {
-  std::error_code error;
-  for (const fs::path& place : diagrams::PackageFolders()) {
-    const fs::path package = place / copy.filename();
-    if (!fs::is_directory(package, error)) continue;
-    for (fs::recursive_directory_iterator at(package, error), end; !error && at != end;
-         at.increment(error)) {
-      const fs::path to = copy / at->path().lexically_relative(package);
-      std::error_code not_there;
-      if (!at->is_regular_file(not_there) || fs::exists(to, not_there)) continue;
-      fs::create_directories(to.parent_path(), not_there);
-      fs::create_symlink(fs::absolute(at->path()), to, not_there);
-    }
-    return;
-  }
-}
-
-/// All packages of a record, as a diagram is told of them.
-std::vector<diagrams::Override> CompletePackages(const fs::path& folder) {
-  std::vector<diagrams::Override> packages;
-  std::error_code error;
-  for (fs::directory_iterator at(folder / "packages", error), end; !error && at != end;
-       at.increment(error)) {
-    CompletePackage(at->path());
-    packages.push_back({"packages." + at->path().filename().string(), at->path().string()});
-  }
-  return packages;
-}
-
-bool HasSources(const fs::path& folder) {
-  std::error_code error;
-  return fs::is_regular_file(folder / "sources.yaml", error);
-}
-
-/// The diagram file as it was written, and the overrides of the run.
-std::pair<fs::path, std::vector<diagrams::Override>> ReadSources(const fs::path& folder) {
-  const fs::path list = folder / "sources.yaml";
-  Problems problems;
-  const std::string text = ReadBytes(list);
-  const Value sources = diagrams::ReadYaml(text, list.string(), problems);
-  const Value* const name = sources.Find("diagram");
-  const Value* const recorded = sources.Find("overrides");
-  if (!problems.empty() || name == nullptr || name->string() == nullptr ||
-      !Inside(fs::path(*name->string()).lexically_normal())) {
-    throw ConfigError("record: sources.yaml; got something else; expected diagram and overrides");
-  }
-  std::vector<diagrams::Override> overrides;
-  if (recorded != nullptr && recorded->list() != nullptr) {
-    for (const Value& change : *recorded->list()) {
-      if (change.string() != nullptr) {
-        overrides.push_back(diagrams::Override::Parse(*change.string()));
-      }
-    }
-  }
-  return {folder / *name->string(), overrides};
 }
 
 void Set(Value::Map& map, const std::string& key, Value value) {
@@ -330,80 +276,6 @@ std::vector<McapAttachment> FilesOf(const diagrams::LoadedDiagram& loaded, doubl
                      {0, "diagram.yaml", "application/yaml", WriteYaml(document)});
   AddSources(loaded, duration, attachments);
   return attachments;
-}
-
-void ExtractFiles(const McapFile& record, const fs::path& folder) {
-  if (record.FindAttachment("diagram.yaml") == nullptr) {
-    throw ConfigError("record: has no attachment diagram.yaml; expected a record of OCA");
-  }
-  for (const McapAttachment& attachment : record.attachments()) {
-    const fs::path name = fs::path(attachment.name).lexically_normal();
-    if (!Inside(name)) {
-      throw ConfigError(
-          fmt::format("record: attachment; got '{}'; expected a name that stays "
-                      "below its folder",
-                      attachment.name));
-    }
-    const fs::path file = folder / name;
-    fs::create_directories(file.parent_path());
-    std::ofstream stream(file, std::ios::binary);
-    stream.write(attachment.data.data(), static_cast<std::streamsize>(attachment.data.size()));
-    if (!stream.flush()) throw ConfigError(fmt::format("{}: cannot be written", file.string()));
-  }
-}
-
-ExtractedRecord::ExtractedRecord(const McapFile& record) {
-  std::string name = (fs::temp_directory_path() / "oca_record_XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) {
-    throw ConfigError(fmt::format("{}: cannot be made", name));
-  }
-  folder_ = name;
-  try {
-    ExtractFiles(record, folder_);
-  } catch (...) {
-    Remove();
-    throw;
-  }
-}
-
-ExtractedRecord::~ExtractedRecord() { Remove(); }
-
-diagrams::LoadedDiagram ExtractedRecord::Load(
-    const std::vector<diagrams::Override>& overrides) const {
-  if (overrides.empty() && !HasSources(folder_)) return diagrams::LoadDiagram(diagram());
-  std::vector<diagrams::Override> packages;
-  if (!overrides.empty()) packages = CompletePackages(folder_);
-  if (!HasSources(folder_)) return diagrams::LoadDiagram(diagram(), overrides);
-  auto [main, all] = ReadSources(folder_);
-  all.insert(all.end(), overrides.begin(), overrides.end());
-  diagrams::LoadedDiagram loaded;
-  if (!overrides.empty() && PlaceFiles(folder_, main.parent_path())) {
-    std::vector<diagrams::Override> with_packages = all;
-    with_packages.insert(with_packages.end(), packages.begin(), packages.end());
-    loaded = diagrams::LoadDiagram(main, with_packages);
-  } else {
-    loaded = diagrams::LoadDiagram(diagram(), overrides);
-  }
-  Problems ignored;
-  diagrams::DocumentSources sources;
-  diagrams::LoadDocument(main, all, ignored, &sources);
-  loaded.sources = sources.files;
-  loaded.overrides = all;
-  return loaded;
-}
-
-void ExtractedRecord::Remove() {
-  std::error_code ignored;
-  fs::remove_all(folder_, ignored);
-}
-
-bool IsRecord(const fs::path& file) {
-  std::error_code error;
-  if (!fs::is_regular_file(file, error)) return false;
-  std::ifstream stream(file, std::ios::binary);
-  std::string start(kMcapMagic.size(), '\0');
-  return stream.read(start.data(), static_cast<std::streamsize>(start.size())) &&
-         start == kMcapMagic;
 }
 
 }  // namespace oca::record

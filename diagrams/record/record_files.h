@@ -10,38 +10,12 @@
 namespace oca::record {
 
 /// Everything that a run was made from: `diagram.yaml`, with includes merged and overrides applied
-/// but its parameters kept, and every file that it names, as `packages/PACKAGE/...` or `files/...`,
-/// where the diagram then looks for it. `duration` s of the run, instead of the file's. Beside them
-/// the diagram file as it was written, with what it includes and may include, as `sources/...`, and
-/// `sources.yaml`, which names it and the overrides: so that other files can be chosen from a
-/// record. throws ConfigError if a file cannot be read any more.
+/// but its parameters kept, and every file that the diagram was made from, and no other, as
+/// `packages/PACKAGE/...` or `files/...`, where the diagram then looks for it. `duration` s of the
+/// run, instead of the file's. Beside them the diagram file as it was written, with what it
+/// includes, as `sources/...`, and `sources.yaml`, which names it and the overrides: so that other
+/// files can be chosen from a record. Of those that a parameter could have chosen instead only the
+/// parts that come with OCA are taken. throws ConfigError if a file cannot be read any more.
 std::vector<McapAttachment> FilesOf(const diagrams::LoadedDiagram& loaded, double duration);
-
-/// Writes the attachments of a record into a folder, from which `diagram.yaml` can be run.
-/// throws ConfigError if there is no such attachment, or a name that would leave the folder.
-void ExtractFiles(const McapFile& record, const std::filesystem::path& folder);
-
-/// The files of a record in a temporary folder of its own, gone with this.
-class ExtractedRecord {
- public:
-  /// throws ConfigError as ExtractFiles does.
-  explicit ExtractedRecord(const McapFile& record);
-  ~ExtractedRecord();
-  ExtractedRecord(const ExtractedRecord&) = delete;
-  ExtractedRecord& operator=(const ExtractedRecord&) = delete;
-
-  std::filesystem::path diagram() const { return folder_ / "diagram.yaml"; }
-  /// The diagram as it ran, or with further overrides: then made from its sources, if what they
-  /// name lies beside them, so that a parameter may choose other files. What the record does not
-  /// have of a package is taken from this machine. throws ConfigError as LoadDiagram does.
-  diagrams::LoadedDiagram Load(const std::vector<diagrams::Override>& overrides) const;
-
- private:
-  void Remove();
-  std::filesystem::path folder_;
-};
-
-/// Whether a file begins as an MCAP file does.
-bool IsRecord(const std::filesystem::path& file);
 
 }  // namespace oca::record

@@ -11,6 +11,7 @@
 #include "diagrams/record/plot_hints.h"
 #include "diagrams/record/record_files.h"
 #include "diagrams/record/run_metadata.h"
+#include "diagrams/signal_table.h"
 #include "framework/dynamic_port.h"
 #include "framework/error.h"
 
@@ -69,11 +70,7 @@ SignalFormat RunRecorder::FormatOf(const OutputHandle& output, const Context& co
   format.length = format.type == &kVectorType ? VectorSize(output, context) : 0;
   if (format.type != &kVectorType) return format;
   format.unit = facts_->UnitOf(output);
-  const std::string robot = facts_->RobotOf(output);
-  if (robot.empty()) return format;
-  for (const models::Name& joint : loaded_.models.Get(robot)->position_names()) {
-    format.joints.push_back(joint.text());
-  }
+  format.joints = facts_->JointsOf(output);
   return format;
 }
 
@@ -129,7 +126,7 @@ void RunRecorder::Attach(Simulator& simulator, bool paced, double duration) {
   simulator_ = &simulator;
   paced_ = paced;
   duration_ = duration;
-  facts_ = std::make_unique<SignalFacts>(loaded_, simulator.context());
+  facts_ = std::make_unique<diagrams::SignalFacts>(loaded_, simulator.context());
   scene_ = std::make_unique<Scene>(loaded_, *facts_);
   channels_ = Scene::Channels();
   log_channel_ = AddChannel({"/log", "foxglove.Log", FoxgloveSchema("foxglove.Log")});
@@ -181,7 +178,7 @@ void RunRecorder::BeginSinks() {
 }
 
 std::uint64_t RunRecorder::TimeOf(double time) const {
-  return options_.start_epoch + static_cast<std::uint64_t>(std::llround(time * 1e9));
+  return options_.start_epoch + static_cast<std::uint64_t>(diagrams::Nanoseconds(time));
 }
 
 void RunRecorder::WaitFor(const std::function<bool()>& room) {

@@ -90,7 +90,7 @@ class RunRecorder final : public diagrams::RunObserver, public Log {
   Simulator* simulator_{nullptr};
   bool paced_{false};
   double duration_{0.0};  ///< s
-  std::unique_ptr<SignalFacts> facts_;
+  std::unique_ptr<diagrams::SignalFacts> facts_;
   std::unique_ptr<Scene> scene_;
   std::unique_ptr<SampleQueue> queue_;
   std::vector<RecordChannel> channels_;

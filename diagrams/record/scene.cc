@@ -62,7 +62,7 @@ void Separate(std::string& list) {
 
 }  // namespace
 
-Scene::Scene(const diagrams::LoadedDiagram& loaded, const SignalFacts& facts) {
+Scene::Scene(const diagrams::LoadedDiagram& loaded, const diagrams::SignalFacts& facts) {
   AddRobots(loaded, facts);
   obstacles_ = AddSources(facts.OutputsOf("", Signal<ObstacleSet>::kName));
   proximities_ = AddSources(facts.OutputsOf("BulletDistance", Signal<ProximitySet>::kName));
@@ -91,7 +91,7 @@ std::vector<std::size_t> Scene::AddSources(const std::vector<OutputHandle>& outp
   return places;
 }
 
-void Scene::AddRobots(const diagrams::LoadedDiagram& loaded, const SignalFacts& facts) {
+void Scene::AddRobots(const diagrams::LoadedDiagram& loaded, const diagrams::SignalFacts& facts) {
   for (const auto& [name, model] : loaded.models.all()) {
     Robot robot;
     robot.name = name;

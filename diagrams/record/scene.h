@@ -11,7 +11,7 @@
 
 #include "diagrams/record/foxglove.h"
 #include "diagrams/record/record_sink.h"
-#include "diagrams/record/signal_facts.h"
+#include "diagrams/signal_facts.h"
 #include "systems/signals.h"
 
 namespace oca::record {
@@ -23,7 +23,7 @@ namespace oca::record {
 /// order of sources().
 class Scene {
  public:
-  Scene(const diagrams::LoadedDiagram& loaded, const SignalFacts& facts);
+  Scene(const diagrams::LoadedDiagram& loaded, const diagrams::SignalFacts& facts);
 
   const std::vector<OutputHandle>& sources() const { return sources_; }
   /// Channels that Emit numbers from 0.
@@ -58,7 +58,7 @@ class Scene {
     Trail requested, actual;
   };
 
-  void AddRobots(const diagrams::LoadedDiagram& loaded, const SignalFacts& facts);
+  void AddRobots(const diagrams::LoadedDiagram& loaded, const diagrams::SignalFacts& facts);
   std::vector<std::size_t> AddSources(const std::vector<OutputHandle>& outputs);
   void DrawTransforms(std::uint64_t time, std::span<const void* const> values, const Emit& emit);
   void DrawObstacles(std::uint64_t time, std::span<const void* const> values, const Emit& emit);

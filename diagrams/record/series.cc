@@ -87,7 +87,7 @@ std::vector<Series> ReadSeries(const McapFile& record, const std::string& patter
     for (const McapMessage* const message : record.MessagesOf(channel.topic)) {
       numbers.clear();
       Flatten(ParseMessage(*message, channel), "", numbers);
-      const double time = static_cast<double>(message->log_time - start) * 1e-9;
+      const double time = static_cast<double>(message->log_time - start) / 1e9;
       for (const auto& [end, value] : numbers) {
         const std::string name = signal + end;
         if (!whole && fnmatch(pattern.c_str(), name.c_str(), 0) != 0) continue;

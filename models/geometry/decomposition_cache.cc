@@ -78,7 +78,7 @@ std::vector<std::shared_ptr<const ConvexHull>> DecompositionEntry::Read(
   if (file_.empty() || !fs::is_regular_file(file_, error)) return {};
   std::vector<std::shared_ptr<const ConvexHull>> parts;
   try {
-    const std::string text = ReadWhole(file_);
+    const std::string text = ReadOwn(file_);
     std::string_view rest = text;
     std::uint64_t sum = 0, count = 0;
     if (!rest.starts_with(kMagic)) return {};

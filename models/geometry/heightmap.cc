@@ -5,6 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include "models/csv_table.h"
+#include "models/error.h"
 #include "models/geometry/point_cloud.h"
 #include "models/geometry/table_text.h"
 
@@ -14,26 +16,31 @@ namespace {
 namespace fs = std::filesystem;
 using internal::RefuseText;
 
+constexpr std::size_t kMostCells = 25'000'000;
+constexpr std::size_t kMostBoxes = 1'000'000;
+
 /// Heights row by row, without their unit.
 struct Grid {
   std::size_t width{0};
   std::vector<double> values;
 };
 
-Grid ReadCsv(const fs::path& file, std::string_view rest) {
+Grid ReadCsv(const fs::path& file) {
+  CsvTable table(file);
+  if (!table.names().empty()) {
+    throw ModelError(fmt::format("{}: height; got '{}'; expected a number", table.where(),
+                                 table.names().front()));
+  }
   Grid grid;
-  for (int line = 1; !rest.empty(); ++line) {
-    const auto words = internal::Words(internal::TakeLine(rest));
-    if (words.empty() || words[0].starts_with('#')) continue;
-    if (grid.width == 0) grid.width = words.size();
-    if (words.size() != grid.width) {
-      RefuseText(file, line, "row", fmt::format("{} values", words.size()),
-                 fmt::format("{} as before", grid.width));
-    }
-    for (const std::string_view word : words) {
-      const auto number = internal::ToNumber(word);
-      if (!number) RefuseText(file, line, "height", word, "a number");
-      grid.values.push_back(*number);
+  while (table.NextRow()) {
+    grid.width = table.cells().size();
+    for (std::size_t i = 0; i < grid.width; ++i) {
+      const double height = table.Number(i);
+      if (!(height >= 0.0)) {
+        throw ModelError(fmt::format("{}: column {}: height; got {}; expected a number not below 0",
+                                     table.where(), i + 1, height));
+      }
+      grid.values.push_back(height);
     }
   }
   return grid;
@@ -55,25 +62,27 @@ std::string_view TakeWord(std::string_view& rest) {
 Grid ReadPgm(const fs::path& file, std::string_view rest) {
   const std::string_view magic = TakeWord(rest);
   if (magic != "P2" && magic != "P5") RefuseText(file, 1, "kind of PGM", magic, "P2 or P5");
-  const auto take = [&](const char* what, double most) {
+  const auto take = [&](const char* what, std::uint64_t most) {
     const std::string_view word = TakeWord(rest);
-    const auto number = internal::ToNumber(word);
-    if (!number || !(*number >= 0.0 && *number <= most) || *number != std::floor(*number)) {
-      RefuseText(file, 0, what, word, fmt::format("a whole number up to {}", most));
-    }
+    const auto number = internal::ToCount(word, most);
+    if (!number) RefuseText(file, 0, what, word, fmt::format("a whole number up to {}", most));
     return *number;
   };
   Grid grid;
-  grid.width = static_cast<std::size_t>(take("width", 10'000));
-  const auto height = static_cast<std::size_t>(take("height", 10'000));
-  const double white = std::max(take("largest grey value", 65'535), 1.0);
-  const std::size_t count = grid.width * height;
+  grid.width = take("width", 10'000);
+  const std::uint64_t count = grid.width * take("height", 10'000);
+  if (count > kMostCells) {
+    RefuseText(file, 0, "cells", fmt::format("{}", count), fmt::format("at most {}", kMostCells));
+  }
+  const std::uint64_t brightest = std::max<std::uint64_t>(take("largest grey value", 65'535), 1);
+  const auto white = static_cast<double>(brightest);
   if (magic == "P2") {
-    for (std::size_t i = 0; i < count; ++i)
-      grid.values.push_back(take("grey value", white) / white);
+    for (std::uint64_t i = 0; i < count; ++i) {
+      grid.values.push_back(static_cast<double>(take("grey value", brightest)) / white);
+    }
     return grid;
   }
-  const std::size_t bytes = white > 255.0 ? 2 : 1;
+  const std::uint64_t bytes = brightest > 255 ? 2 : 1;
   if (rest.size() < 1 + bytes * count) {
     RefuseText(file, 0, "ends too early", fmt::format("{} bytes of pixels", rest.size()),
                fmt::format("{}", bytes * count));
@@ -94,21 +103,20 @@ Compound LoadHeightmap(const fs::path& file, double cell, double scale) {
       RefuseText(file, 0, "cell and scale", fmt::format("{} m", size), "lengths above 0 m");
     }
   }
-  const std::string text = internal::ReadWhole(file);
   const std::string kind = file.extension().string();
   if (kind != ".csv" && kind != ".pgm") {
     RefuseText(file, 0, "extension", "'" + kind + "'", ".pgm or .csv");
   }
-  const Grid grid = kind == ".csv" ? ReadCsv(file, text) : ReadPgm(file, text);
+  const Grid grid = kind == ".csv" ? ReadCsv(file) : ReadPgm(file, internal::ReadWhole(file));
   if (grid.values.empty()) RefuseText(file, 0, "holds no height", "none", "at least one");
   const std::size_t rows = grid.values.size() / grid.width;
   Compound map;
   for (std::size_t row = 0; row < rows; ++row) {
     for (std::size_t first = 0, last = 0; first < grid.width; first = last) {
       const double value = grid.values[row * grid.width + first];
-      if (!(std::isfinite(value) && value >= 0.0)) {
-        RefuseText(file, 0, fmt::format("height in row {}", row + 1), fmt::format("{}", value),
-                   "a finite number not below 0");
+      if (map.parts.size() >= kMostBoxes) {
+        RefuseText(file, 0, "boxes of unequal heights", "more",
+                   fmt::format("at most {}", kMostBoxes));
       }
       while (last < grid.width && grid.values[row * grid.width + last] == value) ++last;
       const double length = cell * static_cast<double>(last - first);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "models/geometry/mesh.h"
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -10,6 +11,8 @@
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cctype>
+#include <cstdint>
+#include <cstring>
 #include <exception>
 #include <fstream>
 #include <iterator>
@@ -17,6 +20,8 @@
 #include <utility>
 
 #include "models/error.h"
+#include "models/geometry/table_text.h"
+#include "models/opened_files.h"
 
 namespace oca::models {
 namespace {
@@ -76,6 +81,40 @@ void CheckNesting(const fs::path& file) {
     }
     before = std::exchange(previous, c);
   }
+}
+
+/// Lets assimp read one file and none that it names: materials and pictures have no shape.
+class OneFile final : public Assimp::DefaultIOSystem {
+ public:
+  explicit OneFile(std::string file) : file_(std::move(file)) {}
+  bool Exists(const char* name) const override {
+    return name == file_ && DefaultIOSystem::Exists(name);
+  }
+  Assimp::IOStream* Open(const char* name, const char* mode) override {
+    return name == file_ ? DefaultIOSystem::Open(name, mode) : nullptr;
+  }
+
+ private:
+  const std::string file_;
+};
+
+// assimp computes the size of a binary STL in 32 bits, and makes room for what it announces.
+void CheckStlCount(const fs::path& file) {
+  constexpr std::uint64_t kHead = 84, kTriangle = 50;
+  const std::uint64_t size = fs::file_size(file);
+  std::string head(kHead, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  if (size < kHead || !stream.read(head.data(), kHead)) return;
+  std::uint32_t count = 0;
+  std::memcpy(&count, head.data() + kHead - sizeof count, sizeof count);
+  const std::uint64_t announced = kHead + kTriangle * count;
+  const bool wraps = static_cast<std::uint32_t>(announced) == static_cast<std::uint32_t>(size);
+  const auto words = internal::Words(head);
+  const bool text = !words.empty() && words.front().starts_with("solid");
+  if (announced <= size || (text && !wraps)) return;
+  Refuse(file, fmt::format("binary STL ends too early; got {} bytes; expected {} for its {} "
+                           "triangles",
+                           size, announced, count));
 }
 
 void CheckScale(const fs::path& file, const Vector3d& scale) {
@@ -141,10 +180,13 @@ void DropUnused(TriangleMesh* mesh) {
 }  // namespace
 
 TriangleMesh LoadMesh(const fs::path& file, const Vector3d& scale) {
+  NoteOpened(file);
   CheckFile(file);
   CheckScale(file, scale);
+  if (LowerExtension(file) == ".stl") CheckStlCount(file);
   if (LowerExtension(file) == ".dae") CheckNesting(file);
   Assimp::Importer importer;
+  importer.SetIOHandler(new OneFile(file.string()));  // the importer deletes it
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = nullptr;
   std::string reason;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <string>
 
 #include "models/geometry/table_text.h"
@@ -20,11 +21,13 @@ using internal::RefuseText;
 
 constexpr int kDepth = 16;
 constexpr std::size_t kMostLeaves = 1'000'000;
+constexpr std::uint64_t kMostNodes = 1'000'000'000;  // eight a 2-byte record of a file
+constexpr double kLargestCell = 1e3;                 // m, of 2^16 along each edge
 
 struct Head {
   bool binary{false};
   double resolution{0.0};  // m, edge of the smallest cell
-  double nodes{-1.0};
+  std::optional<std::uint64_t> nodes{};
 };
 
 /// Takes the head off `rest`, down to the line `data`.
@@ -37,18 +40,20 @@ Head ReadHead(const fs::path& file, bool binary, std::string_view& rest) {
     const auto words = internal::Words(internal::TakeLine(rest));
     if (words.empty() || words[0].starts_with('#')) continue;
     if (words[0] == "data") {
-      if (head.resolution > 0.0 && head.nodes >= 0.0) return head;
+      if (head.resolution > 0.0 && head.nodes) return head;
       RefuseText(file, number, "head", "no size or res", "id, size and res before data");
     }
     if (words.size() < 2) RefuseText(file, number, "head", words[0], "id, size, res or data");
     const double value = internal::ToNumber(words[1]).value_or(-1.0);
-    if (words[0] == "res" && std::isfinite(value) && value > 0.0) {
+    const auto nodes = internal::ToCount(words[1], kMostNodes);
+    if (words[0] == "res" && value > 0.0 && value <= kLargestCell) {
       head.resolution = value;
-    } else if (words[0] == "size" && std::isfinite(value) && value >= 0.0) {
-      head.nodes = value;
+    } else if (words[0] == "size" && nodes) {
+      head.nodes = nodes;
     } else if (words[0] != "id" || (!binary && words[1] != "OcTree")) {
       RefuseText(file, number, words[0], words[1],
-                 "id OcTree, a size that is a number, a res above 0");
+                 fmt::format("id OcTree, a size up to {}, a res above 0 and up to {} m", kMostNodes,
+                             kLargestCell));
     }
   }
   RefuseText(file, 0, "ends too early", "no line 'data'", "one after id, size and res");
@@ -61,12 +66,12 @@ class Reader {
       : file_(file), head_(head), rest_(data) {}
 
   Compound Read() {
-    if (head_.nodes > 0.0) {
+    if (*head_.nodes > 0) {
       ++nodes_;
       Node(0, {0, 0, 0});
     }
-    if (nodes_ != head_.nodes) {
-      RefuseText(file_, 0, "size", fmt::format("{} nodes announced", head_.nodes),
+    if (nodes_ != *head_.nodes) {
+      RefuseText(file_, 0, "size", fmt::format("{} nodes announced", *head_.nodes),
                  fmt::format("the {} that there are", nodes_));
     }
     if (map_.parts.empty()) RefuseText(file_, 0, "holds no occupied leaf", "none", "at least one");
@@ -125,7 +130,7 @@ class Reader {
     T value;
     if (rest_.size() < sizeof value) {
       RefuseText(file_, 0, "ends too early", fmt::format("{} nodes", nodes_),
-                 fmt::format("{} and their children", head_.nodes));
+                 fmt::format("{} and their children", *head_.nodes));
     }
     std::memcpy(&value, rest_.data(), sizeof value);
     rest_.remove_prefix(sizeof value);
@@ -135,7 +140,7 @@ class Reader {
   const fs::path& file_;
   const Head head_;
   std::string_view rest_;
-  double nodes_{0.0};
+  std::uint64_t nodes_{0};
   Compound map_;
 };
 

@@ -6,8 +6,11 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <string>
 
+#include "models/csv_table.h"
+#include "models/error.h"
 #include "models/geometry/table_text.h"
 
 namespace oca::models {
@@ -22,29 +25,38 @@ using internal::Words;
 
 /// A scalar of a binary record.
 struct Field {
-  int offset{-1};
-  int size{0};
+  std::size_t offset{0};
+  std::size_t size{0};
   char kind{'F'};  // F float, I integer, U unsigned
 };
 
 /// What the header of a PLY or PCD file says.
 struct Layout {
   bool text{true};
-  std::size_t count{0};
-  int record{0};                // bytes of a point
-  int columns{0};               // of a point, in text
+  std::uint64_t count{0};
+  std::uint64_t record{0};      // bytes of a point
+  std::uint64_t columns{0};     // of a point, in text
   std::array<Field, 3> fields;  // x, y, z
-  std::array<int, 3> column{-1, -1, -1};
+  std::array<std::optional<std::size_t>, 3> column;
 
-  void Add(std::string_view name, const Field& field, int copies) {
-    for (int axis = 0; axis < 3; ++axis) {
-      if (name != std::string_view("xyz").substr(static_cast<std::size_t>(axis), 1)) continue;
-      fields[static_cast<std::size_t>(axis)] = {record, field.size, field.kind};
-      column[static_cast<std::size_t>(axis)] = columns;
+  /// Appends a field; both sums stay below kMostBytes.
+  void Add(const fs::path& file, int line, std::string_view name, const Field& field,
+           std::uint64_t copies) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (name != std::string_view("xyz").substr(axis, 1)) continue;
+      if (column[axis]) RefuseText(file, line, "fields", name, "each coordinate once");
+      fields[axis] = {record, field.size, field.kind};
+      column[axis] = columns;
+    }
+    if (copies > (kMostBytes - record) / field.size) {
+      RefuseText(file, line, "record of a point", fmt::format("more than {} bytes", kMostBytes),
+                 fmt::format("at most {}", kMostBytes));
     }
     record += field.size * copies;
     columns += copies;
   }
+
+  static constexpr std::uint64_t kMostBytes = 1'000'000;
 };
 
 template <class T>
@@ -76,7 +88,7 @@ void Keep(const Vector3d& point, std::vector<Vector3d>& points) {
 
 std::vector<Vector3d> ReadBinary(const fs::path& file, const Layout& layout,
                                  std::string_view rest) {
-  const auto record = static_cast<std::size_t>(layout.record);
+  const std::uint64_t record = layout.record;
   if (rest.size() / record < layout.count) {
     RefuseText(file, 0, "ends too early", fmt::format("{} points", rest.size() / record),
                fmt::format("{} points of {} bytes", layout.count, record));
@@ -101,14 +113,14 @@ std::vector<Vector3d> ReadText(const fs::path& file, const Layout& layout, int l
     }
     const auto words = Words(TakeLine(rest));
     ++line;
+    if (words.size() != layout.columns) {
+      RefuseText(file, line, "no point", fmt::format("{} values", words.size()),
+                 fmt::format("{}", layout.columns));
+    }
     Vector3d point;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto column = static_cast<std::size_t>(layout.column[axis]);
-      const auto number = column < words.size() ? ToNumber(words[column]) : std::nullopt;
-      if (!number) {
-        RefuseText(file, line, "no point", column < words.size() ? words[column] : "too few values",
-                   "numbers");
-      }
+      const auto number = ToNumber(words[*layout.column[axis]]);
+      if (!number) RefuseText(file, line, "no point", words[*layout.column[axis]], "numbers");
       point[static_cast<Eigen::Index>(axis)] = *number;
     }
     Keep(point, points);
@@ -118,8 +130,8 @@ std::vector<Vector3d> ReadText(const fs::path& file, const Layout& layout, int l
 
 std::vector<Vector3d> ReadPoints(const fs::path& file, const Layout& layout, int line,
                                  std::string_view rest) {
-  for (const int column : layout.column) {
-    if (column < 0) RefuseText(file, 0, "has no coordinates", "other fields", "x, y and z");
+  for (const auto& column : layout.column) {
+    if (!column) RefuseText(file, 0, "has no coordinates", "other fields", "x, y and z");
   }
   return layout.text ? ReadText(file, layout, line, rest) : ReadBinary(file, layout, rest);
 }
@@ -129,26 +141,24 @@ Field PlyField(const fs::path& file, int line, std::string_view type) {
     std::string_view name, alias;
     Field field;
   };
-  static constexpr std::array<Type, 8> kTypes{{{"char", "int8", {-1, 1, 'I'}},
-                                               {"uchar", "uint8", {-1, 1, 'U'}},
-                                               {"short", "int16", {-1, 2, 'I'}},
-                                               {"ushort", "uint16", {-1, 2, 'U'}},
-                                               {"int", "int32", {-1, 4, 'I'}},
-                                               {"uint", "uint32", {-1, 4, 'U'}},
-                                               {"float", "float32", {-1, 4, 'F'}},
-                                               {"double", "float64", {-1, 8, 'F'}}}};
+  static constexpr std::array<Type, 8> kTypes{{{"char", "int8", {0, 1, 'I'}},
+                                               {"uchar", "uint8", {0, 1, 'U'}},
+                                               {"short", "int16", {0, 2, 'I'}},
+                                               {"ushort", "uint16", {0, 2, 'U'}},
+                                               {"int", "int32", {0, 4, 'I'}},
+                                               {"uint", "uint32", {0, 4, 'U'}},
+                                               {"float", "float32", {0, 4, 'F'}},
+                                               {"double", "float64", {0, 8, 'F'}}}};
   for (const Type& known : kTypes) {
     if (type == known.name || type == known.alias) return known.field;
   }
   RefuseText(file, line, "property of a vertex", type, "a scalar type of PLY");
 }
 
-std::size_t Count(const fs::path& file, int line, std::string_view word) {
-  const auto number = ToNumber(word);
-  if (!number || !(*number >= 0.0 && *number <= 1e8)) {
-    RefuseText(file, line, "number of points", word, "0 to 100000000");
-  }
-  return static_cast<std::size_t>(*number);
+std::uint64_t Count(const fs::path& file, int line, std::string_view word) {
+  const auto number = internal::ToCount(word, 100'000'000);
+  if (!number) RefuseText(file, line, "number of points", word, "0 to 100000000");
+  return *number;
 }
 
 std::vector<Vector3d> ReadPly(const fs::path& file, std::string_view rest) {
@@ -175,69 +185,92 @@ std::vector<Vector3d> ReadPly(const fs::path& file, std::string_view rest) {
       if (of_vertex) layout.count = Count(file, line, words[2]);
       found = found || of_vertex;
     } else if (words[0] == "property" && of_vertex && words.size() > 2) {
-      layout.Add(words.back(), PlyField(file, line, words[1]), 1);
+      layout.Add(file, line, words.back(), PlyField(file, line, words[1]), 1);
+    } else if (words[0] != "comment" && words[0] != "obj_info" && words[0] != "property") {
+      RefuseText(file, line, "header", words[0], "a line of the PLY format");
     }
   }
   return ReadPoints(file, layout, line, rest);
 }
 
-std::vector<Vector3d> ReadPcd(const fs::path& file, std::string_view rest) {
+/// What the lines of a PCD header say before they are put together.
+struct PcdHeader {
   std::vector<std::string_view> names, sizes, types, counts;
-  Layout layout;
-  int line = 0;
+  std::uint64_t points{0};
+  bool text{false};
+};
+
+/// Takes the header off `rest`; `line` is then that of its last line.
+PcdHeader ReadPcdHeader(const fs::path& file, std::string_view& rest, int& line) {
+  PcdHeader header;
   while (true) {
     if (rest.empty()) RefuseText(file, line, "ends in its header", "no DATA", "one");
     const auto words = Words(TakeLine(rest));
     ++line;
     if (words.empty() || words[0].starts_with('#')) continue;
     const std::vector<std::string_view> values(words.begin() + 1, words.end());
-    if (words[0] == "FIELDS") names = values;
-    if (words[0] == "SIZE") sizes = values;
-    if (words[0] == "TYPE") types = values;
-    if (words[0] == "COUNT") counts = values;
-    if (words[0] == "POINTS" && !values.empty()) layout.count = Count(file, line, values[0]);
-    if (words[0] != "DATA") continue;
-    layout.text = !values.empty() && values[0] == "ascii";
-    if (layout.text || (!values.empty() && values[0] == "binary")) break;
-    RefuseText(file, line, "DATA", values.empty() ? "none" : values[0], "ascii or binary");
-  }
-  if (sizes.size() != names.size() || types.size() != names.size()) {
-    RefuseText(file, line, "header", "FIELDS, SIZE and TYPE of unequal length", "equal ones");
-  }
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto size = ToNumber(sizes[i]);
-    const auto copies = i < counts.size() ? ToNumber(counts[i]) : 1.0;
-    const bool known = size && (*size == 1 || *size == 2 || *size == 4 || *size == 8) &&
-                       types[i].size() == 1 && std::string_view("FIU").find(types[i]) < 3 &&
-                       !(types[i] == "F" && *size < 4);
-    if (!known || !copies || !(*copies >= 1.0 && *copies <= 1e4)) {
-      RefuseText(file, line, fmt::format("field '{}'", names[i]), types[i],
-                 "TYPE F, I or U with a SIZE of 1, 2, 4 or 8 bytes");
+    if (words[0] == "FIELDS") {
+      header.names = values;
+    } else if (words[0] == "SIZE") {
+      header.sizes = values;
+    } else if (words[0] == "TYPE") {
+      header.types = values;
+    } else if (words[0] == "COUNT") {
+      header.counts = values;
+    } else if (words[0] == "POINTS" && !values.empty()) {
+      header.points = Count(file, line, values[0]);
+    } else if (words[0] == "DATA") {
+      header.text = !values.empty() && values[0] == "ascii";
+      if (header.text || (!values.empty() && values[0] == "binary")) return header;
+      RefuseText(file, line, "DATA", values.empty() ? "none" : values[0], "ascii or binary");
+    } else if (words[0] != "VERSION" && words[0] != "WIDTH" && words[0] != "HEIGHT" &&
+               words[0] != "VIEWPOINT") {
+      RefuseText(file, line, "header", words[0], "a line of the PCD format");
     }
-    layout.Add(names[i], {-1, static_cast<int>(*size), types[i][0]}, static_cast<int>(*copies));
+  }
+}
+
+std::vector<Vector3d> ReadPcd(const fs::path& file, std::string_view rest) {
+  int line = 0;
+  const PcdHeader header = ReadPcdHeader(file, rest, line);
+  const std::size_t count = header.names.size();
+  if (header.sizes.size() != count || header.types.size() != count ||
+      (!header.counts.empty() && header.counts.size() != count)) {
+    RefuseText(file, line, "header", "FIELDS, SIZE, TYPE and COUNT of unequal length",
+               "equal ones");
+  }
+  Layout layout;
+  layout.text = header.text;
+  layout.count = header.points;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string_view type = header.types[i];
+    const auto size = internal::ToCount(header.sizes[i], 8);
+    const auto copies = header.counts.empty()
+                            ? std::optional<std::uint64_t>(1)
+                            : internal::ToCount(header.counts[i], Layout::kMostBytes);
+    const bool known = size && (*size == 1 || *size == 2 || *size == 4 || *size == 8) &&
+                       (type == "I" || type == "U" || (type == "F" && *size >= 4));
+    if (!known || !copies || *copies == 0) {
+      RefuseText(file, line, fmt::format("field '{}'", header.names[i]), type,
+                 "TYPE F, I or U with a SIZE of 1, 2, 4 or 8 bytes and a COUNT above 0");
+    }
+    layout.Add(file, line, header.names[i], {0, *size, type[0]}, *copies);
   }
   return ReadPoints(file, layout, line, rest);
 }
 
-std::vector<Vector3d> ReadTable(const fs::path& file, std::string_view rest) {
+std::vector<Vector3d> ReadTable(const fs::path& file) {
+  CsvTable table(file);
+  std::vector<std::size_t> columns = table.Columns({"x", "y", "z"});
+  if (columns.empty()) columns = {0, 1, 2};
   std::vector<Vector3d> points;
-  bool first = true;
-  for (int line = 1; !rest.empty(); ++line) {
-    const auto words = Words(TakeLine(rest));
-    if (words.empty() || words[0].starts_with('#')) continue;
-    Vector3d point;
-    bool numbers = words.size() >= 3;
-    for (std::size_t axis = 0; numbers && axis < 3; ++axis) {
-      const auto number = ToNumber(words[axis]);
-      numbers = number.has_value();
-      point[static_cast<Eigen::Index>(axis)] = number.value_or(0.0);
+  while (table.NextRow()) {
+    if (table.cells().size() < 3) {
+      throw ModelError(fmt::format("{}: no point; got {} values; expected x, y and z",
+                                   table.where(), table.cells().size()));
     }
-    if (numbers) {
-      Keep(point, points);
-    } else if (!first) {
-      RefuseText(file, line, "no point", words[0], "three numbers");
-    }
-    first = false;
+    Keep({table.AnyNumber(columns[0]), table.AnyNumber(columns[1]), table.AnyNumber(columns[2])},
+         points);
   }
   return points;
 }
@@ -245,15 +278,14 @@ std::vector<Vector3d> ReadTable(const fs::path& file, std::string_view rest) {
 }  // namespace
 
 std::vector<Vector3d> LoadPointCloud(const fs::path& file) {
-  const std::string text = internal::ReadWhole(file);
   const std::string kind = file.extension().string();
   std::vector<Vector3d> points;
   if (kind == ".csv" || kind == ".xyz") {
-    points = ReadTable(file, text);
+    points = ReadTable(file);
   } else if (kind == ".ply") {
-    points = ReadPly(file, text);
+    points = ReadPly(file, internal::ReadWhole(file));
   } else if (kind == ".pcd") {
-    points = ReadPcd(file, text);
+    points = ReadPcd(file, internal::ReadWhole(file));
   } else {
     RefuseText(file, 0, "extension", "'" + kind + "'", ".csv, .xyz, .ply or .pcd");
   }

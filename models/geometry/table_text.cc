@@ -3,19 +3,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <fstream>
-#include <iterator>
 
 #include "models/error.h"
+#include "models/opened_files.h"
 
 namespace oca::models::internal {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMaxBytes = 100'000'000;
-constexpr std::string_view kGaps = ",; \t\r";
+constexpr std::string_view kGaps = " \t\r";
 
 }  // namespace
 
@@ -27,17 +27,27 @@ void RefuseText(const fs::path& file, int line, std::string_view what, std::stri
 }
 
 std::string ReadWhole(const fs::path& file) {
+  NoteOpened(file);
+  return ReadOwn(file);
+}
+
+std::string ReadOwn(const fs::path& file) {
   std::error_code error;
-  if (!fs::is_regular_file(file, error)) {
-    RefuseText(file, 0, "cannot be read", "no plain file", "a file");
+  const auto status = fs::status(file, error);
+  if (!fs::exists(status)) RefuseText(file, 0, "cannot be read", "no such file", "a file");
+  if (!fs::is_regular_file(status)) {
+    RefuseText(file, 0, "not a regular file", "a folder, pipe or device", "a file");
   }
-  const auto size = fs::file_size(file, error);
-  if (error || size > kMaxBytes) {
-    RefuseText(file, 0, "is too large", fmt::format("{} bytes", size), "at most 100 MB");
+  const std::uintmax_t size = fs::file_size(file, error);
+  if (error || size > kMostBytes) {
+    RefuseText(file, 0, "too large", fmt::format("{} bytes", size),
+               fmt::format("at most {}", kMostBytes));
   }
   std::ifstream stream(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream) RefuseText(file, 0, "cannot be read", "an error", "a file");
+  // No more than was promised, should the file grow meanwhile.
+  std::string text(size, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(size));
+  if (!stream) RefuseText(file, 0, "cannot be read", "an error", "a readable file");
   return text;
 }
 
@@ -55,9 +65,16 @@ std::vector<std::string_view> Words(std::string_view text) {
 
 std::optional<double> ToNumber(std::string_view word) {
   double value = 0.0;
-  if (word.starts_with('+')) word.remove_prefix(1);
+  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  return value;
+}
+
+std::optional<std::uint64_t> ToCount(std::string_view word, std::uint64_t most) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size() || value > most) return std::nullopt;
   return value;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -9,14 +10,22 @@
 
 namespace oca::models::internal {
 
-/// The content of a file. throws ModelError if it is missing, no plain file, or above 100 MB
-std::string ReadWhole(const std::filesystem::path& file);
+inline constexpr std::uintmax_t kMostBytes = 100'000'000;  ///< of a file that is read
 
-/// Cuts `text` at commas, semicolons, tabs and blanks.
+/// The content of a file that somebody gave us, as OpenedFiles notes.
+/// throws ModelError if it is missing, no regular file, which is not opened, or above kMostBytes
+std::string ReadWhole(const std::filesystem::path& file);
+/// The same of a file that we wrote ourselves, which nobody notes.
+std::string ReadOwn(const std::filesystem::path& file);
+
+/// Cuts `text` at tabs and blanks.
 std::vector<std::string_view> Words(std::string_view text);
 
-/// The number that all of `word` is; infinities and NaN count as numbers.
+/// The number that all of `word` is, a + may lead it; infinities and NaN count as numbers.
 std::optional<double> ToNumber(std::string_view word);
+
+/// The whole number that all of `word` is, if it is at most `most`.
+std::optional<std::uint64_t> ToCount(std::string_view word, std::uint64_t most);
 
 /// Takes the first line off `rest`, without its line end.
 std::string_view TakeLine(std::string_view& rest);

@@ -8,7 +8,8 @@ list(APPEND headers
   robot/pseudo_inverse.h
   robot/robot_model.h
   robot/srdf.h
-  robot/urdf.h)
+  robot/urdf.h
+  robot/urdf_meshes.h)
 list(APPEND sources
   robot/attach_objects.cc
   robot/collision_check.cc
@@ -20,7 +21,9 @@ list(APPEND sources
   robot/pseudo_inverse.cc
   robot/robot_model.cc
   robot/srdf.cc
+  robot/srdf_reader.cc
   robot/urdf.cc
+  robot/urdf_meshes.cc
   robot/urdf_outline.cc
   robot/urdf_tree.cc
   robot/urdfdom.cc

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "models/error.h"
+#include "models/opened_files.h"
 
 namespace oca::models {
 namespace {
@@ -40,7 +41,10 @@ std::filesystem::path FindMesh(const std::string& name, const std::filesystem::p
   std::string tried;
   for (const auto& candidate : Candidates(name, directory, options)) {
     std::error_code error;
-    if (std::filesystem::is_regular_file(candidate, error)) return candidate;
+    if (std::filesystem::is_regular_file(candidate, error)) {
+      NoteOpened(candidate);  // whoever asks will read or show it
+      return candidate;
+    }
     tried += (tried.empty() ? "" : " or ") + candidate.string();
   }
   throw ModelError(fmt::format("{}: missing mesh file; got '{}'; expected a file at {}", where,

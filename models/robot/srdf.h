@@ -8,13 +8,24 @@
 
 namespace oca::models {
 
-/// Pairs of links, as indices into `links`, that an SRDF file excludes from collision checks:
+/// The names in the URDF that an SRDF speaks of.
+struct SrdfRobot {
+  std::string name;
+  std::vector<std::string> links, joints;
+};
+
+/// Pairs of links, as indices into `robot.links`, that an SRDF file excludes from collision checks:
 /// <disable_collisions link1 link2>; and <disable_default_collisions link>, which excludes a link
-/// from all pairs that no <enable_collisions link1 link2> brings back. Other elements of MoveIt's
-/// format (groups, states, end effectors) are not read.
-/// throws ModelError naming file and line, for an unknown link with the nearest name
+/// from all pairs that no <enable_collisions link1 link2> brings back. The other elements of
+/// MoveIt's format (groups, states, end effectors) are checked, not used: what they name must be
+/// there.
+///
+/// throws ModelError naming file and line, with the nearest name: for an element or attribute that
+///        is none of the format, as a misspelt one would leave a pair unchecked; for an unknown
+///        link, joint or group; for the file of another robot; for xacro that was not expanded
+/// source MoveIt, "URDF and SRDF"; srdfdom, src/model.cpp
 std::vector<std::pair<int, int>> LoadDisabledPairs(const std::filesystem::path& file,
-                                                   const std::vector<std::string>& links);
+                                                   const SrdfRobot& robot);
 
 /// An entry <disable_collisions link1 link2 reason>.
 struct DisabledPair {

@@ -49,9 +49,10 @@ class UrdfReader {
     ApplyLimits(options_.jerk_limits, "jerk_limits", &Joint::jerk_limit);
     std::vector<std::pair<int, int>> disabled;
     if (!options_.srdf.empty()) {
-      std::vector<std::string> names;
-      for (const Link& link : links_) names.push_back(link.name.text());
-      disabled = LoadDisabledPairs(options_.srdf, names);
+      SrdfRobot robot{outline_.robot_name, {}, {}};
+      for (const Link& link : links_) robot.links.push_back(link.name.text());
+      for (const Joint& joint : joints_) robot.joints.push_back(joint.name.text());
+      disabled = LoadDisabledPairs(options_.srdf, robot);
     }
     try {
       return {Name(outline_.robot_name), std::move(links_), std::move(joints_), options_.X_WB,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "models/error.h"
+#include "models/opened_files.h"
 
 namespace oca::models {
 namespace {
@@ -133,6 +134,7 @@ class XmlScanner {
 void XmlDeleter::operator()(TiXmlDocument* document) const { delete document; }
 
 std::string ReadXmlFile(const std::filesystem::path& file) {
+  NoteOpened(file);
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) {
     throw ModelError(fmt::format(

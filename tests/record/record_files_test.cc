@@ -6,6 +6,7 @@
 
 #include <sstream>
 
+#include "diagrams/record/extracted_record.h"
 #include "diagrams/record/mcap_writer.h"
 #include "diagrams/run.h"
 #include "framework/error.h"
@@ -124,6 +125,89 @@ expect: {}
   EXPECT_EQ(FilesOf(diagrams::LoadDiagram(extracted.diagram()), 1.0)[0].data, attachments[0].data);
   // Its sources find the files, too.
   EXPECT_EQ(extracted.Load({{"simulator.duration", "0.5"}}).simulator.duration, 0.5);
+}
+
+std::vector<std::string> NamesOf(const std::vector<McapAttachment>& attachments) {
+  std::vector<std::string> names;
+  for (const auto& attachment : attachments) names.push_back(attachment.name);
+  return names;
+}
+
+TEST(RecordFilesTest, LeavesWhatAParameterCouldHaveChosenAtHome) {
+  const TemporaryFolder folder;
+  folder.Write("part_one.yaml", "systems: {c: {type: Constant, value: 1}}\n");
+  folder.Write("part_secret.yaml", "# a password\nsystems: {}\n");
+  folder.Write("other.yaml", "systems: {}\n");
+  // In the name of a part of OCA, yet none.
+  folder.Write("avoidance_report.yaml", "# a password\n");
+  const auto file = folder.Write("main.yaml", R"(
+include: ["part_${part}.yaml"]
+parameters: {part: one}
+)");
+  EXPECT_THAT(NamesOf(FilesOf(diagrams::LoadDiagram(file), 1.0)),
+              testing::UnorderedElementsAre("diagram.yaml", "sources/main.yaml",
+                                            "sources/part_one.yaml", "sources.yaml"));
+}
+
+TEST(RecordFilesTest, CarriesTheOtherPartsOfOcaWhereverTheyLie) {
+  const TemporaryFolder folder;
+  const fs::path parts = fs::path(OCA_SOURCE_DIR) / "diagrams" / "parts";
+  fs::copy(parts, folder.path() / "parts");
+  fs::copy(parts.parent_path() / "static_test.yaml", folder.path() / "mine.yaml");
+  folder.Write("parts/avoidance_mine.yaml", "# a password\n");
+  folder.Write("parts/avoidance_vortex.yaml", "# changed\n");
+  const auto names = NamesOf(FilesOf(diagrams::LoadDiagram(folder.path() / "mine.yaml"), 1.0));
+  EXPECT_THAT(names, testing::Contains("sources/parts/avoidance_safety_filter.yaml"));
+  EXPECT_THAT(names, testing::Not(testing::Contains("sources/parts/avoidance_mine.yaml")));
+  EXPECT_THAT(names, testing::Not(testing::Contains("sources/parts/avoidance_vortex.yaml")));
+}
+
+/// A robot whose file names meshes that no robot has.
+TEST(RecordFilesTest, CarriesTheMeshesThatTheRobotHas) {
+  const TemporaryFolder folder;
+  folder.Write("a&b.obj",
+               "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  folder.Write("one.urdf", R"(<robot name="one"><link name="base"/>
+<!-- <link name="old"><visual><geometry><mesh filename="gone.stl"/></geometry></visual></link> -->
+<link name="tip"><collision><geometry><mesh filename="a&amp;b.obj"/></geometry></collision></link>
+<gazebo><visual><geometry><mesh filename="model://x.dae"/></geometry></visual></gazebo>
+<joint name="turn" type="continuous"><parent link="base"/><child link="tip"/><axis xyz="0 0 1"/></joint>
+</robot>)");
+  const auto file = folder.Write("main.yaml", R"(
+models: {arm: {urdf: one.urdf}}
+systems: {q: {type: Constant, value: [0.5]}, k: {type: RobotKinematics}}
+connections: [q.value -> k.position]
+)");
+  const auto attachments = FilesOf(diagrams::LoadDiagram(file), 1.0);
+  EXPECT_THAT(NamesOf(attachments),
+              testing::UnorderedElementsAre("diagram.yaml", "files/one.urdf", "files/a&b.obj",
+                                            "sources/main.yaml", "sources.yaml"));
+  const ExtractedRecord extracted(FileOf(attachments));
+  EXPECT_EQ(extracted.Load({}).models.all().size(), 1u);
+}
+
+TEST(RecordFilesTest, RefusesToReadWhatDidNotComeWithTheRecord) {
+  const TemporaryFolder folder;
+  const std::string private_table = folder.Write("private.csv", "1,2,3\n").string();
+  const auto load = [](const std::string& head, const std::string& name) {
+    const std::string diagram =
+        head +
+        "systems: {o: {type: ObstacleSource, obstacles: [{id: a, pose: {xyz: [0, 0, 0]}, "
+        "shape: {type: cloud, file: " +
+        name + ", radius: 0.1}}]}}\n";
+    const ExtractedRecord extracted(
+        FileOf({{0, "diagram.yaml", "", diagram}, {0, "files/a.csv", "", "1,2,3\n"}}));
+    return extracted.Load({}).opened.size();
+  };
+  EXPECT_EQ(load("", "files/a.csv"), 2u);
+  for (const auto& [head, name] :
+       {std::pair<std::string, std::string>("", private_table),
+        {"packages: {p: " + folder.path().string() + "}\n", "package://p/private.csv"},
+        {"", "files/../../../" + private_table}}) {
+    EXPECT_THAT([&] { load(head, name); },
+                testing::ThrowsMessage<ConfigError>(HasSubstr("outside of the record")))
+        << head << name;
+  }
 }
 
 TEST(RecordFilesTest, RefusesAttachmentsThatWouldLeaveTheFolder) {

@@ -68,19 +68,44 @@ TEST(KeyPointsTest, ReadsVelocitiesAndAccelerationsThatTheFirstLineNames) {
 
 TEST(KeyPointsTest, NamesFileAndLineOfWhatIsNoNumber) {
   const std::string text = RefusalOf("0,1\n1,two\n");
-  EXPECT_THAT(text, HasSubstr(".csv:2: not a number; got 'two'"));
+  EXPECT_THAT(text, HasSubstr(".csv:2: column 2: not a number; got 'two'"));
   EXPECT_THAT(RefusalOf("0,1\n1,nan\n"), HasSubstr("not a number"));
   EXPECT_THAT(RefusalOf("0,1\n1,\n"), HasSubstr("not a number; got ''"));
 }
 
 TEST(KeyPointsTest, RefusesLinesOfAnotherLength) {
-  EXPECT_THAT(RefusalOf("0,1,2\n1,1\n"), HasSubstr(":2: wrong length; got 2 numbers; expected 3"));
+  EXPECT_THAT(RefusalOf("0,1,2\n1,1\n"), HasSubstr(":2: wrong length; got 2 values; expected 3"));
   EXPECT_THAT(RefusalOf("0\n"), HasSubstr("wrong length"));
 }
 
 TEST(KeyPointsTest, RefusesNamesThatDoNotMatchThePositions) {
   EXPECT_THAT(RefusalOf("time,p1,p2,v1\n0,1,2,3\n"), HasSubstr(":1: names of columns"));
   EXPECT_THAT(RefusalOf("time\n0\n"), HasSubstr(":1: names of columns"));
+}
+
+TEST(KeyPointsTest, GoesByTheNamesOfColumnsInAnyOrder) {
+  const TemporaryFile file(
+      "\xEF\xBB\xBFv[1],note,position[1],time,position[0],v[0]\n6,9,3,1,2,5\n");
+  const auto points = ReadKeyPoints(file.path());
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_EQ(points[0].time, 1.0);
+  EXPECT_EQ(Eigen::Vector2d(points[0].position), Eigen::Vector2d(2.0, 3.0));
+  EXPECT_EQ(Eigen::Vector2d(*points[0].velocity), Eigen::Vector2d(5.0, 6.0));
+  EXPECT_THAT(RefusalOf("time,p1,p3\n0,1,2\n"), HasSubstr("got p3 without those before"));
+  EXPECT_THAT(RefusalOf("time,p1,pos1\n0,1,2\n"), HasSubstr("two with number 1"));
+  EXPECT_THAT(RefusalOf("p1,p2\n1,2\n"), HasSubstr("no 'time'"));
+  EXPECT_THAT(RefusalOf("time,elbow,wrist\n0,1,2\n"), HasSubstr("or `joints`"));
+}
+
+TEST(KeyPointsTest, TakesTheColumnsThatJointsName) {
+  const TemporaryFile file("wrist,time,force,\"elbow, left\"\n1,0,9,2\n");
+  const auto points = ReadKeyPoints(file.path(), {"elbow, left", "wrist"});
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_EQ(Eigen::Vector2d(points[0].position), Eigen::Vector2d(2.0, 1.0));
+  EXPECT_THROW(ReadKeyPoints(file.path(), {"elbow", "wrist"}), ConfigError);
+  const TemporaryFile unnamed("0,1,2\n");
+  EXPECT_THROW(ReadKeyPoints(unnamed.path(), {"elbow", "wrist"}), ConfigError);
+  EXPECT_THROW(KeyPointsFrom({At(0.0, Eigen::VectorXd::Zero(1))}, "", {"elbow"}), ConfigError);
 }
 
 TEST(KeyPointsTest, RefusesBinaryJunkEmptyAndMissingFiles) {

@@ -256,13 +256,23 @@ TEST_F(CsvMotionTest, ReadsRotationsIfThereAreColumnsForThem) {
   EXPECT_EQ(*waypoints[0].rpy, Vector3d(0.1, 0.2, 0.3));
 }
 
+TEST_F(CsvMotionTest, GoesByTheNamesOfColumnsInAnyOrder) {
+  const auto waypoints =
+      ReadWaypoints(Write("# by hand\n\nyaw,note,z,y,x,roll,pitch,time\n6,9,3,2,1,4,5,+0\n"));
+  ASSERT_EQ(waypoints.size(), 1u);
+  EXPECT_EQ(waypoints[0].time, 0.0);
+  EXPECT_EQ(waypoints[0].xyz, Vector3d(1.0, 2.0, 3.0));
+  EXPECT_EQ(*waypoints[0].rpy, Vector3d(4.0, 5.0, 6.0));
+  EXPECT_THAT(Refusal("time,x,y,z,roll\n0,1,2,3,4\n"), HasSubstr("no 'pitch'"));
+}
+
 TEST_F(CsvMotionTest, RefusesWhatIsNoSuchTable) {
   EXPECT_THAT(Refusal(""), HasSubstr("names of columns; got none"));
   EXPECT_THAT(Refusal("t,x,y,z\n"), HasSubstr(":1: names of columns"));
   EXPECT_THAT(Refusal("time,x,y,z\n0,1,2\n"),
-              HasSubstr(":2: wrong length; got 3 numbers; expected 4"));
+              HasSubstr(":2: wrong length; got 3 values; expected 4"));
   EXPECT_THAT(Refusal("time,x,y,z\n0,1,2,3\n1,1,nan,3\n"),
-              HasSubstr(":3: not a number; got 'nan'"));
+              HasSubstr(":3: column 3 ('y'): not a number; got 'nan'"));
   EXPECT_THAT(Refusal("time,x,y,z\n0,1,2,3m\n"), HasSubstr("'3m'"));
   MotionParams params;
   params.type = MotionType::kCsv;

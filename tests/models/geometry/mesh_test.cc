@@ -93,6 +93,24 @@ TEST(MeshTest, ColladaUnitIsAppliedAndUpAxisIsNot) {
   }
 }
 
+TEST(MeshTest, StlCountThatOverflowsIsRefused) {
+  const test::TemporaryFolder folder;
+  for (const char* head : {"binary", "solid"}) {
+    std::string bytes = BinaryStl(Tetrahedron(), head);
+    bytes[83] = '\x80';  // 2^31 triangles more, 25 * 2^32 bytes
+    try {
+      LoadMesh(folder.Write("many.stl", bytes));
+      ADD_FAILURE() << head;
+    } catch (const ModelError& error) {
+      EXPECT_NE(std::string(error.what())
+                    .find("ends too early; got 284 bytes; expected "
+                          "107374182684 for its 2147483652 triangles"),
+                std::string::npos)
+          << error.what();
+    }
+  }
+}
+
 TEST(MeshTest, ColladaNodeTransformsAreApplied) {
   const test::TemporaryFolder folder;
   const auto moved =

@@ -92,9 +92,56 @@ TEST_F(PointCloudTest, ReadsPcdAndLeavesOutWhatTheCameraDidNotSee) {
               ElementsAre(kFirst, Vector3d::Zero()));
 }
 
+TEST_F(PointCloudTest, ReadsTablesByTheirNamesAndMarks) {
+  EXPECT_THAT(Points("a.csv",
+                     "\xEF\xBB\xBF"
+                     "1,2,3\n-0.5,0.25,1e-3\n"),
+              ElementsAre(kFirst, kSecond));
+  EXPECT_THAT(Points("a.csv", "id,z,y,x\n7,3,2,1\n8,nan,0,0\n"), ElementsAre(kFirst));
+  EXPECT_THAT(Refusal("a.csv", "2,0,x\n1,2,3\n"), HasSubstr("a.csv:1: column 3: not a number"));
+  EXPECT_THAT(Refusal("a.csv", "2,5;0,1;0,3\n"), HasSubstr("with a decimal point"));
+  EXPECT_THAT(Refusal("a.csv", "id,x,y\n1,2,3\n"), HasSubstr("a.csv:1: names of columns: no 'z'"));
+}
+
+TEST_F(PointCloudTest, RefusesHeadersWhoseNumbersDoNotFit) {
+  const auto pcd = [this](const std::string& fields, const std::string& sizes,
+                          const std::string& types, const std::string& counts) {
+    return Refusal("a.pcd", "FIELDS x y z" + fields + "\nSIZE 4 4 4" + sizes + "\nTYPE F F F" +
+                                types + "\nCOUNT 1 1 1" + counts + "\nPOINTS 1\nDATA binary\n" +
+                                std::string(4096, '\0'));
+  };
+  EXPECT_EQ(pcd("", "", "", ""), "accepted");
+  // 2^32 bytes and those of x, y and z before: a record of 12 bytes in 32 bits.
+  std::string fields, sizes, types, counts;
+  for (int i = 0; i < 53'688; ++i) {
+    fields += " a";
+    sizes += " 8";
+    types += " U";
+    counts += " 10000";
+  }
+  EXPECT_THAT(pcd(fields, sizes, types, counts), HasSubstr("record of a point; got more than"));
+  EXPECT_THAT(pcd(" a", " 8", " U", " 18446744073709551615"), HasSubstr("field 'a'"));
+  EXPECT_THAT(pcd(" a", " 8", " U", " 1.5"), HasSubstr("field 'a'"));
+  EXPECT_THAT(pcd(" x", " 4", " F", " 1"), HasSubstr("each coordinate once"));
+  EXPECT_THAT(Refusal("a.pcd", "FIELDS x y z\nSIZES 4 4 4\nDATA ascii\n"),
+              HasSubstr("a.pcd:2: header; got SIZES"));
+  EXPECT_THAT(Refusal("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\npropery float x\n"),
+              HasSubstr("a.ply:4: header; got propery"));
+  EXPECT_THAT(Refusal("a.ply", "ply\nformat ascii 1.0\nelement vertex 99999999999999999999\n"),
+              HasSubstr("a.ply:3: number of points"));
+}
+
+TEST_F(PointCloudTest, RefusesRowsOfTextThatDoNotFitTheirHeader) {
+  const std::string head = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS 1\nDATA ascii\n";
+  EXPECT_THAT(Refusal("a.pcd", head + "2,5 0,1 0,3\n"), HasSubstr("no point; got 2,5"));
+  EXPECT_THAT(Refusal("a.pcd", head + "1 2 3 4\n"), HasSubstr("no point; got 4 values"));
+}
+
 TEST_F(PointCloudTest, RefusesWhatIsNoCloudSayingWhere) {
-  EXPECT_THAT(Refusal("a.csv", "1,2,3\n1,x,3\n"), HasSubstr("a.csv:2: no point"));
-  EXPECT_THAT(Refusal("a.csv", "1,2,3\n1,2\n"), HasSubstr("a.csv:2: no point"));
+  EXPECT_THAT(Refusal("a.csv", "1,2,3\n1,x,3\n"),
+              HasSubstr("a.csv:2: column 2: not a number; got 'x'"));
+  EXPECT_THAT(Refusal("a.csv", "1,2,3\n1,2\n"), HasSubstr("a.csv:2: wrong length"));
+  EXPECT_THAT(Refusal("a.csv", "1,2\n"), HasSubstr("a.csv:1: no point; got 2 values"));
   EXPECT_THAT(Refusal("a.csv", "x,y,z\n"), HasSubstr("holds no point"));
   EXPECT_THAT(Refusal("a.txt", "1,2,3\n"), HasSubstr("extension; got '.txt'"));
   EXPECT_THAT(Refusal("a.ply", "plx\n"), HasSubstr("is no PLY file"));
@@ -196,16 +243,20 @@ TEST_F(PointCloudTest, ReadsHeightsFromGreyValues) {
 }
 
 TEST_F(PointCloudTest, RefusesWhatIsNoHeightmap) {
-  EXPECT_THAT(MapRefusal("map.csv", "1,2\n1\n"), HasSubstr("map.csv:2: row; got 1 values"));
-  EXPECT_THAT(MapRefusal("map.csv", "1,-2\n"), HasSubstr("height in row 1; got -2"));
-  EXPECT_THAT(MapRefusal("map.csv", "1,nan\n"), HasSubstr("height in row 1"));
-  EXPECT_THAT(MapRefusal("map.csv", "1,a\n"), HasSubstr("map.csv:1: height; got a"));
+  EXPECT_THAT(MapRefusal("map.csv", "1,2\n1\n"),
+              HasSubstr("map.csv:2: wrong length; got 1 values"));
+  EXPECT_THAT(MapRefusal("map.csv", "1,-2\n"), HasSubstr("map.csv:1: column 2: height; got -2"));
+  EXPECT_THAT(MapRefusal("map.csv", "1,nan\n"), HasSubstr("map.csv:1: column 2: not a number"));
+  EXPECT_THAT(MapRefusal("map.csv", "1,a\n"),
+              HasSubstr("map.csv:1: column 2: not a number; got 'a'"));
   EXPECT_THAT(MapRefusal("map.csv", ""), HasSubstr("holds no height"));
   EXPECT_THAT(MapRefusal("map.csv", "1\n", 0.0), HasSubstr("cell and scale"));
   EXPECT_THAT(MapRefusal("map.png", "1\n"), HasSubstr("extension"));
   EXPECT_THAT(MapRefusal("map.pgm", "P6 1 1 255\nx"), HasSubstr("kind of PGM; got P6"));
   EXPECT_THAT(MapRefusal("map.pgm", "P5 2 2 255\nxxx"), HasSubstr("ends too early"));
   EXPECT_THAT(MapRefusal("map.pgm", "P2 2 1 9\n4 10\n"), HasSubstr("grey value; got 10"));
+  EXPECT_THAT(MapRefusal("map.pgm", "P5 10000 10000 255\nx"), HasSubstr("cells; got 100000000"));
+  EXPECT_THAT(MapRefusal("map.pgm", "P5 4294967297 1 255\nx"), HasSubstr("width; got"));
   EXPECT_THAT(MapRefusal("map.pgm", "P2 -2 1 9\n4\n"), HasSubstr("width; got -2"));
 }
 

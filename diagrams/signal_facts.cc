@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/record/signal_facts.h"
+#include "diagrams/signal_facts.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,7 @@
 #include "framework/dynamic_port.h"
 #include "framework/error.h"
 
-namespace oca::record {
-
-using diagrams::LoadedDiagram;
+namespace oca::diagrams {
 
 SignalFacts::SignalFacts(const LoadedDiagram& loaded, const Context& context)
     : loaded_(loaded), context_(context) {
@@ -93,7 +91,7 @@ bool SignalFacts::Claim(const System& system, const std::string& robot) {
 /// A system that names a robot reads and writes vectors of its joints.
 void SignalFacts::ClaimModels() {
   for (const LoadedDiagram::Block& block : loaded_.systems) {
-    if (!diagrams::FindRow(block.type).needs_models) continue;
+    if (!FindRow(block.type).needs_models) continue;
     const Value* const model = block.params.Find("model");
     std::string name = model != nullptr && model->string() != nullptr ? *model->string() : "";
     if (name.empty() && loaded_.models.all().size() == 1)
@@ -119,6 +117,16 @@ void SignalFacts::SpreadClaims() {
 std::string SignalFacts::RobotOf(const OutputHandle& output) const {
   const auto found = robots_.find({output.system, output.index});
   return found == robots_.end() ? "" : found->second;
+}
+
+std::vector<std::string> SignalFacts::JointsOf(const OutputHandle& output) const {
+  std::vector<std::string> joints;
+  const std::string robot = RobotOf(output);
+  if (robot.empty()) return joints;
+  for (const models::Name& joint : loaded_.models.Get(robot)->position_names()) {
+    joints.push_back(joint.text());
+  }
+  return joints;
 }
 
 std::optional<OutputHandle> SignalFacts::DriverOf(const std::string& system,
@@ -154,4 +162,4 @@ const LoadedDiagram::Block* SignalFacts::BlockOf(const System* system) const {
   return blocks_.at(system);
 }
 
-}  // namespace oca::record
+}  // namespace oca::diagrams

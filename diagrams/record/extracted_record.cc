@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "diagrams/record/extracted_record.h"
+
+#include <fmt/format.h>
+#include <stdlib.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+#include <utility>
+
+#include "diagrams/document.h"
+#include "diagrams/package_paths.h"
+#include "diagrams/record/mcap_bytes.h"
+#include "diagrams/yaml_reader.h"
+#include "framework/error.h"
+#include "models/opened_files.h"
+
+namespace oca::record {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool Inside(const fs::path& name) {
+  return !name.empty() && name.is_relative() && *name.begin() != "..";
+}
+
+/// Puts the files that a diagram names by their place to where its sources look for them; false if
+/// one would leave the folder.
+bool PlaceFiles(const fs::path& folder, const fs::path& beside) {
+  std::error_code error;
+  for (fs::recursive_directory_iterator at(folder / "files", error), end; !error && at != end;
+       at.increment(error)) {
+    if (!at->is_regular_file(error)) continue;
+    fs::path place = beside;
+    for (const fs::path& part : at->path().lexically_relative(folder / "files")) {
+      place /= part == "up" ? fs::path("..") : part;
+    }
+    place = place.lexically_normal();
+    if (!Inside(place.lexically_relative(folder))) return false;
+    if (fs::exists(place, error)) continue;
+    fs::create_directories(place.parent_path(), error);
+    fs::create_symlink(at->path(), place, error);
+  }
+  return true;
+}
+
+/// What the copy of a package in a record lacks, from the package of this machine.
+void CompletePackage(const fs::path& copy) {
+  std::error_code error;
+  for (const fs::path& place : diagrams::PackageFolders()) {
+    const fs::path package = place / copy.filename();
+    if (!fs::is_directory(package, error)) continue;
+    for (fs::recursive_directory_iterator at(package, error), end; !error && at != end;
+         at.increment(error)) {
+      const fs::path to = copy / at->path().lexically_relative(package);
+      std::error_code not_there;
+      if (!at->is_regular_file(not_there) || fs::exists(to, not_there)) continue;
+      fs::create_directories(to.parent_path(), not_there);
+      fs::create_symlink(fs::absolute(at->path()), to, not_there);
+    }
+    return;
+  }
+}
+
+/// All packages of a record, as a diagram is told of them.
+std::vector<diagrams::Override> CompletePackages(const fs::path& folder) {
+  std::vector<diagrams::Override> packages;
+  std::error_code error;
+  for (fs::directory_iterator at(folder / "packages", error), end; !error && at != end;
+       at.increment(error)) {
+    CompletePackage(at->path());
+    packages.push_back({"packages." + at->path().filename().string(), at->path().string()});
+  }
+  return packages;
+}
+
+bool HasSources(const fs::path& folder) {
+  std::error_code error;
+  return fs::is_regular_file(folder / "sources.yaml", error);
+}
+
+/// The diagram file as it was written, and the overrides of the run.
+std::pair<fs::path, std::vector<diagrams::Override>> ReadSources(const fs::path& folder) {
+  const fs::path list = folder / "sources.yaml";
+  Problems problems;
+  const std::string text = diagrams::ReadTextFile(list);
+  const Value sources = diagrams::ReadYaml(text, list.string(), problems);
+  const Value* const name = sources.Find("diagram");
+  const Value* const recorded = sources.Find("overrides");
+  if (!problems.empty() || name == nullptr || name->string() == nullptr ||
+      !Inside(fs::path(*name->string()).lexically_normal())) {
+    throw ConfigError("record: sources.yaml; got something else; expected diagram and overrides");
+  }
+  std::vector<diagrams::Override> overrides;
+  if (recorded != nullptr && recorded->list() != nullptr) {
+    for (const Value& change : *recorded->list()) {
+      if (change.string() != nullptr) {
+        overrides.push_back(diagrams::Override::Parse(*change.string()));
+      }
+    }
+  }
+  return {folder / *name->string(), overrides};
+}
+
+}  // namespace
+
+void ExtractFiles(const McapFile& record, const fs::path& folder) {
+  if (record.FindAttachment("diagram.yaml") == nullptr) {
+    throw ConfigError("record: has no attachment diagram.yaml; expected a record of OCA");
+  }
+  for (const McapAttachment& attachment : record.attachments()) {
+    const fs::path name = fs::path(attachment.name).lexically_normal();
+    if (!Inside(name)) {
+      throw ConfigError(
+          fmt::format("record: attachment; got '{}'; expected a name that stays "
+                      "below its folder",
+                      attachment.name));
+    }
+    const fs::path file = folder / name;
+    fs::create_directories(file.parent_path());
+    std::ofstream stream(file, std::ios::binary);
+    stream.write(attachment.data.data(), static_cast<std::streamsize>(attachment.data.size()));
+    if (!stream.flush()) throw ConfigError(fmt::format("{}: cannot be written", file.string()));
+  }
+}
+
+ExtractedRecord::ExtractedRecord(const McapFile& record) {
+  std::string name = (fs::temp_directory_path() / "oca_record_XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) {
+    throw ConfigError(fmt::format("{}: cannot be made", name));
+  }
+  folder_ = name;
+  try {
+    ExtractFiles(record, folder_);
+  } catch (...) {
+    Remove();
+    throw;
+  }
+}
+
+ExtractedRecord::~ExtractedRecord() { Remove(); }
+
+diagrams::LoadedDiagram ExtractedRecord::Load(
+    const std::vector<diagrams::Override>& overrides) const {
+  std::vector<fs::path> folders = diagrams::PackageFolders();
+  folders.push_back(folder_);
+  models::OpenedFiles restricted(folders);  // whoever made it knows not what we keep
+  if (overrides.empty() && !HasSources(folder_)) return diagrams::LoadDiagram(diagram());
+  std::vector<diagrams::Override> packages;
+  if (!overrides.empty()) packages = CompletePackages(folder_);
+  if (!HasSources(folder_)) return diagrams::LoadDiagram(diagram(), overrides);
+  auto [main, all] = ReadSources(folder_);
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  diagrams::LoadedDiagram loaded;
+  if (!overrides.empty() && PlaceFiles(folder_, main.parent_path())) {
+    std::vector<diagrams::Override> with_packages = all;
+    with_packages.insert(with_packages.end(), packages.begin(), packages.end());
+    loaded = diagrams::LoadDiagram(main, with_packages);
+  } else {
+    loaded = diagrams::LoadDiagram(diagram(), overrides);
+  }
+  Problems ignored;
+  diagrams::DocumentSources sources;
+  diagrams::LoadDocument(main, all, ignored, &sources);
+  loaded.sources = sources.files;  // all that could be chosen came with the record
+  for (const fs::path& file : sources.candidates) {
+    const auto& files = sources.files;
+    if (std::find(files.begin(), files.end(), file) == files.end()) loaded.sources.push_back(file);
+  }
+  loaded.candidates.clear();
+  loaded.overrides = all;
+  return loaded;
+}
+
+void ExtractedRecord::Remove() {
+  std::error_code ignored;
+  fs::remove_all(folder_, ignored);
+}
+
+bool IsRecord(const fs::path& file) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return false;
+  std::ifstream stream(file, std::ios::binary);
+  std::string start(kMcapMagic.size(), '\0');
+  return stream.read(start.data(), static_cast<std::streamsize>(start.size())) &&
+         start == kMcapMagic;
+}
+
+}  // namespace oca::record

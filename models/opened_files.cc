@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "models/opened_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "models/error.h"
+
+namespace oca::models {
+namespace {
+
+namespace fs = std::filesystem;
+
+thread_local OpenedFiles* innermost = nullptr;
+
+bool Below(const fs::path& file, const fs::path& folder) {
+  const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
+  return end == folder.end() && rest != file.end();
+}
+
+}  // namespace
+
+fs::path PlainPath(const fs::path& file) { return fs::absolute(file).lexically_normal(); }
+
+bool LiesBelow(const fs::path& file, const fs::path& folder) {
+  fs::path root = PlainPath(folder);
+  if (!root.has_filename()) root = root.parent_path();  // a/ is a
+  if (!Below(PlainPath(file), root)) return false;
+  if (std::find(file.begin(), file.end(), "..") == file.end()) return true;
+  std::error_code error;  // links before a `..` would lead where the name does not say
+  const fs::path real = fs::weakly_canonical(file, error);
+  return !error && Below(real, fs::weakly_canonical(root, error)) && !error;
+}
+
+OpenedFiles::OpenedFiles(Elder elder)
+    : outer_(std::exchange(innermost, this)), apart_(elder == Elder::kNotesNot) {}
+
+OpenedFiles::OpenedFiles(std::vector<fs::path> roots)
+    : outer_(std::exchange(innermost, this)), restricted_(true), roots_(std::move(roots)) {}
+
+OpenedFiles::~OpenedFiles() { innermost = outer_; }
+
+bool OpenedFiles::Allows(const fs::path& file) const {
+  if (outer_ != nullptr && !outer_->Allows(file)) return false;
+  return !restricted_ || std::any_of(roots_.begin(), roots_.end(),
+                                     [&](const fs::path& root) { return LiesBelow(file, root); });
+}
+
+bool OpenedFiles::Contains(const fs::path& file) const {
+  const fs::path plain = PlainPath(file);
+  return std::find(files_.begin(), files_.end(), plain) != files_.end();
+}
+
+void NoteOpened(const fs::path& file) {
+  if (innermost == nullptr) return;
+  if (!innermost->Allows(file)) {
+    throw ModelError(
+        fmt::format("{}: file; got one outside of the record that is run; expected one within it, "
+                    "or of a package (package://NAME/PATH)",
+                    file.string()));
+  }
+  for (OpenedFiles* at = innermost; at != nullptr; at = at->apart_ ? nullptr : at->outer_) {
+    if (!at->Contains(file)) at->files_.push_back(PlainPath(file));
+  }
+}
+
+}  // namespace oca::models
