@@ -214,11 +214,10 @@ TEST(ControlLoopTest, RefusesPeriodsThatAreNotMultiplesOfItsOwn) {
   EXPECT_THAT(text_of({Period(std::int64_t{1} << 40, 1)}, kMillisecond), HasSubstr("multiples"));
 }
 
-/// A guard on the time.
 /// Takes angles between -1 and 1, and refuses a Label that says nan.
 class Choosy final : public System {
  public:
-  Choosy() : out(DeclareOutput<Vector, &Choosy::Calc>("out", 2, angles)) {}
+  Choosy() : out(DeclareOutput<Vector, &Choosy::Calc>("out", {2}, angles)) {}
 
  private:
   static PortSpec Spec() {
@@ -276,6 +275,7 @@ TEST(ControlLoopTest, RefusesAStartThatAPortCannotBe) {
   }
 }
 
+/// A guard on the time.
 class Alarm final : public System {
  public:
   Alarm() { DeclareWitness<&Alarm::Left>("left", Direction::kBoth, kTime); }
