@@ -150,7 +150,8 @@ TEST(SignalChecksTest, ForcesAndWrenchesActOnALinkAtAPlace) {
   forces.forces[0].link = {};
   EXPECT_THAT(Whole(forces), HasSubstr("force: link"));
   WrenchSet wrenches;
-  wrenches.wrenches.push_back({models::Name("l"), {}, {}, {0, -2e6, 0}});
+  wrenches.wrenches.emplace_back().link = models::Name("l");
+  wrenches.wrenches[0].origin.y() = -2e6;
   EXPECT_THAT(Whole(wrenches), HasSubstr("wrench on 'l': place; got [0, -2000000, 0] m"));
 }
 
