@@ -11,6 +11,9 @@ jobs=$(nproc)
 EXTRA_PACKAGES="chromium fonts-dejavu-core libc6-dbg valgrind" tools/setup.sh release
 ctest --preset release -j "$jobs"
 
+echo "Inputs from outside that once went wrong"
+tests/cases/run.sh
+
 hostile=(models_robot_test models_geometry_test)
 tools/setup.sh debug "${hostile[@]}"
 for test in "${hostile[@]}"; do
