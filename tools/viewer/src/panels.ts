@@ -16,17 +16,36 @@ const kMetrics: [key: string, name: string, unit: string][] = [
   ["max_joint_acceleration", "Largest acceleration", "rad/s²"],
 ];
 
-/** The report of a run: its own topic, or the metrics that a MotionMetrics showed last. */
+/** All arms as one, as at the end of a run: the nearest approach, the largest of everything else. */
+function joined(all: Record<string, unknown>[]): Record<string, unknown> {
+  const one: Record<string, unknown> = { ...all[0] };
+  for (const other of all.slice(1)) {
+    const nearer = (other["min_distance"] as number | null ?? Infinity) < (one["min_distance"] as number | null ?? Infinity);
+    for (const [key, value] of Object.entries(other)) {
+      const mine = one[key];
+      if (key.startsWith("min_distance")) {
+        if (nearer) one[key] = value;
+      } else if (typeof value === "number") {
+        const least = key.startsWith("certified") || key.startsWith("first_contact");
+        one[key] = typeof mine !== "number" ? value : least ? Math.min(mine, value) : Math.max(mine, value);
+      }
+    }
+  }
+  return one;
+}
+
+/** The report of a run: its own topic, or the metrics that each MotionMetrics showed last. */
 export function reportOf(recording: Recording): RunReport {
   const own = recording.last("/metrics") as RunReport | undefined;
   if (own?.metrics) return own;
   if (own && "min_distance" in own) return { metrics: own as Record<string, unknown>, ...aboutRun(recording) };
+  const all: Record<string, unknown>[] = [];
   for (const topic of recording.topics.values()) {
     if (!topic.name.endsWith("/metrics") || topic.length === 0) continue;
     const last = topic.message(topic.length - 1) as Record<string, unknown>;
-    return { metrics: (last["value"] ?? last) as Record<string, unknown> };
+    all.push((last["value"] ?? last) as Record<string, unknown>);
   }
-  return {};
+  return all.length > 0 ? { metrics: joined(all) } : {};
 }
 
 /** What metadata `oca` says of the run: how long it was, what was expected of it. */

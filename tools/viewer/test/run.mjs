@@ -135,6 +135,22 @@ await test("distances of two arms count both, whatever their rates", async () =>
   await page.context().close();
 });
 
+await test("while a run goes on, the nearest of all arms counts", async () => {
+  const { page } = await openPage(browser, sample);
+  await page.evaluate(() => {
+    const { recording } = window.oca;
+    recording.topics.delete("/metrics");
+    const put = (arm, metrics) => recording.add(recording.topic(`/${arm}/metrics`), 1_700_000_000_000_000_000n, new TextEncoder().encode(JSON.stringify(metrics)));
+    put("left", { min_distance: 0.4, min_distance_pair: ["left", "box"], min_distance_time: 1, max_joint_speed: 2 });
+    put("right", { min_distance: -0.1, min_distance_pair: ["right", "box"], min_distance_time: 3, max_joint_speed: 1 });
+    window.oca.load(recording);
+  });
+  assert.match(await page.textContent("#badges"), /✗ contact, 0\.100 m deep/);
+  assert.match(await page.textContent(".pane.summary"), /-0\.100mNearestright – box, at 3\.00 s/);
+  assert.match(await page.textContent(".pane.summary"), /2\.000rad\/sFastest joint/);
+  await page.context().close();
+});
+
 await test("a click in a plot moves the scene", async () => {
   const { page } = await openPage(browser, sample);
   const box = await page.locator(".u-over").first().boundingBox();
