@@ -102,10 +102,10 @@ class ControlLoop {
 template <class T>
 requires(!std::is_same_v<T, Vector>) Status ControlLoop::Set(const Input<T>& input, const T& value)
 noexcept {
-  if (const Fault fault = Signal<T>::Check(value, Look::kWhole); !fault.ok()) {
-    return Refuse(input, fault.text());
-  }
   try {
+    if (const Fault fault = Signal<T>::Check(value, Look::kWhole); !fault.ok()) {
+      return Refuse(input, fault.text());
+    }
     internal::Store(internal::FindExported(input, context_), value);
     internal::MarkChanged(input, context_);
     return {};

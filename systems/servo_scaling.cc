@@ -115,10 +115,10 @@ void ServoScaling::CalcDelta(const RequestAhead& request, VectorView now, Vector
   out -= now;
 }
 
-/// What is not slowed stays exactly on time: it is the lag that adds up.
+/// What was never slowed is exactly on time, as a sum of periods would not be.
 void ServoScaling::Update(double time, VectorView value, MutableVectorView s) const {
-  const double lag = time - s[0] + (1.0 - value[0]) * params_.period.seconds();
-  s[0] = params_.period.TickAfter(time) - lag;
+  const bool on_time = s[0] == time && value[0] == 1.0;
+  s[0] = on_time ? params_.period.TickAfter(time) : s[0] + value[0] * params_.period.seconds();
 }
 
 }  // namespace oca::systems

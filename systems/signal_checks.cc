@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The validity checks of the signals of an avoidance loop.
-#include <bitset>
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "framework/fixed_text.h"
 #include "systems/signal_limits.h"
@@ -44,24 +48,36 @@ Fault CheckMotion(const char* what, std::string_view name, const Eigen::Isometry
   return {};
 }
 
-/// The first of `count` names, told by `name_of(i)`, that is there before; -1 if there is none. No
-/// heap, and time that grows little faster than the count: only names of equal mark are compared.
+/// The first of `count` names, told by `name_of(i)`, that is there before; -1 if there is none.
+/// `table`, zero, has room for twice as many, a power of two.
 template <class NameOf>
-int FindTwin(std::size_t count, const NameOf& name_of) {
-  constexpr std::size_t kMarks = 1 << 15;
-  std::bitset<kMarks> seen;
+int FindTwinIn(std::span<std::uint32_t> table, std::size_t count, const NameOf& name_of) {
+  const int shift = 64 - std::countr_zero(table.size());
   for (std::size_t i = 0; i < count; ++i) {
     const models::Name name = name_of(i);
     const auto bits = static_cast<std::uint64_t>(reinterpret_cast<std::uintptr_t>(&name.text()));
-    const std::size_t mark = (bits * 0x9e3779b97f4a7c15u) >> (64 - 15);
-    if (seen[mark]) {
-      for (std::size_t k = 0; k < i; ++k) {
-        if (name_of(k) == name) return static_cast<int>(i);
-      }
+    std::size_t at = (bits * 0x9e3779b97f4a7c15u) >> shift;
+    for (; table[at] != 0; at = (at + 1) & (table.size() - 1)) {
+      if (name_of(table[at] - 1) == name) return static_cast<int>(i);
     }
-    seen[mark] = true;
+    table[at] = static_cast<std::uint32_t>(i + 1);
   }
   return -1;
+}
+
+/// The same without the heap, up to a count that only a growing list exceeds.
+template <class NameOf>
+int FindTwin(std::size_t count, const NameOf& name_of) {
+  if (count < 2) return -1;
+  const std::size_t size = std::bit_ceil(2 * count);
+  std::array<std::uint32_t, 4096> few;
+  if (size <= few.size()) {
+    std::fill_n(few.begin(), size, 0u);
+    return FindTwinIn(std::span(few).first(size), count, name_of);
+  }
+  thread_local std::vector<std::uint32_t> many;
+  many.assign(size, 0u);
+  return FindTwinIn(std::span(many), count, name_of);
 }
 
 Fault CheckObstacle(const Obstacle& o) {
@@ -120,8 +136,8 @@ Fault CheckLink(const LinkPoses& links, std::size_t i) {
 Fault CheckActing(const char* what, models::Name link, const Eigen::Vector3d& at) {
   if (link.empty()) return FaultOf("{}: link; got an empty name; expected a link", what);
   if (Near(at)) return {};
-  return FaultOf("{} on '{}': place; got [{:.10g}, {:.10g}, {:.10g}] m; expected at most 1e6 m", what,
-                 link.text(), at.x(), at.y(), at.z());
+  return FaultOf("{} on '{}': place; got [{:.10g}, {:.10g}, {:.10g}] m; expected at most 1e6 m",
+                 what, link.text(), at.x(), at.y(), at.z());
 }
 
 }  // namespace

@@ -121,8 +121,10 @@ TEST(SignalTest, TheTypeEntryHandlesValuesWithoutTheirCppType) {
   type.write_json(memory[1], json);
   EXPECT_EQ(json, "\"hello\"");
   EXPECT_TRUE(type.check(memory[1], Look::kFinite).ok());
-  type.read_json("nan", memory[1]);
-  EXPECT_FALSE(type.check(memory[1], Look::kFinite).ok());
+  EXPECT_THROW(type.read_json("nan", memory[1]), ConfigError);  // and leaves the value
+  EXPECT_TRUE(type.check(memory[1], Look::kFinite).ok());
+  const Label bad{"nan"};
+  EXPECT_FALSE(type.check(&bad, Look::kFinite).ok());
   type.destroy(memory[0]);
   type.destroy(memory[1]);
 }

@@ -190,6 +190,9 @@ TEST(ElasticBandTest, SaysForHowLongItsPlanIsClearWhileAllGoesAsForeseen) {
   EXPECT_EQ(ClearFor(bench), 0.0);
   other = post;
   other.obstacles.push_back(BoxAt({3.0, 0.0, 0.0}).obstacles[0]);
+  auto body = std::make_shared<ObstacleBody>(*other.obstacles[1].body);
+  body->id = models::Name("another post");
+  other.obstacles[1].body = body;
   bench->obstacles.Fix(bench.context(), other);
   EXPECT_EQ(ClearFor(bench), 0.0);
   bench->obstacles.Fix(bench.context(), ObstacleSet{});

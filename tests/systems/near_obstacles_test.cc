@@ -186,10 +186,9 @@ TEST_F(NearAnArmTest, IsNotMisledByAHundredThousandFarBodies) {
   Strewn strewn(3, 50);
   MoveArm(0.0);
   const ProximitySet alone = Eval(strewn.set);
-  const auto far = Body(50, 0.1);
   for (int i = 0; i < 100'000; ++i) {
     Obstacle& obstacle = strewn.set.obstacles.emplace_back();
-    obstacle.body = far;
+    obstacle.body = Body(50 + i, 0.1);
     obstacle.X_WO.translation() = strewn.Point() + 10.0 * Vector3d(1 + i % 7, i % 11, i % 13);
   }
   const ProximitySet& found = Eval(strewn.set);
