@@ -38,8 +38,7 @@ void SayWhere(const std::string& what, const live::LiveServer& server, const std
     const bool any = address == "0.0.0.0" || address == "::";
     Tell(
         "warning: {} can be reached from elsewhere{}: whoever has the address below, with its "
-        "token, can {}; nothing is encrypted
-",
+        "token, can {}; nothing is encrypted\n",
         address, any ? ", by the address of this machine in its place" : "", can);
   }
   Print("{}: {}\n", what, server.url());
