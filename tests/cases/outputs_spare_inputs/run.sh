@@ -1,6 +1,6 @@
 # No output may be what is run, what that reads, or another output, by whatever name.
 cp "$OCA_SOURCE/diagrams/verification/lag_step.yaml" part.yaml
-echo 'include: [part.yaml]' > mine.yaml
+printf 'include: [part.yaml]\nrecord: {signals: {"lag.out": 100}}\n' > mine.yaml
 printf '0,0\n1,1\n' > points.csv
 cat > table.yaml <<'X'
 systems: {spline: {type: SplineGenerator, file: spline.position.csv}}
