@@ -1,6 +1,6 @@
 # No output may be what is run, what that reads, or another output, by whatever name.
 cp "$OCA_SOURCE/diagrams/verification/lag_step.yaml" part.yaml
-echo 'include: [part.yaml]' > mine.yaml
+printf 'include: [part.yaml]\nrecord: {signals: {"lag.out": 100}}\n' > mine.yaml
 printf '0,0\n1,1\n' > points.csv
 cat > table.yaml <<'X'
 systems: {spline: {type: SplineGenerator, file: spline.position.csv}}
@@ -33,9 +33,13 @@ cp run.mcap run.svg; md5sum run.svg >> before
 refuse plot run.svg --signal '*' -o run.svg
 cp "$OCA_SOURCE/models/robots/planar2/planar2.urdf" arm.urdf; md5sum arm.urdf >> before
 refuse robot check-collisions arm.urdf --write-srdf ./arm.urdf --samples 10
-mkdir results; cp mine.yaml results/results.db; cp part.yaml results/part.yaml; ln -sf ../part.yaml results/part.yaml; md5sum results/* >> before
+mkdir results
+cp mine.yaml results/results.db
+ln -s ../part.yaml results/part.yaml
+md5sum results/results.db >> before
 refuse sweep results/results.db --samples 1 -o results
-echo 'include: [results/results.db]' > top.yaml; md5sum top.yaml >> before
+echo 'include: [results/results.db]' > top.yaml
+md5sum top.yaml >> before
 refuse sweep top.yaml --samples 1 -o results
 [ ! -e x.mcap ] || { echo 'a record was begun'; exit 1; }
 "$SIMULATOR" run mine.yaml --record /dev/null > /dev/null
