@@ -15,6 +15,7 @@ constexpr double kLongSpacing = 0.125;
 
 constexpr double kPositionInset = 0.02;    // rad, m; that bands stay away from position limits
 constexpr double kPositionUnit = 0.1;      // rad, m
+constexpr double kLeastUnit = 1e-6;        // rad/s, m/s and so on; of a limit that is nearly 0
 constexpr double kExcessTolerance = 1e-3;  // that still counts as within the limits
 constexpr double kExcessPrice = 0.05;      // m; an excess of 1 counts as so much missing distance
 
@@ -131,7 +132,7 @@ ElasticBand::Range ElasticBand::RangeOf(Eigen::Index joint, int derivative, doub
   if (derivative > 0) {
     const double limit =
         derivative == 1 ? model_->velocity_limits()[joint] : model_->acceleration_limits()[joint];
-    return {-share * limit, share * limit, limit};
+    return {-share * limit, share * limit, std::max(limit, kLeastUnit)};
   }
   const double lower = model_->lower_limits()[joint];
   const double upper = model_->upper_limits()[joint];

@@ -215,14 +215,15 @@ std::string ImpossibleState(const RobotModel& model, const Eigen::Ref<const Eige
     const Joint& joint = model.joints()[j];
     const bool slides = joint.type == JointType::kPrismatic;
     const double at = step.multiplier * q[step.column] + step.offset;
+    const double beyond = slides ? kFarthestSlideBeyond : kFarthestTurnBeyond;
     std::string expected;
-    if (!(std::fabs(at) <= kFarthestPosition)) {
-      expected = fmt::format("a number of at most {:g}", kFarthestPosition);
-    } else {
-      const double beyond = slides ? kFarthestSlideBeyond : kFarthestTurnBeyond;
-      if (at >= joint.lower_limit - beyond && at <= joint.upper_limit + beyond) continue;
+    if (at < joint.lower_limit - beyond || at > joint.upper_limit + beyond) {
       expected = fmt::format("at most {} beyond its limits {}", slides ? "10 m" : "2 pi rad",
                              Range(joint.lower_limit, joint.upper_limit));
+    } else if (!(std::fabs(at) <= kFarthestPosition)) {
+      expected = fmt::format("a number of at most {:g}", kFarthestPosition);
+    } else {
+      continue;
     }
     return fmt::format("position of joint '{}'; got {} {}; expected {}", joint.name.text(), at,
                        UnitOf(joint), expected);
