@@ -86,8 +86,9 @@ void ModelSection::ReadModel(const Value::Entry& entry) {
   try {
     models::LoadOptions options;
     options.warn = [&](const std::string& line) {
-      warnings.push_back(fmt::format("{}: {}; collision: decomposition splits it", where, line));
+      warnings.push_back(fmt::format("{}: {}", where, line));
     };
+    options.hull_advice = "; collision: decomposition splits it";
     options.X_WB = params.base_pose.Pose(where + ".base_pose");
     options.decompose_meshes = params.collision == systems::CollisionMeshes::kDecomposition;
     options.visual_as_collision = params.visual_as_collision;

@@ -13,6 +13,7 @@
 #include "framework/error.h"
 #include "models/csv_table.h"
 #include "models/error.h"
+#include "models/robot/joint_limits.h"
 
 namespace oca::systems {
 namespace {
@@ -129,6 +130,10 @@ void CheckPoints(const std::vector<KeyPoint>& points, const std::string& list) {
     }
     const Eigen::Index joints = points.front().position.size();
     CheckVector(where + ".position", point.position, joints);
+    if (const double far = point.position.cwiseAbs().maxCoeff(); far > models::kFarthestPosition) {
+      throw ConfigError(fmt::format("{}.position: too far out; got {}; expected at most {:g}",
+                                    where, far, models::kFarthestPosition));
+    }
     if (point.velocity) CheckVector(where + ".velocity", *point.velocity, joints);
     if (point.acceleration) CheckVector(where + ".acceleration", *point.acceleration, joints);
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "systems/robot_kinematics.h"
 
+#include "framework/error.h"
+#include "models/robot/joint_limits.h"
 #include "models/robot/kinematics.h"
 #include "systems/model_links.h"
 
@@ -15,7 +17,14 @@ RobotKinematics::RobotKinematics(const Params& params, const ModelSet& models)
       position(DeclareInput<Vector>("position", PositionSpec(*model_))),
       velocity(DeclareOptionalInput<Vector>("velocity", RateSpec(*model_))),
       links(
-          DeclareOutput<LinkPoses, &RobotKinematics::CalcLinks>("links", {}, position, velocity)) {}
+          DeclareOutput<LinkPoses, &RobotKinematics::CalcLinks>("links", {}, position, velocity)) {
+  DeclareInitialization<&RobotKinematics::CheckStart>(Writes<>(), position);
+}
+
+void RobotKinematics::CheckStart(VectorView q) const {
+  const std::string wrong = models::ImpossibleState(*model_, q);
+  if (!wrong.empty()) throw ConfigError(wrong);
+}
 
 void RobotKinematics::CalcLinks(VectorView q, std::optional<VectorView> qdot,
                                 LinkPoses& poses) const {

@@ -21,7 +21,9 @@ namespace oca::systems {
 /// in    velocity  n  rad/s, m/s  optional
 /// out   links     LinkPoses      all links, parents first
 /// state -
-/// throws ConfigError if there is no such model or it has no movable joint
+/// throws ConfigError if there is no such model or it has no movable joint; at the start of a run
+/// if
+///        `position` is no state of the robot: see models::ImpossibleState
 class RobotKinematics final : public System {
  public:
   static constexpr SystemDoc kDoc{"computes the poses of a robot's links",
@@ -36,6 +38,7 @@ class RobotKinematics final : public System {
 
  private:
   const std::shared_ptr<const models::RobotModel> model_;
+  void CheckStart(VectorView q) const;
   void CalcLinks(VectorView q, std::optional<VectorView> qdot, LinkPoses& poses) const;
 
  public:

@@ -33,9 +33,12 @@ systems::ModelSet LoadModels(const std::vector<std::string>& arguments) {
     }
     models::LoadOptions options;
     options.package_directories = diagrams::PackageFolders();
-    models.Add(argument.substr(0, equals),
-               std::make_shared<const models::RobotModel>(models::LoadUrdf(
-                   diagrams::ResolvePath(argument.substr(equals + 1), {}, {}), options)));
+    const std::string name = argument.substr(0, equals);
+    options.warn = [&name](const std::string& line) {
+      fmt::print(stderr, "warning: --model {}: {}\n", name, line);
+    };
+    models.Add(name, std::make_shared<const models::RobotModel>(models::LoadUrdf(
+                         diagrams::ResolvePath(argument.substr(equals + 1), {}, {}), options)));
   }
   return models;
 }

@@ -45,8 +45,7 @@ std::string Table(const models::RobotModel& model, const std::vector<LinkPairChe
   for (const LinkPairCheck& pair : pairs) {
     text += fmt::format("  {:<{}}  {:<{}}  {:<9}  {:>8.4f}  {:>10}\n", NameOf(model, pair.link_a),
                         width, NameOf(model, pair.link_b), width, models::ToString(pair.kind),
-                        pair.least_distance,
-                        pair.kind == PairKind::kAdjacent ? "" : std::to_string(pair.collisions));
+                        pair.least_distance, pair.collisions);
   }
   return text + fmt::format("  to check: {}; not: {} adjacent, {} always, {} never in collision\n",
                             counts[PairKind::kSometimes], counts[PairKind::kAdjacent],

@@ -9,14 +9,25 @@ namespace oca::models {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Kept free before a position limit, so that the rounding of a long way to a halt has room.
+// Kept free before a position limit, so that the rounding of a long way to a halt has room; of the
+// limit itself where that is large, for rounding is.
 constexpr double kRoom = 1e-12;
 // A contradiction of two bounds below this is rounding.
 constexpr double kRounding = 1e-9;
 constexpr int kBisections = 20;
 constexpr int kMostSteps = 100000;
 
-double Room(double distance) { return std::max(distance - kRoom, 0.0); }
+// Above this ratio of the distance to that of one step of braking, steps do not count any more.
+constexpr double kManySteps = 1e30;
+
+double RoomBefore(double limit) { return kRoom * std::max(std::fabs(limit), 1.0); }
+
+/// The limits that a way to a halt is planned within.
+JointLimits Inner(JointLimits limits) {
+  if (std::isfinite(limits.lower)) limits.lower += RoomBefore(limits.lower);
+  if (std::isfinite(limits.upper)) limits.upper -= RoomBefore(limits.upper);
+  return limits;
+}
 
 void LimitAbove(double bound, MotionLimit limit, VelocityRange& range) {
   if (bound >= range.upper) return;
@@ -53,9 +64,10 @@ VelocityRange WithoutJerk(const JointLimits& limits, const JointMotion& motion, 
   VelocityRange range{-limits.velocity, limits.velocity, MotionLimit::kVelocity,
                       MotionLimit::kVelocity};
   const double a = limits.acceleration;
-  LimitAbove(LargestStoppableVelocity(Room(limits.upper - motion.position), a, dt),
-             MotionLimit::kPosition, range);
-  LimitBelow(-LargestStoppableVelocity(Room(motion.position - limits.lower), a, dt),
+  const JointLimits inner = Inner(limits);
+  LimitAbove(LargestStoppableVelocity(inner.upper - motion.position, a, dt), MotionLimit::kPosition,
+             range);
+  LimitBelow(-LargestStoppableVelocity(motion.position - inner.lower, a, dt),
              MotionLimit::kPosition, range);
   if (drive.lower > range.upper) {
     const MotionLimit yields =
@@ -94,16 +106,38 @@ bool SurelyStops(const JointLimits& limits, const JointMotion& motion, double dt
          motion.position - distance > limits.lower;
 }
 
+bool AtRest(const JointMotion& motion) {
+  return std::fabs(motion.velocity) < kRoom && std::fabs(motion.acceleration) < kRounding;
+}
+
 /// The first limit that is broken at `motion` or on the way from there to a halt.
 MotionLimit BrokenOnTheWay(const JointLimits& limits, JointMotion motion, double dt) {
   if (SurelyStops(limits, motion, dt)) return MotionLimit::kNone;
   for (int step = 0; step < kMostSteps; ++step) {
     const MotionLimit broken = Broken(limits, motion);
     if (broken != MotionLimit::kNone) return broken;
-    if (std::fabs(motion.velocity) < kRoom && std::fabs(motion.acceleration) < kRounding) break;
+    if (AtRest(motion)) break;
     motion = Advance(motion, StopStep(limits, motion, dt), dt);
   }
   return MotionLimit::kNone;
+}
+
+/// How far and how fast the way to a halt leads from `motion`.
+struct Way {
+  double lowest;
+  double highest;
+  double fastest;
+};
+
+Way WayToHalt(const JointLimits& limits, JointMotion motion, double dt) {
+  Way way{motion.position, motion.position, std::fabs(motion.velocity)};
+  for (int step = 0; step < kMostSteps && !AtRest(motion); ++step) {
+    motion = Advance(motion, StopStep(limits, motion, dt), dt);
+    way.lowest = std::min(way.lowest, motion.position);
+    way.highest = std::max(way.highest, motion.position);
+    way.fastest = std::max(way.fastest, std::fabs(motion.velocity));
+  }
+  return way;
 }
 
 struct End {
@@ -130,8 +164,11 @@ End Reach(const JointLimits& limits, const JointMotion& motion, double dt, doubl
 
 double LargestStoppableVelocity(double distance, double acceleration, double dt) {
   const double step = acceleration * dt;
+  if (!(distance > 0.0)) return 0.0;
   if (std::isinf(distance) || std::isinf(step)) return distance / dt;
-  const double m = std::floor(0.5 * (std::sqrt(1.0 + 8.0 * distance / (step * dt)) - 1.0));
+  const double steps = distance / (step * dt);
+  if (steps > kManySteps) return std::sqrt(2.0 * acceleration) * std::sqrt(distance);
+  const double m = std::floor(0.5 * (std::sqrt(1.0 + 8.0 * steps) - 1.0));
   return (distance / dt + 0.5 * step * m * (m + 1.0)) / (m + 1.0);
 }
 
@@ -153,17 +190,26 @@ double StopStep(const JointLimits& limits, const JointMotion& motion, double dt)
 
 VelocityRange StoppableVelocities(const JointLimits& limits, const JointMotion& motion, double dt) {
   if (!std::isfinite(limits.jerk)) return WithoutJerk(limits, motion, dt);
-  JointLimits inner = limits;
-  inner.lower += kRoom;
-  inner.upper -= kRoom;
+  JointLimits inner = Inner(limits);
   const VelocityRange drive = DriveRange(limits, motion, dt);
   const double stop = std::clamp(StopStep(limits, motion, dt), drive.lower, drive.upper);
-  const MotionLimit broken = BrokenOnTheWay(inner, Advance(motion, stop, dt), dt);
-  if (broken != MotionLimit::kNone)
-    return {stop, stop, MotionLimit::kJerk, MotionLimit::kJerk, broken};
+  const JointMotion stopping = Advance(motion, stop, dt);
+  MotionLimit yields = MotionLimit::kNone;
+  if (!SurelyStops(inner, stopping, dt)) {
+    // What is beyond a limit, or cannot but get there, counts only for what goes farther.
+    const Way way = WayToHalt(limits, stopping, dt);
+    if (way.fastest > limits.velocity + kRounding) yields = MotionLimit::kVelocity;
+    if (way.highest > std::max(limits.upper, motion.position) ||
+        way.lowest < std::min(limits.lower, motion.position)) {
+      yields = MotionLimit::kPosition;
+    }
+    inner.lower = std::min({inner.lower, motion.position, way.lowest});
+    inner.upper = std::max({inner.upper, motion.position, way.highest});
+    inner.velocity = std::max(inner.velocity, way.fastest - kRounding);  // which Broken allows
+  }
   const End lower = Reach(inner, motion, dt, stop, {drive.lower, drive.lower_limit});
   const End upper = Reach(inner, motion, dt, stop, {drive.upper, drive.upper_limit});
-  return {lower.velocity, upper.velocity, lower.limit, upper.limit};
+  return {lower.velocity, upper.velocity, lower.limit, upper.limit, yields};
 }
 
 }  // namespace oca::models

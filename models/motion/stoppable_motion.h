@@ -27,7 +27,8 @@ struct JointMotion {
 };
 
 /// The velocities that a joint may have in the next period, and which limit each end comes from.
-/// If no velocity keeps all limits, lower == upper and `yields` names what cannot be kept.
+/// If no velocity keeps all limits, `yields` names what cannot be kept, and the range is what
+/// breaks it least: without a jerk limit a single velocity.
 struct VelocityRange {
   double lower;
   double upper;
@@ -55,6 +56,10 @@ double LargestStoppableVelocity(double distance, double acceleration, double dt)
 /// the whole set of these; with one it is that part of it from which a fixed way to stop,
 /// StopStep, keeps all limits. Velocity and position limits yield to acceleration and jerk, which
 /// bound what a drive can do at all.
+///
+/// A joint that stands beyond a position limit, or moves there, is let back in: the limit counts
+/// only for what leads farther out than the joint is, or than it cannot but get. A velocity beyond
+/// its limit comes down.
 VelocityRange StoppableVelocities(const JointLimits& limits, const JointMotion& motion, double dt);
 
 /// The motion one period later with `velocity`.

@@ -15,12 +15,13 @@ constexpr double kLongSpacing = 0.125;
 
 constexpr double kPositionInset = 0.02;    // rad, m; that bands stay away from position limits
 constexpr double kPositionUnit = 0.1;      // rad, m
+constexpr double kLeastUnit = 1e-6;        // rad/s, m/s and so on; of a limit that is nearly 0
 constexpr double kExcessTolerance = 1e-3;  // that still counts as within the limits
 constexpr double kExcessPrice = 0.05;      // m; an excess of 1 counts as so much missing distance
 
-/// How far `x` is above a limit or below its negative; 0 without a limit.
-double Excess(double x, double limit) {
-  return std::copysign(std::max(std::fabs(x) - limit, 0.0), x);
+/// How far `x` is above the range, or, negative, below it.
+double Excess(double x, double lower, double upper) {
+  return std::max(x - upper, 0.0) + std::min(x - lower, 0.0);
 }
 
 }  // namespace
@@ -73,6 +74,9 @@ void ElasticBand::Prepare(const BandCurve& curve, const BandRequest& request,
   num_controls_ = static_cast<int>(curve.controls().cols());
   FixEnd(end_fixed);
   AddSamples(curve, request);
+  start_.resize(curve.size());
+  curve.Evaluate(curve.start(), 0, start_);
+  start_ += checks_.front().request[0];
 }
 
 void ElasticBand::FixEnd(bool fixed) {
@@ -125,21 +129,17 @@ void ElasticBand::AddClearance(bool rows) {
 }
 
 ElasticBand::Range ElasticBand::RangeOf(Eigen::Index joint, int derivative, double share) const {
-  if (derivative == 1) {
-    const double limit = model_->velocity_limits()[joint];
-    return {0.0, share * limit, limit};
-  }
-  if (derivative == 2) {
-    const double limit = model_->acceleration_limits()[joint];
-    return {0.0, share * limit, limit};
+  if (derivative > 0) {
+    const double limit =
+        derivative == 1 ? model_->velocity_limits()[joint] : model_->acceleration_limits()[joint];
+    return {-share * limit, share * limit, std::max(limit, kLeastUnit)};
   }
   const double lower = model_->lower_limits()[joint];
   const double upper = model_->upper_limits()[joint];
-  if (!std::isfinite(lower) || !std::isfinite(upper)) {
-    return {0.0, std::numeric_limits<double>::infinity(), 1.0};
-  }
-  const double inset = share < 1.0 ? kPositionInset : 0.0;
-  return {0.5 * (upper + lower), std::max(0.5 * (upper - lower) - inset, 0.0), kPositionUnit};
+  if (share == 1.0) return {lower, upper, kPositionUnit};
+  // Halves, for the width of a range that nobody measured overflows.
+  const double inset = std::min(kPositionInset, 0.5 * upper - 0.5 * lower);
+  return {lower + inset, upper - inset, kPositionUnit};
 }
 
 double ElasticBand::AddedExcess(const Sample& sample, const BandCurve& curve) const {
@@ -148,11 +148,15 @@ double ElasticBand::AddedExcess(const Sample& sample, const BandCurve& curve) co
   for (int d = 0; d < 3; ++d) {
     curve.Evaluate(sample.time, d, x);
     for (Eigen::Index j = 0; j < x.size(); ++j) {
-      const Range range = RangeOf(j, d, 1.0);
-      const double requested = sample.request[d][j] - range.middle;
-      const double own = std::fabs(Excess(requested, range.half));
-      const double all = std::fabs(Excess(requested + x[j], range.half));
-      largest = std::max(largest, (all - own) / range.unit);
+      Range range = RangeOf(j, d, 1.0);
+      if (d == 0) {  // an arm that is beyond a limit may come back
+        range.lower = std::min(range.lower, start_[j]);
+        range.upper = std::max(range.upper, start_[j]);
+      }
+      const double requested = sample.request[d][j];
+      const double own = std::fabs(Excess(requested, range.lower, range.upper));
+      const double all = std::fabs(Excess(requested + x[j], range.lower, range.upper));
+      if (all > own) largest = std::max(largest, (all - own) / range.unit);
     }
   }
   return largest;
@@ -171,7 +175,7 @@ void ElasticBand::AddDiagonal(const Sample& sample, const Eigen::VectorXd x[3]) 
     g_[2][j] += settings_.smoothness * x[2][j];
     for (int d = 0; d < 3; ++d) {
       const Range range = RangeOf(j, d, settings_.limit_share);
-      const double excess = Excess(sample.request[d][j] + x[d][j] - range.middle, range.half);
+      const double excess = Excess(sample.request[d][j] + x[d][j], range.lower, range.upper);
       if (excess == 0.0) continue;
       cost_ += price * excess * excess / (range.unit * range.unit);
       d_[d][j] += price / (range.unit * range.unit);

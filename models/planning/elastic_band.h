@@ -121,13 +121,12 @@ class ElasticBand {
   Sample MakeSample(const BandCurve& curve, const BandRequest& request, double time, double weight);
   void Linearize(const Eigen::MatrixXd& controls, bool rows, Normal& normal);
   void AddClearance(bool rows);
-  /// Middle and half range of positions, velocities and accelerations that a band may use, and what
-  /// counts as an excess of 1.
+  /// Positions, velocities or accelerations that a band may use, and what counts as an excess of 1.
   struct Range {
-    double middle, half, unit;
+    double lower, upper, unit;
   };
   Range RangeOf(Eigen::Index joint, int derivative, double share) const;
-  /// What the band exceeds more than the request does.
+  /// What the band exceeds more than the request does, and in position than it did at the start.
   double AddedExcess(const Sample& sample, const BandCurve& curve) const;
   void AddDiagonal(const Sample& sample, const Eigen::VectorXd x[3]);
   void Assemble(const Sample& sample, Normal& normal) const;
@@ -151,6 +150,7 @@ class ElasticBand {
   bool end_fixed_{true};
   bool something_near_{false};  ///< else nothing has a distance
   long evaluations_{0};
+  Eigen::VectorXd start_;  ///< position at the start of the grid
 
   // Of the sample at hand.
   std::vector<NearPair> pairs_;

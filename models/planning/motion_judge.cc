@@ -24,10 +24,11 @@ double Share(double x, double limit) {
 }
 
 /// How far a position is from the middle of its range, 1 at a limit. A range without width is a
-/// limit too.
+/// limit too, and beyond a range of one end or none the share is 2.
 double PositionShare(double q, double lower, double upper) {
   if (!std::isfinite(upper - lower)) {
-    return q > upper * kRounding || q < lower * kRounding ? 2.0 : 0.0;
+    const auto rounding = [](double limit) { return (kRounding - 1.0) * std::fabs(limit); };
+    return q > upper + rounding(upper) || q < lower - rounding(lower) ? 2.0 : 0.0;
   }
   constexpr double kPoint = 1e-12;
   return std::fabs(q - 0.5 * (lower + upper)) / std::max(0.5 * (upper - lower), kPoint);
@@ -60,7 +61,8 @@ NearPair MotionJudge::Nearest(const VectorXd& q, double time) {
   return nearest;
 }
 
-double MotionJudge::Excess(const VectorXd motion[3], MotionVerdict& verdict) const {
+double MotionJudge::Excess(const VectorXd motion[3], const VectorXd& start,
+                           MotionVerdict& verdict) const {
   for (int d = 0; d < 3; ++d) {
     if (!motion[d].allFinite()) return verdict.position = kUnlimited;
   }
@@ -70,7 +72,9 @@ double MotionJudge::Excess(const VectorXd motion[3], MotionVerdict& verdict) con
     largest = std::max(largest, share);
   };
   for (Eigen::Index j = 0; j < motion[0].size(); ++j) {
-    count(PositionShare(motion[0][j], model_->lower_limits()[j], model_->upper_limits()[j]),
+    // A limit that is broken at the start counts for what leads farther out.
+    count(PositionShare(motion[0][j], std::min(model_->lower_limits()[j], start[j]),
+                        std::max(model_->upper_limits()[j], start[j])),
           verdict.position);
     count(Share(motion[1][j], model_->velocity_limits()[j]), verdict.speed);
     count(Share(motion[2][j], model_->acceleration_limits()[j]), verdict.acceleration);
@@ -80,7 +84,7 @@ double MotionJudge::Excess(const VectorXd motion[3], MotionVerdict& verdict) con
 
 MotionVerdict MotionJudge::Judge(const BandCurve& deviation, double duration, double step) {
   MotionVerdict verdict{.min_distance = reach_};
-  VectorXd motion[3], request(model_->num_positions());
+  VectorXd motion[3], start, request(model_->num_positions());
   const auto last = static_cast<long>(std::ceil(duration / step - 1e-9));
   for (long k = 0; k <= last; ++k) {
     const double time = std::min(static_cast<double>(k) * step, duration);
@@ -91,6 +95,7 @@ MotionVerdict MotionJudge::Judge(const BandCurve& deviation, double duration, do
       request_(time, d, request);
       motion[d] += request;
     }
+    if (k == 0) start = motion[0];
     const NearPair near = Nearest(motion[0], time);
     if (near.distance < verdict.min_distance) {
       verdict.min_distance = near.distance;
@@ -99,8 +104,8 @@ MotionVerdict MotionJudge::Judge(const BandCurve& deviation, double duration, do
       verdict.body =
           near.body >= 0 ? bodies_[near.body].name : model_->links()[near.other_link].name;
     }
-    const double lacking =
-        Excess(motion, verdict) + std::max(std::min(kKept, reach_) - near.distance, 0.0) / kUnit;
+    const double lacking = Excess(motion, start, verdict) +
+                           std::max(std::min(kKept, reach_) - near.distance, 0.0) / kUnit;
     if (!(lacking > 0.0)) continue;
     verdict.shortfall += step * lacking;
     if (verdict.troubles.empty() || time - verdict.troubles.back().second > kMotionPause) {

@@ -55,7 +55,8 @@ class MotionJudge {
  private:
   NearPair Nearest(const Eigen::VectorXd& q, double time);
   /// What lacks at a time, of the limits; the shares go into the verdict.
-  double Excess(const Eigen::VectorXd motion[3], MotionVerdict& verdict) const;
+  double Excess(const Eigen::VectorXd motion[3], const Eigen::VectorXd& start,
+                MotionVerdict& verdict) const;
 
   const std::shared_ptr<const RobotModel> model_;
   const BandRequest request_;

@@ -8,6 +8,7 @@
 
 #include "models/planning/certified_motion.h"
 #include "models/random.h"
+#include "models/robot/joint_limits.h"
 
 namespace oca::models {
 namespace {
@@ -87,8 +88,9 @@ struct Room {
   Room(const RobotModel& model, const Eigen::VectorXd& start, const Eigen::VectorXd& goal)
       : lower(model.lower_limits()), upper(model.upper_limits()) {
     for (Eigen::Index i = 0; i < lower.size(); ++i) {
-      if (!std::isfinite(lower[i])) lower[i] = std::min(start[i], goal[i]) - std::numbers::pi;
-      if (!std::isfinite(upper[i])) upper[i] = std::max(start[i], goal[i]) + std::numbers::pi;
+      if (HasOwnRange(model, i)) continue;
+      lower[i] = std::max(lower[i], std::min(start[i], goal[i]) - std::numbers::pi);
+      upper[i] = std::min(upper[i], std::max(start[i], goal[i]) + std::numbers::pi);
     }
   }
   Eigen::VectorXd Draw(Random& random) const {

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <random>
 
 #include "models/error.h"
 #include "models/geometry/distance.h"
+#include "models/robot/joint_limits.h"
 #include "models/robot/kinematics.h"
 
 namespace oca::models {
@@ -21,22 +21,32 @@ struct Solid {
   std::shared_ptr<const Collider> collider;
 };
 
+/// Where a position is drawn from, and whether its limits end it.
+struct Range {
+  double lower;
+  double upper;
+  bool limits;
+};
+
 // std::mt19937_64 is the same everywhere, the standard's distributions are not.
 class Draws {
  public:
   explicit Draws(std::uint64_t seed) : bits_(seed) {}
 
-  double Unit() { return static_cast<double>(bits_() >> 11) * 0x1p-53; }
-  double Position(double lower, double upper) {
-    const double share = (Unit() * 8.0 - 1.0) / 6.0;  // an eighth of the draws beyond either end
-    return lower + std::clamp(share, 0.0, 1.0) * (upper - lower);
+  double Position(const Range& range) {
+    const double unit = Unit();
+    // Where the ends are limits an eighth of the draws lies beyond either.
+    const double share = range.limits ? std::clamp((unit * 8.0 - 1.0) / 6.0, 0.0, 1.0) : unit;
+    return range.lower + share * (range.upper - range.lower);
   }
 
  private:
+  double Unit() { return static_cast<double>(bits_() >> 11) * 0x1p-53; }
+
   std::mt19937_64 bits_;
 };
 
-void CheckSampling(const RobotModel& model, const CollisionSampling& sampling) {
+void CheckSampling(const CollisionSampling& sampling) {
   if (sampling.samples < 1) {
     throw ModelError(
         fmt::format("samples: how many to draw; got {}; expected at least 1", sampling.samples));
@@ -45,23 +55,30 @@ void CheckSampling(const RobotModel& model, const CollisionSampling& sampling) {
     throw ModelError(
         fmt::format("margin: got {} m; expected a finite number >= 0", sampling.margin));
   }
-  for (const Joint& joint : model.joints()) {
-    const bool bounded = std::isfinite(joint.lower_limit) && std::isfinite(joint.upper_limit);
-    if (joint.position_index < 0 || bounded || joint.type != JointType::kPrismatic) continue;
-    throw ModelError(fmt::format(
-        "robot '{}' joint '{}': limits; got none; expected lower and upper, to sample within",
-        model.name().text(), joint.name.text()));
-  }
 }
 
-void DrawPositions(const RobotModel& model, Draws& draws, Eigen::VectorXd& q) {
-  for (Eigen::Index i = 0; i < q.size(); ++i) {
-    const double lower = model.lower_limits()[i];
-    const double upper = model.upper_limits()[i];
-    q[i] = std::isfinite(lower) && std::isfinite(upper)
-               ? draws.Position(lower, upper)
-               : std::numbers::pi * (2.0 * draws.Unit() - 1.0);
+/// Where to draw each position from.
+std::vector<Range> RangesOf(const RobotModel& model) {
+  std::vector<Range> ranges;
+  for (Eigen::Index i = 0; i < model.num_positions(); ++i) {
+    if (const auto range = DrawnRange(model, i)) {
+      ranges.push_back({range->first, range->second, HasOwnRange(model, i)});
+      continue;
+    }
+    throw ModelError(fmt::format(
+        "robot '{}' joint '{}': limits; got [{:g}, {:g}]; expected a range of at most 100 m, or "
+        "100 turns, that samples can cover",
+        model.name().text(), model.position_names()[static_cast<std::size_t>(i)].text(),
+        model.lower_limits()[i], model.upper_limits()[i]));
   }
+  return ranges;
+}
+
+/// The posture 0 as far as the limits allow it.
+Eigen::VectorXd ZeroPosture(const RobotModel& model) {
+  return Eigen::VectorXd::Zero(model.num_positions())
+      .cwiseMax(model.lower_limits())
+      .cwiseMin(model.upper_limits());
 }
 
 std::vector<std::vector<Solid>> MakeSolids(const RobotModel& model) {
@@ -90,6 +107,15 @@ double DistanceWithin(const std::vector<Solid>& a, const Eigen::Isometry3d& X_WA
   return least;
 }
 
+void RequireFinite(const RobotModel& model, const LinkPairCheck& pair) {
+  if (std::isfinite(pair.least_distance)) return;
+  throw ModelError(
+      fmt::format("robot '{}' links '{}' and '{}': distance; got {}; expected a finite number: the "
+                  "poses of the model are too large",
+                  model.name().text(), model.links()[pair.link_a].name.text(),
+                  model.links()[pair.link_b].name.text(), pair.least_distance));
+}
+
 PairKind KindOf(const LinkPairCheck& pair, const CollisionSampling& sampling) {
   if (pair.collisions == sampling.samples) return PairKind::kAlways;
   return pair.least_distance > sampling.margin ? PairKind::kNever : PairKind::kSometimes;
@@ -104,7 +130,8 @@ std::string_view ToString(PairKind kind) {
 
 std::vector<LinkPairCheck> CheckCollisions(const RobotModel& model,
                                            const CollisionSampling& sampling) {
-  CheckSampling(model, sampling);
+  CheckSampling(sampling);
+  const std::vector<Range> ranges = RangesOf(model);
   const auto solids = MakeSolids(model);
   std::vector<LinkPairCheck> pairs;
   for (int a = 0; a < model.num_links(); ++a) {
@@ -114,20 +141,15 @@ std::vector<LinkPairCheck> CheckCollisions(const RobotModel& model,
       pairs.push_back({a, b, kind, kUnlimited, 0});
     }
   }
-  Eigen::VectorXd q = Eigen::VectorXd::Zero(model.num_positions());
-  std::vector<Eigen::Isometry3d> X_WL = LinkPoses(model, q);
-  for (LinkPairCheck& pair : pairs) {
-    if (pair.kind != PairKind::kAdjacent) continue;
-    pair.least_distance = DistanceWithin(solids[pair.link_a], X_WL[pair.link_a],
-                                         solids[pair.link_b], X_WL[pair.link_b], kUnlimited);
-    pair.collisions = pair.least_distance <= 0.0 ? 1 : 0;
-  }
+  Eigen::VectorXd q = ZeroPosture(model);
+  std::vector<Eigen::Isometry3d> X_WL(model.links().size());
   Draws draws(sampling.seed);
   for (int sample = 0; sample < sampling.samples; ++sample) {
-    DrawPositions(model, draws, q);
+    for (std::size_t i = 0; sample > 0 && i < ranges.size(); ++i) {
+      q[static_cast<Eigen::Index>(i)] = draws.Position(ranges[i]);
+    }
     ForwardKinematics(model, q, X_WL);
     for (LinkPairCheck& pair : pairs) {
-      if (pair.kind == PairKind::kAdjacent) continue;
       const double distance =
           DistanceWithin(solids[pair.link_a], X_WL[pair.link_a], solids[pair.link_b],
                          X_WL[pair.link_b], pair.least_distance);
@@ -136,6 +158,7 @@ std::vector<LinkPairCheck> CheckCollisions(const RobotModel& model,
     }
   }
   for (LinkPairCheck& pair : pairs) {
+    RequireFinite(model, pair);
     if (pair.kind != PairKind::kAdjacent) pair.kind = KindOf(pair, sampling);
   }
   return pairs;

@@ -30,18 +30,21 @@ struct LinkPairCheck {
   int link_a{0};
   int link_b{0};
   PairKind kind{PairKind::kSometimes};
-  double least_distance{0.0};  // m, signed, over all samples; of an adjacent pair at q = 0 alone
+  double least_distance{0.0};  // m, signed, over all samples
   int collisions{0};           // samples with distance <= 0
 };
 
-/// Looks at every pair of links with solids over random positions within the joint limits.
+/// Looks at every pair of links with solids, adjacent ones too, at the posture 0 (or what is
+/// nearest to it within the limits), which is the first of the samples, and at random positions
+/// within the limits.
 ///
-/// A quarter of all draws of a joint lie on one of its limits, where arms fold; one without limits
-/// is drawn from a whole turn. The same seed gives the same answer on every machine that rounds
-/// alike. What was never seen may still happen: the margin, not the number of samples, is what
-/// makes "never" safe.
-/// throws ModelError if samples < 1, the margin is negative or not finite, a prismatic joint has no
-///        limits, or a solid cannot be prepared for distance queries
+/// A quarter of all draws of a joint lie on one of its limits, where arms fold; one that turns and
+/// has no limits, or too wide ones, is drawn from a whole turn (DrawnRange). The same seed gives
+/// the same answer on every machine that rounds alike. What was never seen may still happen: the
+/// margin, not the number of samples, is what makes "never" safe. throws ModelError if samples < 1,
+/// the margin is negative or not finite, a joint has no range that
+///        samples cover, a distance is not finite, or a solid cannot be prepared for distance
+///        queries
 std::vector<LinkPairCheck> CheckCollisions(const RobotModel& model,
                                            const CollisionSampling& sampling);
 

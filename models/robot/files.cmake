@@ -4,6 +4,7 @@ list(APPEND headers
   robot/collision_check.h
   robot/jacobian_mapping.h
   robot/joint_axis.h
+  robot/joint_limits.h
   robot/kinematics.h
   robot/pseudo_inverse.h
   robot/robot_model.h
@@ -15,6 +16,7 @@ list(APPEND sources
   robot/collision_check.cc
   robot/fuse_capsules.cc
   robot/jacobian_mapping.cc
+  robot/joint_limits.cc
   robot/kinematics.cc
   robot/mesh_path.cc
   robot/nearest_name.cc

@@ -15,6 +15,7 @@
 #include "models/error.h"
 #include "models/planning/clearance.h"
 #include "models/random.h"
+#include "models/robot/joint_limits.h"
 #include "models/robot/pose_error.h"
 
 namespace oca::models {
@@ -138,16 +139,20 @@ class Search {
         residuals_(model, link, X_WG, start_, settings.clearance, surroundings_),
         random_(settings.seed),
         carries_(start.size(), false),
+        ranges_(start.size(), false),
         turns_(start.size(), false) {
     for (int at = link; at > 0; at = model.steps()[at - 1].parent_link) {
       if (const int column = model.steps()[at - 1].column; column >= 0) carries_[column] = true;
     }
     for (const Joint& joint : model.joints()) {
-      if (joint.position_index < 0 || joint.type == JointType::kPrismatic) continue;
-      turns_[joint.position_index] = joint.upper_limit - joint.lower_limit >= 2.0 * kPi;
+      const int j = joint.position_index;
+      if (j < 0) continue;
+      ranges_[j] = HasOwnRange(model, j);
+      if (joint.type == JointType::kPrismatic) continue;
+      turns_[j] = model.upper_limits()[j] - model.lower_limits()[j] >= 2.0 * kPi;
     }
-    for (const Joint& joint : model.joints()) {  // the follower need not make whole turns too
-      if (joint.mimic) turns_[model.joints()[joint.mimic->joint].position_index] = false;
+    for (int j = 0; j < model.num_joints(); ++j) {  // the follower need not make whole turns too
+      if (model.joints()[j].mimic) turns_[model.steps()[j].column] = false;
     }
   }
 
@@ -238,7 +243,7 @@ class Search {
       if (!carries_[j]) continue;
       const double lower = model_.lower_limits()[j];
       const double upper = model_.upper_limits()[j];
-      const bool bounded = std::isfinite(lower) && std::isfinite(upper) && !turns_[j];
+      const bool bounded = ranges_[j] && !turns_[j];
       q[j] = bounded ? random_.Uniform(lower, upper) : random_.Uniform(q[j] - kPi, q[j] + kPi);
     }
     return Clamped(WithoutTurns(q));
@@ -251,6 +256,7 @@ class Search {
   Residuals residuals_;
   Random random_;
   std::vector<bool> carries_;  // the link, one a position
+  std::vector<bool> ranges_;   // has limits to draw between
   std::vector<bool> turns_;    // has whole turns to spare
   ceres::TinySolver<Residuals> solver_;
 };

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "models/error.h"
+#include "models/robot/joint_limits.h"
 #include "models/robot/nearest_name.h"
 
 namespace oca::models {
@@ -100,7 +101,10 @@ void RobotModel::CheckTree() const {
 void RobotModel::CheckJoint(const Joint& joint) const {
   const std::string where = fmt::format("robot '{}' joint '{}'", name_.text(), joint.name.text());
   CheckPose(joint.X_PJ, where);
-  if (!joint.movable()) return;
+  if (!joint.movable()) {
+    if (!joint.mimic) return;
+    throw ModelError(where + ": mimic; got one of a fixed joint; expected a joint that moves");
+  }
   // Negated comparisons, so that NaN is refused too.
   if (!(std::abs(joint.axis.norm() - 1.0) < 1e-9)) {
     throw ModelError(
@@ -208,15 +212,15 @@ void RobotModel::CollectLimits() {
                                   &effort_limits_, &acceleration_limits_, &jerk_limits_}) {
     limits->resize(n);
   }
-  for (const Joint& joint : joints_) {
-    const int i = joint.position_index;
-    if (i < 0) continue;
-    lower_limits_[i] = joint.lower_limit;
-    upper_limits_[i] = joint.upper_limit;
-    velocity_limits_[i] = joint.velocity_limit;
-    effort_limits_[i] = joint.effort_limit;
-    acceleration_limits_[i] = joint.acceleration_limit;
-    jerk_limits_[i] = joint.jerk_limit;
+  const auto all = LimitsOfPositions(name_, joints_, steps_);
+  for (int i = 0; i < n; ++i) {
+    const PositionLimits& limits = all[static_cast<std::size_t>(i)];
+    lower_limits_[i] = limits.lower;
+    upper_limits_[i] = limits.upper;
+    velocity_limits_[i] = limits.velocity;
+    effort_limits_[i] = limits.effort;
+    acceleration_limits_[i] = limits.acceleration;
+    jerk_limits_[i] = limits.jerk;
   }
 }
 

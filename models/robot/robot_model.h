@@ -62,7 +62,8 @@ struct Mimic {
 };
 
 /// `X_PJ` is the joint's frame in its parent link; `axis` a unit vector in the joint's frame.
-/// Limits are in rad or m and their derivatives, effort in Nm or N, infinite where not given.
+/// Limits are in rad or m and their derivatives, effort in Nm or N, infinite where not given; they
+/// are as described: what the robot has to keep of them says RobotModel, for mimics bind too.
 struct Joint {
   Name name;
   JointType type{JointType::kFixed};
@@ -108,7 +109,8 @@ class RobotModel {
   /// Takes links and joints in the order above (joint j has child_link j + 1 and a parent_link
   /// <= j; indices of parents and positions are filled in here). `X_WB` is the root link's pose in
   /// the world. `disabled_pairs` are pairs of link numbers that are never checked for collision.
-  /// throws ModelError if the tree, an axis, a limit or a mimic rule is wrong, or if no body can
+  /// throws ModelError if the tree, an axis, a limit or a mimic rule is wrong, a mimic is fixed or
+  /// leaves the joint it follows no position, or if no body can
   /// have an inertia: numbers that are not finite, a negative mass or moment, moments of which one
   /// exceeds the sum of the other two
   RobotModel(Name name, std::vector<Link> links, std::vector<Joint> joints,
@@ -124,7 +126,7 @@ class RobotModel {
   int num_positions() const { return static_cast<int>(position_names_.size()); }
   const Eigen::Isometry3d& X_WB() const { return X_WB_; }
 
-  /// One entry a position.
+  /// One entry a position. Limits are those of LimitsOfPositions: of the joint and its mimics.
   const std::vector<Name>& position_names() const { return position_names_; }
   const Eigen::VectorXd& lower_limits() const { return lower_limits_; }
   const Eigen::VectorXd& upper_limits() const { return upper_limits_; }

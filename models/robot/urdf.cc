@@ -11,6 +11,7 @@
 #include "models/geometry/decomposition.h"
 #include "models/geometry/mesh_surface.h"
 #include "models/robot/fuse_capsules.h"
+#include "models/robot/joint_limits.h"
 #include "models/robot/mesh_path.h"
 #include "models/robot/srdf.h"
 #include "models/robot/urdf_outline.h"
@@ -55,8 +56,12 @@ class UrdfReader {
       disabled = LoadDisabledPairs(options_.srdf, robot);
     }
     try {
-      return {Name(outline_.robot_name), std::move(links_), std::move(joints_), options_.X_WB,
-              std::move(disabled)};
+      RobotModel model(Name(outline_.robot_name), std::move(links_), std::move(joints_),
+                       options_.X_WB, std::move(disabled));
+      if (options_.warn) {
+        for (const std::string& line : LimitWarnings(model)) options_.warn(line);
+      }
+      return model;
     } catch (const ModelError& error) {
       throw ModelError(fmt::format("{}: {}", where_, error.what()));
     }
@@ -179,8 +184,8 @@ class UrdfReader {
         const auto hull = MakeConvexHull(triangles.vertices, file.string());
         const std::string excess = options_.warn ? DescribeHullExcess(triangles, *hull) : "";
         if (!excess.empty()) {
-          options_.warn(
-              fmt::format("link '{}': {} mesh '{}' {}", link, kind, mesh.filename, excess));
+          options_.warn(fmt::format("link '{}': {} mesh '{}' {}{}", link, kind, mesh.filename,
+                                    excess, options_.hull_advice));
         }
         return ConvexMesh{hull};
       } catch (const ModelError& error) {

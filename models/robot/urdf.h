@@ -40,8 +40,10 @@ struct LoadOptions {
   bool decompose_meshes{false};
   VisualAsCollision visual_as_collision{VisualAsCollision::kNone};
   /// Takes a line for each mesh whose hull adds volume, `link 'x': collision mesh ...` or `visual
-  /// mesh`; or unset.
+  /// mesh`, and for limits that hardly mean what they say (LimitWarnings): `joint X: ...`; or
+  /// unset. The line of a mesh ends with `hull_advice`.
   std::function<void(const std::string& line)> warn;
+  std::string hull_advice;
   /// false: meshes that are only drawn need not exist, and their elements name no file.
   bool load_visuals{true};
 };

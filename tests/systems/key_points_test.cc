@@ -132,6 +132,10 @@ TEST(KeyPointsTest, RefusesPointsOfDifferentLengthAndNumbersThatAreNotFinite) {
   EXPECT_THAT(RefusalOf({At(0.0, Eigen::VectorXd())}), HasSubstr("expected at least one"));
   EXPECT_THAT(RefusalOf({At(0.0, nan)}), HasSubstr("not finite"));
   EXPECT_THAT(RefusalOf({At(nan[0], q)}), HasSubstr("time: not finite"));
+  EXPECT_EQ(RefusalOf({At(0.0, q.array() - 1e6)}), "accepted");
+  EXPECT_THAT(
+      RefusalOf({At(0.0, q), At(1.0, q.array() - 1.1e6)}),
+      HasSubstr("key_points[1].position: too far out; got 1100000; expected at most 1e+06"));
   KeyPoint point = At(0.0, q);
   point.velocity = Eigen::VectorXd::Zero(1);
   EXPECT_THAT(RefusalOf({point}), HasSubstr("key_points[0].velocity: wrong length"));

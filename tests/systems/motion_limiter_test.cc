@@ -102,6 +102,29 @@ TEST_F(MotionLimiterTest, LetsAJointOutsideItsRangeOnlyComeBack) {
   EXPECT_DOUBLE_EQ(Within(bench, 1, One(0.0))[0], 3.099);
 }
 
+TEST_F(MotionLimiterTest, LeadsAJointThatStandsAtOrBeyondALimitToItsGoal) {
+  for (const double jerk : {models::kUnlimited, 200.0}) {
+    const ModelSet arm = Arm(10, jerk);
+    const Eigen::VectorXd upper = arm.Get("")->upper_limits();
+    for (const double off : {0.0, -1e-13, -1e-12, 1e-13, 1e-6, 0.01, 1.0}) {
+      for (const double side : {1.0, -1.0}) {
+        Bench bench(Hundred(), arm);
+        const Eigen::VectorXd start = side * (upper.array() + off).matrix();
+        bench->position_in.Fix(bench.context(), start);
+        Eigen::VectorXd before = Within(bench, 0, start);
+        EXPECT_EQ(before, start);
+        for (int k = 1; k < 700; ++k) {
+          const Eigen::VectorXd now = Within(bench, k, One(side * 0.3));
+          ASSERT_LE((side * (now - before)).maxCoeff(), 1e-3) << off;  // a touch past the goal
+          before = now;
+        }
+        EXPECT_NEAR(before[0], side * 0.3, 1e-3) << off << ' ' << jerk;
+        EXPECT_NEAR(before[6], side * 0.3, 1e-3) << off << ' ' << jerk;
+      }
+    }
+  }
+}
+
 // A request that sets off at 0.5 rad/s at once: the command lags behind, catches up and meets it.
 TEST_F(MotionLimiterTest, CatchesUpWithoutShootingPast) {
   for (const double jerk : {models::kUnlimited, 200.0}) {

@@ -7,6 +7,7 @@
 
 #include "framework/error.h"
 #include "models/robot/kinematics.h"
+#include "systems/constant.h"
 #include "tests/system_bench.h"
 #include "tests/systems/test_models.h"
 
@@ -52,6 +53,25 @@ TEST(RobotKinematicsTest, RefusesAModelThatDoesNotExistOrCannotMove) {
   EXPECT_THROW(RobotKinematics(RobotKinematics::Params{.model = "lwr5"}, TestModels("lwr4")),
                ConfigError);
   EXPECT_THROW(RobotKinematics(RobotKinematics::Params{}, TestModels("table_frame")), ConfigError);
+}
+
+TEST(RobotKinematicsTest, RefusesAStartThatIsNoStateOfTheRobot) {
+  DiagramBuilder builder;
+  const auto& q = builder.Add<Constant>(
+      "q", Constant::Params{Eigen::VectorXd(Eigen::Vector2d(0.0, 1e9)), "rad"});
+  const auto& kinematics =
+      builder.Add<RobotKinematics>("kinematics", RobotKinematics::Params{}, TestModels("planar2"));
+  builder.Connect(q.value, kinematics.position);
+  const auto diagram = builder.Build();
+  Simulator simulator(*diagram);
+  try {
+    simulator.Initialize();
+    FAIL() << "accepted";
+  } catch (const std::exception& error) {
+    EXPECT_NE(std::string(error.what()).find("kinematics"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("2 pi rad beyond its limits"), std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(RobotKinematicsTest, RefusesAPositionOfAnotherLength) {

@@ -150,5 +150,122 @@ TEST(StoppableMotionTest, ReachesTheLimitsThatItKeeps) {
   }
 }
 
+TEST(StoppableMotionTest, SaysZeroOrRootWhereStepsCannotBeCounted) {
+  EXPECT_EQ(LargestStoppableVelocity(-0.1, 10, kDt), 0.0);
+  EXPECT_NEAR(LargestStoppableVelocity(1e308, 2, kDt) / 2e154, 1.0, 1e-12);
+}
+
+// A closed gripper that is to open; and the same a little inside, and beyond.
+TEST(StoppableMotionTest, LetsAJointAtItsLimitGo) {
+  for (const double start : {0.0, 1e-13, 1e-12, -1e-13, -1e-3, -10.0}) {
+    const JointLimits limits{0.0, 0.05, 0.2, 2.0, 40.0};
+    JointMotion motion{start, 0.0, 0.0};
+    VelocityRange range = StoppableVelocities(limits, motion, kDt);
+    EXPECT_DOUBLE_EQ(range.upper, 40.0 * kDt * kDt) << start;  // as far as the jerk allows
+    EXPECT_LE(range.lower, 0.0);
+    if (start < 1e-12) {
+      EXPECT_EQ(range.lower, 0.0) << start;
+    }
+    EXPECT_EQ(range.yields, MotionLimit::kNone) << start;
+    for (int k = 0; k < 6000 && motion.position < 0.04; ++k) {
+      motion = Advance(motion, StoppableVelocities(limits, motion, kDt).upper, kDt);
+    }
+    EXPECT_GE(motion.position, 0.04) << start;
+  }
+}
+
+TEST(StoppableMotionTest, StaysWhereALimitLeavesNoRoom) {
+  for (const double jerk : {40.0, kInfinity}) {
+    const VelocityRange range = StoppableVelocities({0.1, 0.1, 1, 2, jerk}, {0.1, 0, 0}, kDt);
+    EXPECT_EQ(range.lower, 0.0) << jerk;
+    EXPECT_EQ(range.upper, 0.0) << jerk;
+  }
+}
+
+/// Where a joint may stand at the start: about its limits, if it has any.
+double StartNear(const JointLimits& limits, std::mt19937& random) {
+  const auto unit = [&] { return std::uniform_real_distribution<double>(0.0, 1.0)(random); };
+  constexpr double kOff[] = {0.0, 1e-13, -1e-13, 1e-12, 1e-9, -1e-9, 1e-3, -1e-3, 0.3, -3.0, 50.0};
+  const double off = kOff[random() % std::size(kOff)];
+  const bool at_upper = random() % 2 == 0;
+  const double limit = at_upper ? limits.upper : limits.lower;
+  if (!std::isfinite(limit)) return 4.0 * unit() - 2.0;
+  return at_upper ? limit + off : limit - off;
+}
+
+/// How far beyond its limits a position is.
+double Beyond(const JointLimits& limits, double position) {
+  return std::max({position - limits.upper, limits.lower - position, 0.0});
+}
+
+/// The farthest beyond, and the fastest, on the way to a halt.
+std::pair<double, double> Unavoidable(const JointLimits& limits, JointMotion motion) {
+  double beyond = Beyond(limits, motion.position);
+  double fastest = 0.0;
+  for (int k = 0; k < 5000 && (k == 0 || motion.velocity != 0.0); ++k) {
+    double next = StopStep(limits, motion, kDt);
+    if (!std::isfinite(limits.jerk)) {
+      const double brake = std::min(limits.acceleration * kDt, std::fabs(motion.velocity));
+      next = motion.velocity - std::copysign(brake, motion.velocity);
+    }
+    motion = Advance(motion, next, kDt);
+    beyond = std::max(beyond, Beyond(limits, motion.position));
+    fastest = std::max(fastest, std::fabs(motion.velocity));
+  }
+  return {beyond, fastest};
+}
+
+TEST(StoppableMotionTest, BrokenLimitsNeverGetWorseAndAreKeptFromThenOn) {
+  std::mt19937 random(11);
+  const auto uniform = [&](double lower, double upper) {
+    return std::uniform_real_distribution<double>(lower, upper)(random);
+  };
+  for (int run = 0; run < 100'000; ++run) {
+    JointLimits limits{uniform(-2, 0), 0.0, uniform(0.1, 2), uniform(1, 20), uniform(20, 2000)};
+    limits.upper = limits.lower + (random() % 8 == 0 ? 0.0 : uniform(0, 3));
+    if (random() % 4 == 0) limits.lower = -kInfinity;
+    if (random() % 4 == 0) limits.upper = kInfinity;
+    if (random() % 3 == 0) limits.jerk = kInfinity;
+    JointMotion motion{StartNear(limits, random), 0.0, 0.0};
+    if (random() % 3 == 0) motion.velocity = uniform(-3, 3);
+    const double target = random() % 2 == 0 ? 9.0 : -9.0;
+    for (int k = 0; k < 40; ++k) {
+      const auto [beyond, fastest] = Unavoidable(limits, motion);
+      const VelocityRange range = StoppableVelocities(limits, motion, kDt);
+      ASSERT_LE(range.lower, range.upper);
+      const double wish = random() % 5 == 0 ? uniform(-3, 3) : target;
+      const double u = std::min(std::max(wish, range.lower), range.upper);
+      const JointMotion next = Advance(motion, u, kDt);
+      ASSERT_LE(Beyond(limits, next.position), beyond + 1e-13) << run << ' ' << k;
+      ASSERT_LE(std::fabs(u), std::max(limits.velocity, fastest) + 2e-9) << run << ' ' << k;
+      ASSERT_LE(std::fabs(next.acceleration), limits.acceleration * (1 + 1e-9)) << run << ' ' << k;
+      if (std::isfinite(limits.jerk)) {
+        ASSERT_LE(std::fabs(next.acceleration - motion.acceleration),
+                  limits.jerk * kDt * (1 + 1e-9) + 1e-9)
+            << run << ' ' << k;
+      }
+      motion = next;
+    }
+  }
+}
+
+// Whatever is wished for, a joint that may come back does so when it is wished.
+TEST(StoppableMotionTest, ComesBackFromAnywhere) {
+  std::mt19937 random(12);
+  for (int run = 0; run < 2000; ++run) {
+    JointLimits limits{-0.5, 1.0, 1.5, 10, random() % 2 == 0 ? 500.0 : kInfinity};
+    if (random() % 4 == 0) limits.lower = -kInfinity;
+    if (random() % 4 == 0) limits.upper = kInfinity;
+    JointMotion motion{StartNear(limits, random), 0.0, 0.0};
+    motion.velocity = std::uniform_real_distribution<double>(-3, 3)(random);
+    for (int k = 0; k < 6000 && std::fabs(motion.position - 0.2) > 0.05; ++k) {
+      const VelocityRange range = StoppableVelocities(limits, motion, kDt);
+      const double wish = 2.0 * (0.2 - motion.position);
+      motion = Advance(motion, std::min(std::max(wish, range.lower), range.upper), kDt);
+    }
+    EXPECT_NEAR(motion.position, 0.2, 0.05) << run;
+  }
+}
+
 }  // namespace
 }  // namespace oca::models

@@ -144,6 +144,58 @@ TEST_F(MotionJudgeTest, TakesAMotionToItsLimitOfPositionAndNotAbove) {
   EXPECT_FALSE(Judge(3.2).clear());
 }
 
+TEST_F(MotionJudgeTest, KeepsALimitOnOneSide) {
+  const auto with = [&](double lower, double upper) {
+    std::vector<Joint> joints = model->joints();
+    joints[2].lower_limit = lower;
+    joints[2].upper_limit = upper;
+    model = std::make_shared<const RobotModel>(model->name(), model->links(), joints);
+  };
+  const auto stands = [&](double at) {
+    request = [at](double, int derivative, Eigen::Ref<VectorXd> out) {
+      out.setZero();
+      if (derivative == 0) out[2] = at;
+    };
+    deviation = BandCurve(3, Times(1.0));
+    const VectorXd back = -at * VectorXd::Unit(3, 2);  // starts at 0
+    deviation.StartWith(back, VectorXd::Zero(3), VectorXd::Zero(3));
+    deviation.Follow([](double) -> VectorXd { return VectorXd::Zero(3); });
+    return Judge(1.0).position;
+  };
+  with(-kUnlimited, 0.5);
+  EXPECT_EQ(stands(0.49), 0.0);
+  EXPECT_EQ(stands(-2.0), 0.0);
+  EXPECT_EQ(stands(0.51), 2.0);
+  with(-0.5, kUnlimited);
+  EXPECT_EQ(stands(-0.51), 2.0);
+  EXPECT_EQ(stands(2.0), 0.0);
+  with(-1e308, 1e308);
+  EXPECT_EQ(stands(2.0), 0.0);
+  // Exactly at a limit below, or above, 0.
+  with(-kUnlimited, -0.5);
+  request = [](double, int derivative, Eigen::Ref<VectorXd> out) {
+    out.setZero();
+    if (derivative == 0) out[2] = -0.5;
+  };
+  deviation = {};
+  EXPECT_EQ(Judge().position, 0.0);
+}
+
+TEST_F(MotionJudgeTest, LetsAMotionThatStartsBeyondALimitComeBack) {
+  request = [](double time, int derivative, Eigen::Ref<VectorXd> out) {
+    out.setZero();
+    if (derivative == 0) out[2] = 3.0 - 0.2 * time;
+    if (derivative == 1) out[2] = -0.2;
+  };
+  EXPECT_TRUE(Judge().clear());
+  request = [](double time, int derivative, Eigen::Ref<VectorXd> out) {
+    out.setZero();
+    if (derivative == 0) out[2] = 3.0 + 0.01 * time;
+    if (derivative == 1) out[2] = 0.01;
+  };
+  EXPECT_FALSE(Judge().clear());
+}
+
 TEST_F(MotionJudgeTest, DoesNotTakeWhatIsNoNumberForClear) {
   request = [](double time, int derivative, Eigen::Ref<VectorXd> out) {
     out.setZero();

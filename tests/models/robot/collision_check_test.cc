@@ -68,6 +68,24 @@ TEST(CollisionCheckTest, FindsTheLeastDistanceAtTheLimits) {
   EXPECT_EQ(pairs[1].collisions, 0);
 }
 
+TEST(CollisionCheckTest, LooksAtAdjacentPairsAtEverySample) {
+  // The first slide brings the near ball from 0.8 m before the mast's to 0.3 m before it.
+  const auto pairs = CheckCollisions(Slides(-0.5, 1.0), {.samples = 2000});
+  EXPECT_EQ(pairs[0].kind, PairKind::kAdjacent);
+  EXPECT_NEAR(pairs[0].least_distance, 0.3, 1e-9);
+  EXPECT_EQ(pairs[0].collisions, 0);
+  const auto through = CheckCollisions(Slides(-1.5, 1.0), {.samples = 2000});
+  EXPECT_EQ(through[0].kind, PairKind::kAdjacent);
+  EXPECT_NEAR(through[0].least_distance, -0.2, 0.01);
+  EXPECT_GT(through[0].collisions, 10);
+}
+
+TEST(CollisionCheckTest, LooksAtThePostureZeroFirst) {
+  EXPECT_NEAR(CheckCollisions(Slides(-1.0, 1.0), {.samples = 1})[0].least_distance, 0.8, 1e-12);
+  // As near to 0 as the limits allow.
+  EXPECT_NEAR(CheckCollisions(Slides(0.25, 1.0), {.samples = 1})[0].least_distance, 1.05, 1e-12);
+}
+
 TEST(CollisionCheckTest, AMarginAboveTheLeastDistanceKeepsAPairChecked) {
   const double least = CheckCollisions(Slides(-1.5, 1.0), {.samples = 500})[1].least_distance;
   const auto kind = [&](double margin) {
@@ -138,6 +156,15 @@ TEST(CollisionCheckTest, RefusesWhatCannotBeSampled) {
               ThrowsMessage<ModelError>(HasSubstr("margin")));
   EXPECT_THAT([] { CheckCollisions(Slides(-1, kUnlimited), {}); },
               ThrowsMessage<ModelError>(HasSubstr("joint 'x': limits")));
+  EXPECT_THAT([] { CheckCollisions(Slides(-1e9, 1e9), {}); },
+              ThrowsMessage<ModelError>(HasSubstr("joint 'x': limits; got [-1e+09, 1e+09]")));
+  EXPECT_THAT([] { CheckCollisions(Slides(-1e308, 1e308), {}); },
+              ThrowsMessage<ModelError>(HasSubstr("joint 'x': limits")));
+  auto joints = Slides(-1, 1).joints();
+  joints[2].X_PJ.translation().x() = 1e308;
+  const RobotModel far(Name("far"), Slides(-1, 1).links(), joints);
+  EXPECT_THAT([&] { CheckCollisions(far, {.samples = 2}); },
+              ThrowsMessage<ModelError>(HasSubstr("links 'mast' and 'plate': distance")));
 }
 
 }  // namespace

@@ -248,6 +248,62 @@ TEST(InverseKinematicsTest, LeavesJointsThatDoNotCarryTheLink) {
   EXPECT_EQ(found.q.head<7>(), start.head<7>());
 }
 
+// Each link 1 m long; the second turns at half the rate of the first, the third at half of that.
+RobotModel Curl() {
+  std::vector<Link> links(4);
+  std::vector<Joint> joints(3);
+  for (int i = 0; i < 4; ++i) links[i].name = Name("link_" + std::to_string(i));
+  for (int j = 0; j < 3; ++j) {
+    joints[j].name = Name("joint_" + std::to_string(j));
+    joints[j].type = JointType::kRevolute;
+    joints[j].parent_link = j;
+    joints[j].child_link = j + 1;
+    joints[j].axis = Eigen::Vector3d::UnitZ();
+    if (j > 0) joints[j].X_PJ.translation().x() = 1.0;
+    if (j > 0) joints[j].mimic = Mimic{j - 1, 0.5, 0.0};
+    joints[j].lower_limit = -12.0;
+    joints[j].upper_limit = 12.0;
+  }
+  return {Name("curl"), std::move(links), std::move(joints)};
+}
+
+TEST(InverseKinematicsTest, FollowsAChainOfMimics) {
+  const RobotModel model = Curl();
+  for (const double q : {0.3, -2.0, 7.0, -11.5}) {  // a turn of the first is no turn of the others
+    const Eigen::VectorXd there = Eigen::VectorXd::Constant(1, q);
+    const auto found = SolveTip(model, TipPose(model, there), Eigen::VectorXd::Zero(1));
+    ASSERT_TRUE(found.reached) << q;
+    EXPECT_NEAR(found.q[0], q, 1e-5);
+  }
+}
+
+TEST(InverseKinematicsTest, StaysWithinWhatAMimicLeaves) {
+  auto joints = Curl().joints();
+  joints[2].upper_limit = 0.5;  // so 2 rad for the first
+  const RobotModel model(Name("curl"), Curl().links(), joints);
+  const auto goal = TipPose(Curl(), Eigen::VectorXd::Constant(1, 2.5));
+  const auto found = SolveTip(model, goal, Eigen::VectorXd::Zero(1));
+  EXPECT_FALSE(found.reached);
+  EXPECT_LE(found.q[0], 2.0);
+}
+
+TEST(InverseKinematicsTest, IsNotLedAstrayByARangeThatNobodyMeasured) {
+  for (const double wide : {1e9, 1e308}) {
+    auto joints = Curl().joints();
+    joints[0].type = JointType::kPrismatic;
+    for (auto& joint : joints) {
+      joint.lower_limit = -wide;
+      joint.upper_limit = wide;
+      joint.mimic.reset();
+    }
+    const RobotModel model(Name("crane"), Curl().links(), joints);
+    const auto goal = TipPose(model, Eigen::Vector3d(2.5, 1.0, -2.0));
+    const auto found = SolveTip(model, goal, Eigen::Vector3d(0.0, -1.0, -1.0));
+    EXPECT_TRUE(found.reached) << wide;
+    EXPECT_LT(found.q.cwiseAbs().maxCoeff(), 10.0);
+  }
+}
+
 TEST(InverseKinematicsTest, KeepsAwayFromAnObstacleIfItCan) {
   const auto model = std::make_shared<const RobotModel>(Arm("lwr4"));
   const int tip = TipLink(*model);

@@ -150,6 +150,7 @@ TEST(RobotModelTest, RefusesJointsThatCannotBeComputed) {
 TEST(RobotModelTest, RefusesMimicRulesThatLeadNowhere) {
   ExpectRefused("an unknown joint", [](auto& joints) { joints[0].mimic = Mimic{9, 1.0, 0.0}; });
   ExpectRefused("a fixed joint", [](auto& joints) { joints[0].mimic = Mimic{1, 1.0, 0.0}; });
+  ExpectRefused("one of a fixed joint", [](auto& joints) { joints[1].mimic = Mimic{0, 1, 0}; });
   ExpectRefused("a loop", [](auto& joints) { joints[0].mimic = Mimic{0, 1.0, 0.0}; });
   ExpectRefused("not finite", [](auto& joints) { joints[0].mimic = Mimic{2, std::nan(""), 0.0}; });
 }

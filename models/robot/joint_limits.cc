@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "models/robot/joint_limits.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "models/error.h"
+
+namespace oca::models {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+// Of the larger end of a range: what digits in a file take from ranges that are meant to touch.
+constexpr double kRounding = 1e-9;
+
+double Given(double limit) { return limit == 0.0 ? kUnlimited : limit; }
+
+PositionLimits OwnLimits(const Joint& joint) {
+  return {joint.lower_limit,         joint.upper_limit,        Given(joint.velocity_limit),
+          Given(joint.effort_limit), joint.acceleration_limit, joint.jerk_limit};
+}
+
+/// What a mimic leaves its leader.
+PositionLimits ThroughMimic(const Joint& joint, const KinematicStep& step) {
+  PositionLimits limits = OwnLimits(joint);
+  limits.effort = kUnlimited;
+  const double m = step.multiplier;
+  if (m == 0.0) return {};  // it stands still: see Bind
+  limits.lower = (limits.lower - step.offset) / m;
+  limits.upper = (limits.upper - step.offset) / m;
+  if (m < 0.0) std::swap(limits.lower, limits.upper);
+  limits.velocity /= std::fabs(m);
+  limits.acceleration /= std::fabs(m);
+  limits.jerk /= std::fabs(m);
+  return limits;
+}
+
+void Intersect(const PositionLimits& other, PositionLimits& limits) {
+  limits.lower = std::max(limits.lower, other.lower);
+  limits.upper = std::min(limits.upper, other.upper);
+  limits.velocity = std::min(limits.velocity, other.velocity);
+  limits.acceleration = std::min(limits.acceleration, other.acceleration);
+  limits.jerk = std::min(limits.jerk, other.jerk);
+}
+
+std::string Range(double lower, double upper) {
+  return fmt::format("[{:.9g}, {:.9g}]", lower, upper);
+}
+
+const char* UnitOf(const Joint& joint) { return joint.type == JointType::kPrismatic ? "m" : "rad"; }
+
+bool Below(double a, double b) {
+  return a < b - kRounding * std::max(std::fabs(a), std::isfinite(b) ? std::fabs(b) : 0.0);
+}
+
+/// Takes what a mimic leaves of `limits`. Two ends that rounding has made cross are one.
+void Bind(Name robot, const Joint& mimic, const KinematicStep& step, const Joint& leader,
+          PositionLimits& limits) {
+  const PositionLimits before = limits;
+  const double m = step.multiplier;
+  Intersect(ThroughMimic(mimic, step), limits);
+  const bool stands_outside =
+      m == 0.0 && (Below(step.offset, mimic.lower_limit) || Below(mimic.upper_limit, step.offset));
+  if (stands_outside || Below(limits.upper, limits.lower)) {
+    throw ModelError(fmt::format(
+        "robot '{}' joint '{}': mimic; got {} times the position of '{}' plus {}, which is outside "
+        "its own limits {} {} wherever '{}' may stand, {} {}; expected limits that both can keep",
+        robot.text(), mimic.name.text(), m, leader.name.text(), step.offset,
+        Range(mimic.lower_limit, mimic.upper_limit), UnitOf(mimic), leader.name.text(),
+        Range(before.lower, before.upper), UnitOf(leader)));
+  }
+  if (limits.upper < limits.lower) {
+    limits.lower = limits.upper = 0.5 * limits.lower + 0.5 * limits.upper;
+  }
+}
+
+const Joint& LeaderOf(const std::vector<Joint>& joints, Eigen::Index column) {
+  return *std::find_if(joints.begin(), joints.end(),
+                       [&](const Joint& joint) { return joint.position_index == column; });
+}
+
+bool IsMimic(const Joint& joint) { return joint.movable() && joint.mimic.has_value(); }
+
+std::string Quoted(const std::vector<std::string>& names) {
+  return fmt::format("joint{} '{}'", names.size() > 1 ? "s" : "", fmt::join(names, "', '"));
+}
+
+/// One line for all joints of which `holds` is true.
+template <typename Predicate>
+void WarnOfAll(const RobotModel& model, const char* what, Predicate&& holds,
+               std::vector<std::string>& lines) {
+  std::vector<std::string> names;
+  for (const Joint& joint : model.joints()) {
+    if (joint.movable() && holds(joint)) names.push_back(joint.name.text());
+  }
+  if (!names.empty()) lines.push_back(Quoted(names) + ": " + what);
+}
+
+void WarnOfMimics(const RobotModel& model, std::vector<std::string>& lines) {
+  for (const Joint& leader : model.joints()) {
+    const int column = leader.position_index;
+    if (column < 0) continue;
+    const PositionLimits own = OwnLimits(leader);
+    const double lower = model.lower_limits()[column];
+    const double upper = model.upper_limits()[column];
+    const double velocity = model.velocity_limits()[column];
+    const double acceleration = model.acceleration_limits()[column];
+    const double jerk = model.jerk_limits()[column];
+    std::vector<std::string> bounds;
+    const char* unit = UnitOf(leader);
+    if (Below(own.lower, lower) || Below(upper, own.upper)) {
+      bounds.push_back(fmt::format("{} {}", Range(lower, upper), unit));
+    }
+    if (Below(velocity, own.velocity)) bounds.push_back(fmt::format("{:.9g} {}/s", velocity, unit));
+    if (Below(acceleration, own.acceleration)) {
+      bounds.push_back(fmt::format("{:.9g} {}/s^2", acceleration, unit));
+    }
+    if (Below(jerk, own.jerk)) bounds.push_back(fmt::format("{:.9g} {}/s^3", jerk, unit));
+    if (bounds.empty()) continue;
+    std::vector<std::string> mimics;
+    for (int j = 0; j < model.num_joints(); ++j) {
+      const Joint& joint = model.joints()[j];
+      if (IsMimic(joint) && model.steps()[j].column == column) mimics.push_back(joint.name.text());
+    }
+    lines.push_back(fmt::format("joint '{}': the limits of what mimics it, {}, bind it to {}",
+                                leader.name.text(), Quoted(mimics), fmt::join(bounds, ", ")));
+  }
+}
+
+void WarnOfRanges(const RobotModel& model, std::vector<std::string>& lines) {
+  for (const Joint& joint : model.joints()) {
+    const int i = joint.position_index;
+    if (i < 0 || HasOwnRange(model, i)) continue;
+    const double lower = model.lower_limits()[i];
+    const double upper = model.upper_limits()[i];
+    if (!std::isfinite(lower) || !std::isfinite(upper)) continue;
+    lines.push_back(fmt::format("joint '{}': range {} {}, wider than {}; it is kept, but {}",
+                                joint.name.text(), Range(lower, upper), UnitOf(joint),
+                                joint.type == JointType::kPrismatic ? "100 m" : "100 turns",
+                                DrawnRange(model, i)
+                                    ? "where postures are drawn they are drawn from one turn"
+                                    : "nothing that draws postures covers it"));
+  }
+}
+
+}  // namespace
+
+std::vector<PositionLimits> LimitsOfPositions(Name robot, const std::vector<Joint>& joints,
+                                              const std::vector<KinematicStep>& steps) {
+  std::vector<PositionLimits> all;
+  for (const Joint& joint : joints) {  // in the order of their positions
+    if (joint.position_index >= 0) all.push_back(OwnLimits(joint));
+  }
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (!IsMimic(joints[j])) continue;
+    const int column = steps[j].column;
+    Bind(robot, joints[j], steps[j], LeaderOf(joints, column),
+         all[static_cast<std::size_t>(column)]);
+  }
+  return all;
+}
+
+std::vector<std::string> LimitWarnings(const RobotModel& model) {
+  std::vector<std::string> lines;
+  WarnOfAll(
+      model,
+      "velocity limit 0, as exporters write for 'not filled in'; counts as not given: nothing "
+      "bounds the speed",
+      [](const Joint& joint) { return joint.velocity_limit == 0.0; }, lines);
+  WarnOfAll(
+      model, "no velocity limit; nothing bounds the speed",
+      [&](const Joint& joint) {
+        return joint.position_index >= 0 && joint.velocity_limit != 0.0 &&
+               std::isinf(model.velocity_limits()[joint.position_index]);
+      },
+      lines);
+  WarnOfAll(
+      model, "effort limit 0; counts as not given, and no method of avoidance reads it",
+      [](const Joint& joint) { return joint.effort_limit == 0.0; }, lines);
+  WarnOfRanges(model, lines);
+  WarnOfMimics(model, lines);
+  return lines;
+}
+
+bool HasOwnRange(const RobotModel& model, Eigen::Index index) {
+  const bool slides = LeaderOf(model.joints(), index).type == JointType::kPrismatic;
+  // Negated, so that widths that overflow or are none count as too wide.
+  const double width = model.upper_limits()[index] - model.lower_limits()[index];
+  return width <= (slides ? kWidestSlide : kWidestTurn);
+}
+
+std::optional<std::pair<double, double>> DrawnRange(const RobotModel& model, Eigen::Index index) {
+  const double lower = model.lower_limits()[index];
+  const double upper = model.upper_limits()[index];
+  if (HasOwnRange(model, index)) return std::pair(lower, upper);
+  for (const KinematicStep& step : model.steps()) {
+    if (step.column != index) continue;
+    const bool repeats =
+        step.type != JointType::kPrismatic && std::round(step.multiplier) == step.multiplier;
+    if (!repeats) return std::nullopt;
+  }
+  // A whole turn, moved into the limits.
+  const double first = std::clamp(-kPi, lower, std::max(upper - 2.0 * kPi, lower));
+  return std::pair(first, first + 2.0 * kPi);
+}
+
+std::string ImpossibleState(const RobotModel& model, const Eigen::Ref<const Eigen::VectorXd>& q) {
+  for (int j = 0; j < model.num_joints(); ++j) {
+    const KinematicStep& step = model.steps()[j];
+    if (step.column < 0) continue;
+    const Joint& joint = model.joints()[j];
+    const bool slides = joint.type == JointType::kPrismatic;
+    const double at = step.multiplier * q[step.column] + step.offset;
+    const double beyond = slides ? kFarthestSlideBeyond : kFarthestTurnBeyond;
+    std::string expected;
+    if (at < joint.lower_limit - beyond || at > joint.upper_limit + beyond) {
+      expected = fmt::format("at most {} beyond its limits {}", slides ? "10 m" : "2 pi rad",
+                             Range(joint.lower_limit, joint.upper_limit));
+    } else if (!(std::fabs(at) <= kFarthestPosition)) {
+      expected = fmt::format("a number of at most {:g}", kFarthestPosition);
+    } else {
+      continue;
+    }
+    return fmt::format("position of joint '{}'; got {} {}; expected {}", joint.name.text(), at,
+                       UnitOf(joint), expected);
+  }
+  return "";
+}
+
+}  // namespace oca::models
