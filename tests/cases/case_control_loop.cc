@@ -4,7 +4,8 @@
 //     case_control_loop obstacle KIND           one obstacle, by the method of the report
 //     case_control_loop joint METHOD RADIANS    one joint read wrong for four ticks
 //
-// Prints what Set and the tick say; a joint's run ends with the longest tick.
+// by diagrams/static_test.yaml of the tree that OCA_SOURCE names. Prints what Set and the tick say;
+// a joint's run ends with the longest tick.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -24,7 +25,10 @@ using oca::Vector;
 using oca::systems::Obstacle;
 using oca::systems::ObstacleSet;
 
-const char* const kFile = "$OCA_SOURCE/diagrams/static_test.yaml";
+std::string File() {
+  const char* const source = std::getenv("OCA_SOURCE");
+  return std::string(source == nullptr ? "." : source) + "/diagrams/static_test.yaml";
+}
 
 Obstacle Box(double x, const char* id) {
   oca::systems::ShapeParams shape;
@@ -58,7 +62,7 @@ int RunObstacle(const std::string& kind) {
   const std::vector<std::string> part{"kinematics", "distance",   "field",  "wrenches",
                                       "mapping",    "relaxation", "limiter"};
   const auto avoidance = oca::diagrams::LoadPart(
-      kFile, part, {{"parameters.max_distance", "2"}, {"parameters.sensing_distance", "2"}});
+      File(), part, {{"parameters.max_distance", "2"}, {"parameters.sensing_distance", "2"}});
   const auto q = avoidance.diagram->GetInput<Vector>("plant_position");
   const auto obstacles = avoidance.diagram->GetInput<ObstacleSet>("obstacles_obstacles");
   const auto near =
@@ -80,12 +84,12 @@ int RunObstacle(const std::string& kind) {
 int RunJoint(const std::string& method, double radians) {
   const std::vector<oca::diagrams::Override> overrides{{"parameters.avoidance", method}};
   std::vector<std::string> part;
-  for (const auto& block : oca::diagrams::LoadDiagram(kFile, overrides).systems) {
+  for (const auto& block : oca::diagrams::LoadDiagram(File(), overrides).systems) {
     const bool outside = block.type == "IntegratorPlant" || block.type == "ObstacleSource" ||
                          block.type == "MotionMetrics" || block.type == "TipError";
     if (!outside) part.push_back(block.name);
   }
-  const auto loaded = oca::diagrams::LoadPart(kFile, part, overrides);
+  const auto loaded = oca::diagrams::LoadPart(File(), part, overrides);
   const auto q = loaded.diagram->GetInput<Vector>("plant_position");
   const auto obstacles = loaded.diagram->GetInput<ObstacleSet>("obstacles_obstacles");
   ControlLoop loop(*loaded.diagram, oca::Period(1, 100));
