@@ -96,8 +96,7 @@ TEST_F(EvalTest, ALineThatIsRefusedIsNoTick) {
            "{\"delta\":[9]}\n{\"time\":0.05,\"delta\":[9]}\n{\"delta\":[1,2]}\n"
            "{\"time\":0.55,\"delta\":[9]}\n{\"delta\":[9]}\n{\"time\":1e15,\"delta\":[9]}\n");
   ASSERT_EQ(answers.size(), 6u);
-  EXPECT_THAT(answers[5]["error"].get<std::string>(),
-              HasSubstr("time: got 1e+15; expected at most"));
+  EXPECT_THAT(answers[5]["error"].get<std::string>(), HasSubstr("1e7 periods on"));
   EXPECT_NEAR(answers[0]["limited_delta"][0].get<double>(), 0.1, 1e-15);
   EXPECT_TRUE(answers[1].contains("error"));  // the first line ended at 0.1 s
   EXPECT_TRUE(answers[2].contains("error"));
