@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 
 #include "framework/error.h"
+#include "models/robot/joint_limits.h"
 #include "models/robot/robot_model.h"
 
 namespace oca::systems {
@@ -36,9 +36,7 @@ PortSpec DeltaSpec(const models::RobotModel& model) {
 }
 
 PortSpec PositionSpec(const models::RobotModel& model) {
-  constexpr double kFarthest = 1e6;
-  constexpr double kBeyondAngle = 2.0 * std::numbers::pi;
-  constexpr double kBeyondLength = 10.0;  // m
+  constexpr double kFarthest = models::kFarthestPosition;
   Plausible plausible{model.lower_limits(),
                       model.upper_limits(),
                       {},
@@ -47,7 +45,7 @@ PortSpec PositionSpec(const models::RobotModel& model) {
     if (joint.position_index < 0) continue;
     const int i = joint.position_index;
     const bool slides = joint.type == models::JointType::kPrismatic;
-    const double beyond = slides ? kBeyondLength : kBeyondAngle;
+    const double beyond = slides ? models::kFarthestSlideBeyond : models::kFarthestTurnBeyond;
     plausible.lower[i] = std::max(plausible.lower[i] - beyond, -kFarthest);
     plausible.upper[i] = std::min(plausible.upper[i] + beyond, kFarthest);
     plausible.names.push_back("joint '" + joint.name.text() + "'");

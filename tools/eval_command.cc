@@ -18,6 +18,7 @@
 #include "framework/simulator.h"
 #include "models/robot/urdf.h"
 #include "tools/commands.h"
+#include "tools/terminal.h"
 
 namespace oca::tools {
 namespace {
@@ -35,7 +36,7 @@ systems::ModelSet LoadModels(const std::vector<std::string>& arguments) {
     options.package_directories = diagrams::PackageFolders();
     const std::string name = argument.substr(0, equals);
     options.warn = [&name](const std::string& line) {
-      fmt::print(stderr, "warning: --model {}: {}\n", name, line);
+      Tell("warning: --model {}: {}\n", name, line);
     };
     models.Add(name, std::make_shared<const models::RobotModel>(models::LoadUrdf(
                          diagrams::ResolvePath(argument.substr(equals + 1), {}, {}), options)));
