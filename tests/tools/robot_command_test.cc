@@ -93,7 +93,7 @@ TEST_F(RobotCommandTest, RefusesWhatItCannotDo) {
   const Ran over = run("cp models/robots/planar2/planar2.urdf " + Out() +
                        " && $S robot check-collisions " + Out() + " --write-srdf " + Out());
   EXPECT_EQ(over.status, 2);
-  EXPECT_THAT(over.err, HasSubstr("got a URDF"));
+  EXPECT_THAT(over.err, HasSubstr("is what the robot is read from"));
   EXPECT_EQ(run("$S robot").status, 64);
   const Ran unknown = run("$S robot check-colisions x");
   EXPECT_EQ(unknown.status, 64);
