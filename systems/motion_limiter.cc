@@ -66,7 +66,8 @@ MotionLimiter::MotionLimiter(const Params& params, const ModelSet& models)
       v_(DeclareDiscreteState("v", RateSpec(*model_), 0.0)),
       a_(DeclareDiscreteState("a", {model_->num_positions(), RateSpec(*model_).unit.Rate()}, 0.0)),
       started_(DeclareDiscreteState("started", {1, Unit::Any()}, 0.0)),
-      position_in(DeclareInput<Vector>("position", PositionSpec(*model_))),
+      // Whatever is requested is answered, so it may be anywhere.
+      position_in(DeclareInput<Vector>("position", DeltaSpec(*model_))),
       measured_position(DeclareOptionalInput<Vector>("measured_position", PositionSpec(*model_))),
       position(DeclareOutput<Vector, &MotionLimiter::CalcPosition>(
           "position", PositionSpec(*model_), position_in, c_, r_, v_, a_, started_)),

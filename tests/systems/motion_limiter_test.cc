@@ -143,6 +143,22 @@ TEST_F(MotionLimiterTest, CatchesUpWithoutShootingPast) {
   }
 }
 
+TEST_F(MotionLimiterTest, AnswersARequestFromAnywhere) {
+  for (const double jerk : {models::kUnlimited, 200.0}) {
+    Bench bench(Hundred(), Arm(10, jerk));
+    bench->position_in.Fix(bench.context(), One(0.0));
+    double position = 0.0;
+    for (int k = 0; k < 800; ++k) {
+      position = Within(bench, k, One(k / 200 % 2 == 0 ? 1e308 : -1e308))[0];
+      ASSERT_LE(std::fabs(position), 170 * M_PI / 180) << k;
+    }
+    EXPECT_LT(position, 0.0) << jerk;
+    for (const MotionClip& clip : bench->clips.Eval(bench.context()).clips) {
+      EXPECT_TRUE(std::isfinite(clip.amount));
+    }
+  }
+}
+
 TEST_F(MotionLimiterTest, PassesAnythingWhenDisabled) {
   auto params = Hundred();
   params.enabled = false;
