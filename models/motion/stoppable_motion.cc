@@ -15,7 +15,8 @@ constexpr double kRoom = 1e-12;
 // A contradiction of two bounds below this is rounding.
 constexpr double kRounding = 1e-9;
 constexpr int kBisections = 20;
-constexpr int kMostSteps = 100000;
+// Of a way to a halt, 20 s at 1 kHz: what one tick may cost for a jerk limit that is next to none.
+constexpr int kMostSteps = 20000;
 
 // Above this ratio of the distance to that of one step of braking, steps do not count any more.
 constexpr double kManySteps = 1e30;
