@@ -61,6 +61,7 @@ class Spots {
     const bool only = params_.model.empty() || loaded_.models.all().size() == 1;
     const std::string of = only ? "" : fmt::format(" of '{}'", params_.model);
     AddUnseen(*model, of);
+    AddUnmovable(*model, of);
     if (!params_.self_collision && HasOwnPairs(*model)) {
       found_.push_back(fmt::format("own links{} (self_collision is off)", of));
     }
@@ -103,12 +104,24 @@ class Spots {
         fmt::format("links{} without a collision shape: {}", of, fmt::join(names, ", ")));
   }
 
+  /// Nothing that these come near to could be evaded, so distances leave them out.
+  void AddUnmovable(const models::RobotModel& model, const std::string& of) {
+    std::vector<std::string> names;
+    for (int i = 0; i < model.num_links(); ++i) {
+      const models::Link& link = model.links()[i];
+      if (model.body(i) < 0 && !link.collisions.empty()) names.push_back(link.name.text());
+    }
+    if (names.empty()) return;
+    found_.push_back(
+        fmt::format("obstacles at links{} that cannot move: {}", of, fmt::join(names, ", ")));
+  }
+
   void AddModels(const std::shared_ptr<const models::RobotModel>& own) {
     for (const auto& [name, model] : loaded_.models.all()) {
       if (model == own) continue;
       if (LooksAt(name)) {
         AddUnseen(*model, fmt::format(" of '{}'", name));
-      } else if (HasSolids(*model)) {
+      } else if (HasSolids(*model) || !models::DrawnOnly(*model).empty()) {
         found_.push_back(fmt::format("model '{}' ({})", name,
                                      params_.calculate_link_forces
                                          ? "not among others of " + block_.name

@@ -50,17 +50,17 @@ bool Holds(const ExpectParams& bound, double value) {
          (!bound.equal || std::fabs(value - *bound.equal) <= bound.within);
 }
 
-/// Whether the file means a contact by this bound: it lets the distance be negative, or time pass
-/// in contact.
+/// Whether the file speaks of a contact by this bound: it asks for one, or says how deep or how
+/// long it may be.
 bool AllowsContact(const Expectation& expectation) {
   const ExpectParams& bound = expectation.bound;
   if (expectation.member == "min_distance") {
-    return !(bound.at_least && *bound.at_least >= 0.0) &&
-           !(bound.equal && *bound.equal - bound.within >= 0.0);
+    return (bound.at_least && *bound.at_least < 0.0) || (bound.at_most && *bound.at_most <= 0.0) ||
+           (bound.equal && *bound.equal - bound.within < 0.0);
   }
   if (expectation.member == "contact_time") {
-    return !(bound.at_most && *bound.at_most <= 0.0) &&
-           !(bound.equal && *bound.equal + bound.within <= 0.0);
+    return (bound.at_most && *bound.at_most > 0.0) || (bound.at_least && *bound.at_least > 0.0) ||
+           (bound.equal && *bound.equal + bound.within > 0.0);
   }
   return expectation.member == "first_contact_time";  // a number only if there was one
 }

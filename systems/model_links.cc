@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "framework/error.h"
 #include "models/robot/joint_limits.h"
@@ -36,19 +37,12 @@ PortSpec DeltaSpec(const models::RobotModel& model) {
 }
 
 PortSpec PositionSpec(const models::RobotModel& model) {
-  constexpr double kFarthest = models::kFarthestPosition;
-  Plausible plausible{model.lower_limits(),
-                      model.upper_limits(),
-                      {},
-                      "2 pi rad or 10 m beyond the limits, within 1e6"};
-  for (const models::Joint& joint : model.joints()) {
-    if (joint.position_index < 0) continue;
-    const int i = joint.position_index;
-    const bool slides = joint.type == models::JointType::kPrismatic;
-    const double beyond = slides ? models::kFarthestSlideBeyond : models::kFarthestTurnBeyond;
-    plausible.lower[i] = std::max(plausible.lower[i] - beyond, -kFarthest);
-    plausible.upper[i] = std::min(plausible.upper[i] + beyond, kFarthest);
-    plausible.names.push_back("joint '" + joint.name.text() + "'");
+  const Eigen::Index n = model.num_positions();
+  Plausible plausible{Eigen::VectorXd(n), Eigen::VectorXd(n), {}, models::kPossibleRule};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    std::tie(plausible.lower[i], plausible.upper[i]) = models::PossibleRange(model, i);
+    plausible.names.push_back("joint '" +
+                              model.position_names()[static_cast<std::size_t>(i)].text() + "'");
   }
   PortSpec spec = DeltaSpec(model);
   spec.plausible = std::make_shared<const Plausible>(std::move(plausible));

@@ -23,7 +23,8 @@ std::shared_ptr<const models::RobotModel> MovableModel(const ModelSet& models,
 /// that doubles no longer tell to 1e-10). A reading out there is no posture of the robot.
 PortSpec PositionSpec(const models::RobotModel& model);
 
-/// The same of differences of positions, which can be anything.
+/// The same of what can be anything: differences of positions, and requests, which may ask for what
+/// the joints cannot do.
 PortSpec DeltaSpec(const models::RobotModel& model);
 
 /// Length and unit of their rates.

@@ -122,7 +122,7 @@ SafetyFilter::SafetyFilter(const Params& params, const ModelSet& models)
       activity_(DeclareDiscreteState("activity", FilterActivity{})),
       proximities(DeclareInput<ProximitySet>("proximities")),
       links(DeclareInput<LinkPoses>("links")),
-      position(DeclareInput<Vector>("position", PositionSpec(*model_))),
+      position(DeclareInput<Vector>("position", DeltaSpec(*model_))),
       velocity(DeclareOptionalInput<Vector>("velocity", RateSpec(*model_))),
       acceleration(DeclareOptionalInput<Vector>(
           "acceleration", {model_->num_positions(), RateSpec(*model_).unit.Rate()})),

@@ -54,7 +54,9 @@ struct FilterSolution {
 ///     a_i^T u >= n_i^T v_i - approach(h_i) - s_i,  s_i >= 0,   one row a proximity
 ///     u_j in the velocities from which joint j can stop within all its limits
 ///
-///     r = velocity + acceleration period / 2 + position_gain (position - c), braked for arrival
+///     r = velocity + acceleration period / 2 + position_gain (position - c), braked for arrival,
+///         within ten times the joint's velocity limit: slack has a price, so a wish must be
+///         bounded
 ///     w_j = weights_j (1 + progress_weight l_j / (max_k l_k + 0.05))
 ///     a_i = n_i^T (J at point_on_link), less that of the other link within one arm
 ///     h_i = distance_i - safe_distance,   v_i the obstacle's velocity at its point

@@ -19,6 +19,9 @@ namespace {
 constexpr double kNoWay = 0.05;
 // Bounds a velocity that nothing else does, so that the problem is finite (rad/s, m/s).
 constexpr double kFastest = 1e3;
+// Of a joint's velocity limit, at most kFastest: a wish beyond it is cut, for one without bound
+// would pay any price for slack.
+constexpr double kFastestWish = 10.0;
 
 }  // namespace
 
@@ -74,6 +77,8 @@ void SafetyFilter::FillWish(VectorView request, OptionalVector rate, OptionalVec
                                      rate_rate ? (*rate_rate)[j] : 0.0};
     work.qp.wish[j] = models::FollowingVelocity(joint, work.command[j], params_.position_gain,
                                                 model_->acceleration_limits()[j], dt);
+    const double fastest = std::min(kFastestWish * model_->velocity_limits()[j], kFastest);
+    work.qp.wish[j] = std::clamp(work.qp.wish[j], -fastest, fastest);
   }
   const double most = l.maxCoeff() + kNoWay;
   for (Eigen::Index j = 0; j < request.size(); ++j) {

@@ -50,7 +50,7 @@ ServoScaling::ServoScaling(const Params& params, const ModelSet& models)
       proximities(DeclareInput<ProximitySet>("proximities")),
       links(DeclareInput<LinkPoses>("links")),
       ahead(DeclareInput<RequestAhead>("ahead")),
-      position(DeclareInput<Vector>("position", PositionSpec(*model_))),
+      position(DeclareInput<Vector>("position", DeltaSpec(*model_))),
       solution(DeclareOutput<AvoidanceVelocity, &ServoScaling::CalcSolution>(
           "solution", {}, proximities, links, ahead, s_)),
       scale(DeclareOutput<Vector, &ServoScaling::CalcScale>("scale", {1, Unit::Any()}, solution)),

@@ -42,8 +42,9 @@ Fault CheckMotion(const char* what, std::string_view name, const Eigen::Isometry
                    name);
   }
   if (!Near(linear) || !Near(angular)) {
-    return FaultOf("{} '{}': velocity; got {:.3g} m/s and {:.3g} rad/s; expected at most 1e6", what,
-                   name, linear.norm(), angular.norm());
+    return FaultOf(
+        "{} '{}': velocity; got {:.3g} m/s and {:.3g} rad/s along an axis; expected at most 1e6",
+        what, name, linear.lpNorm<Eigen::Infinity>(), angular.lpNorm<Eigen::Infinity>());
   }
   return {};
 }

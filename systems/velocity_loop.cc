@@ -41,7 +41,7 @@ VelocityLoop::VelocityLoop(const Params& params, const ModelSet& models)
       model_(MovableModel(models, params.model)),
       c_(DeclareDiscreteState("c", PositionSpec(*model_), 0.0)),
       u_(DeclareDiscreteState("u", RateSpec(*model_), 0.0)),
-      position(DeclareInput<Vector>("position", PositionSpec(*model_))),
+      position(DeclareInput<Vector>("position", DeltaSpec(*model_))),
       velocity(DeclareOptionalInput<Vector>("velocity", RateSpec(*model_))),
       acceleration(DeclareOptionalInput<Vector>(
           "acceleration", {model_->num_positions(), RateSpec(*model_).unit.Rate()})),

@@ -57,7 +57,7 @@ VortexField::VortexField(const Params& params, const ModelSet& models)
       held_(DeclareDiscreteState("held", {3 * model_->num_links(), Unit::Any()}, 0.0)),
       proximities(DeclareInput<ProximitySet>("proximities")),
       links(DeclareInput<LinkPoses>("links")),
-      position(DeclareInput<Vector>("position", PositionSpec(*model_))),
+      position(DeclareInput<Vector>("position", DeltaSpec(*model_))),
       velocity(DeclareOptionalInput<Vector>("velocity", RateSpec(*model_))),
       measured_position(DeclareInput<Vector>("measured_position", PositionSpec(*model_))),
       axes(DeclareOutput<VortexAxes, &VortexField::CalcAxes>(

@@ -116,7 +116,7 @@ class Evaluator {
 
   /// A time that misses a tick by the rounding of who added up periods is that tick.
   Clock ClockAt(double time) const {
-    constexpr double kRounding = 1e-9;  // of a period
+    constexpr double kRounding = 1e-6;  // of a period: what many sums of it may have lost
     constexpr double kExact = 9e15;     // that a double counts to
     if (!Ticks()) return {time, 0};
     const double ticks = time / period_.seconds();

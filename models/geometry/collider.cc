@@ -30,6 +30,9 @@ double CheckedSize(double value, std::string_view where, std::string_view what) 
   return value;
 }
 
+// Beyond it doubles no longer tell 1e-10 m apart.
+constexpr double kFarthest = 1e6;  // m
+
 // Relative thickness below which the volume of a body drowns in rounding.
 constexpr double kFlattest = 1e-9;
 
@@ -103,6 +106,12 @@ Collider::Collider(const Shape& shape, std::string_view where) : shape_(shape) {
                      },
                      [&](const auto& s) { Prepare(s, where); }},
              shape_);
+  const double reach = centre_.norm() + bounding_radius_;
+  if (core_ != Core::kHalfSpace && !(reach <= kFarthest)) {
+    throw ModelError(
+        fmt::format("{}: size; got points up to {:g} m from the origin; expected at most {:g} m",
+                    where, reach, kFarthest));
+  }
 }
 
 void Collider::Prepare(const ConvexMesh& mesh, std::string_view where) {

@@ -13,7 +13,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Of the numbers that make up one residual, at least of 1: far above rounding, far below anything
 // that a joint can do.
 constexpr double kTolerance = 1e-12;
-// Of the largest speed in the problem, at least of 1: what a proof of optimality may leave open.
+// Relative, what a proof of optimality may leave open.
 constexpr double kProof = 1e-9;
 // Squared sine of the angle below which a normal counts as a combination of the active ones.
 constexpr double kDependent = 1e-18;
@@ -267,7 +267,7 @@ void ProjectionSolver::Solve(const ProjectionQp& qp, QpSolution& solution) {
       solution.u[j] = std::isfinite(nearest) ? nearest : 0.0;
     }
     solution.active.clear();
-    solution.kkt_residual = solution.gap = kInfinity;
+    solution.kkt_residual = solution.relative_residual = solution.gap = kInfinity;
     return;
   }
   guess_.clear();
@@ -296,9 +296,7 @@ void ProjectionSolver::Solve(const ProjectionQp& qp, QpSolution& solution) {
   Refine();
   Report(qp, solution);
   Certify(qp, solution);
-  const double size =
-      std::max({1.0, qp.wish.cwiseAbs().maxCoeff(), solution.u.cwiseAbs().maxCoeff()});
-  if (solution.status == QpStatus::kOptimal && !(solution.kkt_residual <= kProof * size)) {
+  if (solution.status == QpStatus::kOptimal && !(solution.relative_residual <= kProof)) {
     solution.status = QpStatus::kNotProven;
   }
 }

@@ -166,16 +166,24 @@ std::vector<PositionLimits> LimitsOfPositions(Name robot, const std::vector<Join
 
 std::vector<std::string> LimitWarnings(const RobotModel& model) {
   std::vector<std::string> lines;
+  const auto bounded = [&](const Joint& joint) {
+    const int column =
+        model.steps()[static_cast<std::size_t>(&joint - model.joints().data())].column;
+    return column >= 0 && std::isfinite(model.velocity_limits()[column]);
+  };
+  const auto zero = [](const Joint& joint) { return joint.velocity_limit == 0.0; };
   WarnOfAll(
       model,
       "velocity limit 0, as exporters write for 'not filled in'; counts as not given: nothing "
       "bounds the speed",
-      [](const Joint& joint) { return joint.velocity_limit == 0.0; }, lines);
+      [&](const Joint& joint) { return zero(joint) && !bounded(joint); }, lines);
+  WarnOfAll(
+      model, "velocity limit 0, as exporters write for 'not filled in'; counts as not given",
+      [&](const Joint& joint) { return zero(joint) && bounded(joint); }, lines);
   WarnOfAll(
       model, "no velocity limit; nothing bounds the speed",
       [&](const Joint& joint) {
-        return joint.position_index >= 0 && joint.velocity_limit != 0.0 &&
-               std::isinf(model.velocity_limits()[joint.position_index]);
+        return joint.position_index >= 0 && !zero(joint) && !bounded(joint);
       },
       lines);
   WarnOfAll(
@@ -187,16 +195,21 @@ std::vector<std::string> LimitWarnings(const RobotModel& model) {
 }
 
 bool HasOwnRange(const RobotModel& model, Eigen::Index index) {
-  const bool slides = LeaderOf(model.joints(), index).type == JointType::kPrismatic;
-  // Negated, so that widths that overflow or are none count as too wide.
   const double width = model.upper_limits()[index] - model.lower_limits()[index];
-  return width <= (slides ? kWidestSlide : kWidestTurn);
+  const auto& steps = model.steps();
+  return std::all_of(steps.begin(), steps.end(), [&](const KinematicStep& step) {
+    if (step.column != index) return true;
+    // Widths that overflow or are none count as too wide.
+    return std::fabs(step.multiplier) * width <=
+           (step.type == JointType::kPrismatic ? kWidestSlide : kWidestTurn);
+  });
 }
 
 std::optional<std::pair<double, double>> DrawnRange(const RobotModel& model, Eigen::Index index) {
   const double lower = model.lower_limits()[index];
   const double upper = model.upper_limits()[index];
   if (HasOwnRange(model, index)) return std::pair(lower, upper);
+  if (upper - lower < 2.0 * kPi) return std::nullopt;  // a mimic goes too far
   for (const KinematicStep& step : model.steps()) {
     if (step.column != index) continue;
     const bool repeats =
@@ -208,25 +221,31 @@ std::optional<std::pair<double, double>> DrawnRange(const RobotModel& model, Eig
   return std::pair(first, first + 2.0 * kPi);
 }
 
-std::string ImpossibleState(const RobotModel& model, const Eigen::Ref<const Eigen::VectorXd>& q) {
+std::pair<double, double> PossibleRange(const RobotModel& model, Eigen::Index index) {
+  std::pair<double, double> range{-kFarthestPosition, kFarthestPosition};
   for (int j = 0; j < model.num_joints(); ++j) {
     const KinematicStep& step = model.steps()[j];
-    if (step.column < 0) continue;
+    if (step.column != index || step.multiplier == 0.0) continue;
     const Joint& joint = model.joints()[j];
-    const bool slides = joint.type == JointType::kPrismatic;
-    const double at = step.multiplier * q[step.column] + step.offset;
-    const double beyond = slides ? kFarthestSlideBeyond : kFarthestTurnBeyond;
-    std::string expected;
-    if (at < joint.lower_limit - beyond || at > joint.upper_limit + beyond) {
-      expected = fmt::format("at most {} beyond its limits {}", slides ? "10 m" : "2 pi rad",
-                             Range(joint.lower_limit, joint.upper_limit));
-    } else if (!(std::fabs(at) <= kFarthestPosition)) {
-      expected = fmt::format("a number of at most {:g}", kFarthestPosition);
-    } else {
-      continue;
-    }
-    return fmt::format("position of joint '{}'; got {} {}; expected {}", joint.name.text(), at,
-                       UnitOf(joint), expected);
+    const double beyond =
+        step.type == JointType::kPrismatic ? kFarthestSlideBeyond : kFarthestTurnBeyond;
+    double lower = std::max(joint.lower_limit - beyond, -kFarthestPosition);
+    double upper = std::min(joint.upper_limit + beyond, kFarthestPosition);
+    lower = (lower - step.offset) / step.multiplier;
+    upper = (upper - step.offset) / step.multiplier;
+    if (step.multiplier < 0.0) std::swap(lower, upper);
+    range = {std::max(range.first, lower), std::min(range.second, upper)};
+  }
+  return range;
+}
+
+std::string ImpossibleState(const RobotModel& model, const Eigen::Ref<const Eigen::VectorXd>& q) {
+  for (Eigen::Index i = 0; i < q.size(); ++i) {
+    const auto [lower, upper] = PossibleRange(model, i);
+    if (q[i] >= lower && q[i] <= upper) continue;
+    const Joint& joint = LeaderOf(model.joints(), i);
+    return fmt::format("position of joint '{}'; got {} {}; expected {:g} to {:g}, {}",
+                       joint.name.text(), q[i], UnitOf(joint), lower, upper, kPossibleRule);
   }
   return "";
 }

@@ -25,6 +25,10 @@ inline constexpr double kFarthestSlideBeyond = 10.0;              // m
 /// Above it, with limits or without, poses in double precision are no longer good to a nanometre.
 inline constexpr double kFarthestPosition = 1e6;  // rad, m
 
+/// The two, for messages.
+inline constexpr char kPossibleRule[] =
+    "no joint more than 2 pi rad or 10 m beyond its limits, nor beyond 1e6";
+
 /// What one entry of q may do, infinite where nothing is given.
 struct PositionLimits {
   double lower{-kUnlimited};
@@ -51,7 +55,8 @@ std::vector<PositionLimits> LimitsOfPositions(Name robot, const std::vector<Join
 /// that their mimics bind.
 std::vector<std::string> LimitWarnings(const RobotModel& model);
 
-/// If the positions of number `index` are a range, and not wider than the widest.
+/// If the positions of number `index` are a range, and not wider than the widest, nor are those of
+/// the joints that mimic it.
 bool HasOwnRange(const RobotModel& model, Eigen::Index index);
 
 /// From where postures that stand for all there are can be drawn: the range itself, if it is not
@@ -60,8 +65,12 @@ bool HasOwnRange(const RobotModel& model, Eigen::Index index);
 /// no number of draws covers.
 std::optional<std::pair<double, double>> DrawnRange(const RobotModel& model, Eigen::Index index);
 
+/// What position number `index` can be at all: no joint that it moves farther beyond a limit than
+/// kFarthestTurnBeyond or kFarthestSlideBeyond, nor beyond kFarthestPosition.
+std::pair<double, double> PossibleRange(const RobotModel& model, Eigen::Index index);
+
 /// Empty if q can be a state of the robot, else "position of joint 'x'; got ...; expected ...": for
-/// one that is not finite, too far beyond a limit, or so large that poses are not exact.
+/// one that is not finite or out of its PossibleRange.
 std::string ImpossibleState(const RobotModel& model, const Eigen::Ref<const Eigen::VectorXd>& q);
 
 }  // namespace oca::models

@@ -59,6 +59,11 @@ class UrdfReader {
       RobotModel model(Name(outline_.robot_name), std::move(links_), std::move(joints_),
                        options_.X_WB, std::move(disabled));
       if (options_.warn) {
+        for (const UrdfOutline::Joint& joint : outline_.joints) {
+          if (!joint.fixed || joint.mimic.empty()) continue;
+          options_.warn(fmt::format("joint '{}': fixed, so its <mimic> of '{}' does nothing",
+                                    joint.name, joint.mimic));
+        }
         for (const std::string& line : LimitWarnings(model)) options_.warn(line);
       }
       return model;

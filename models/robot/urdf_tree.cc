@@ -102,9 +102,7 @@ class TreeChecker {
   }
 
   void CheckMimic(const UrdfOutline::Joint& joint) const {
-    if (joint.fixed && !joint.mimic.empty()) {
-      Fail(joint, "mimic", "one of a fixed joint", "a joint that moves, or no <mimic>");
-    }
+    if (joint.fixed) return;  // whatever it mimics, it stays where it is
     std::size_t hops = 0;
     for (const UrdfOutline::Joint* at = &joint; !at->mimic.empty(); ++hops) {
       const auto found = joints_.find(at->mimic);

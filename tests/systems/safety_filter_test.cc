@@ -265,6 +265,18 @@ TEST(SafetyFilterTest, NamesNothingThatNoJointMovesAndThatNeedsNoMove) {
   EXPECT_EQ(activity.num_bounds, 0);
 }
 
+TEST(SafetyFilterTest, NoWishIsFastEnoughToPayForADistance) {
+  // Without the box the arm would pay slack for a wish of 1e4 rad/s and more towards the ball.
+  for (const double wish : {10.0, 1e4, 1e8}) {
+    Wired wired(Hundred(), {"velocity"});
+    wired.filter().proximities.Fix(wired.context(), BesideTheTip(0.08, 0.0));
+    wired.filter().position.Fix(wired.context(), Eigen::Vector2d(0.0, 0.0));
+    wired.diagram().GetInput<Vector>("velocity").Fix(wired.context(), Eigen::Vector2d(wish, 0.0));
+    const Eigen::VectorXd u = wired.Answer();
+    EXPECT_LE(0.9 * u[0] + 0.4 * u[1], 0.15 + 1e-9) << wish << ": " << u.transpose();
+  }
+}
+
 TEST(SafetyFilterTest, BrakesIfItHasNoProofOfItsAnswer) {
   Wired wired(Hundred(), {});
   wired.filter().position.Fix(wired.context(), Eigen::Vector2d(0.1, 0.1));

@@ -41,6 +41,13 @@ TEST(ColliderTest, RefusesASizeThatIsNotFiniteAndPositive) {
   }
 }
 
+TEST(ColliderTest, RefusesABodyLargerThanDoublesCanTell) {
+  EXPECT_EQ(RefusalOf(Sphere{1e6}), "accepted");
+  EXPECT_THAT(RefusalOf(Sphere{1.1e6}), HasSubstr("size; got points up to 1.1e+06 m"));
+  EXPECT_THAT(RefusalOf(Capsule{1.0, 1e300}), HasSubstr("expected at most 1e+06 m"));
+  EXPECT_EQ(RefusalOf(HalfSpace{}), "accepted");
+}
+
 TEST(ColliderTest, RefusesAMeshWithoutHull) {
   EXPECT_THAT(RefusalOf(ConvexMesh{}), HasSubstr("got no hull"));
 }

@@ -163,6 +163,30 @@ TEST(JointLimitsTest, ATurnDoesNotStandForAllIfAMimicDoesNotComeBack) {
   EXPECT_FALSE(DrawnRange(chain.Model(), 0));
 }
 
+TEST(JointLimitsTest, AMimicThatGoesFarIsNotCoveredByItsLeadersRange) {
+  Chain chain(2);
+  chain.joints[1].type = JointType::kPrismatic;
+  chain.joints[1].lower_limit = -1e9;
+  chain.joints[1].upper_limit = 1e9;
+  chain.joints[1].mimic = Mimic{0, 49.0, 0.0};  // 98 m over the 2 rad of its leader
+  EXPECT_TRUE(HasOwnRange(chain.Model(), 0));
+  chain.joints[1].mimic = Mimic{0, -51.0, 0.0};
+  EXPECT_FALSE(HasOwnRange(chain.Model(), 0));
+  EXPECT_FALSE(DrawnRange(chain.Model(), 0));
+}
+
+TEST(JointLimitsTest, SpeaksOfTheSpeedThatNothingBounds) {
+  Chain chain(2);
+  chain.joints[0].velocity_limit = 0.0;
+  chain.joints[1].velocity_limit = 1.0;
+  EXPECT_THAT(LimitWarnings(chain.Model()),
+              ElementsAre(AllOf(HasSubstr("joint 'a': velocity limit 0"), EndsWith("the speed"))));
+  chain.joints[1].mimic = Mimic{0, -2.0, 0.0};
+  EXPECT_THAT(LimitWarnings(chain.Model()),
+              testing::Contains(AllOf(HasSubstr("joint 'a': velocity limit 0"),
+                                      EndsWith("counts as not given"))));
+}
+
 TEST(JointLimitsTest, SaysThatARangeIsTooWide) {
   Chain chain(2);
   chain.joints[0].lower_limit = -1e9;
@@ -185,21 +209,27 @@ TEST(JointLimitsTest, TellsStatesThatCannotBe) {
   EXPECT_EQ(wrong(0, 0), "");
   EXPECT_EQ(wrong(1.0 + 6.28, -10.9), "");
   EXPECT_EQ(wrong(1.0 + 6.29, 0),
-            "position of joint 'a'; got 7.29 rad; expected at most 2 pi rad beyond its limits "
-            "[-1, 1]");
-  EXPECT_THAT(wrong(0, -11.1), HasSubstr("joint 'b'; got -11.1 m; expected at most 10 m beyond"));
+            "position of joint 'a'; got 7.29 rad; expected -7.28319 to 7.28319, no joint more than "
+            "2 pi rad or 10 m beyond its limits, nor beyond 1e6");
+  EXPECT_THAT(wrong(0, -11.1), HasSubstr("joint 'b'; got -11.1 m; expected -11 to 11"));
   EXPECT_THAT(wrong(std::nan(""), 0), HasSubstr("got nan rad"));
   chain.joints[0].lower_limit = -1e308;
   chain.joints[0].upper_limit = 1e308;
   EXPECT_EQ(wrong(-1e6, 0), "");
-  EXPECT_THAT(wrong(-1.1e6, 0), HasSubstr("at most 1e+06"));
+  EXPECT_THAT(wrong(-1.1e6, 0), HasSubstr("expected -1e+06 to 1e+06"));
   chain.joints[1] = chain.joints[0];
   chain.joints[1].name = Name("b");
   chain.joints[1].parent_link = 1;
   chain.joints[1].child_link = 2;
   chain.joints[1].mimic = Mimic{0, 100.0, 0.0};
   EXPECT_THAT(ImpossibleState(chain.Model(), Eigen::VectorXd::Constant(1, 1e5)),
-              HasSubstr("joint 'b'"));
+              HasSubstr("joint 'a'; got 100000 rad; expected -10000 to 10000"));
+  chain.joints[1].mimic = Mimic{0, -2.0, 1.0};
+  chain.joints[1].lower_limit = 0.0;
+  chain.joints[1].upper_limit = 3.0;
+  const auto [lower, upper] = PossibleRange(chain.Model(), 0);
+  EXPECT_NEAR(lower, -1.0 - std::numbers::pi, 1e-12);  // where b stands at 3 + 2 pi
+  EXPECT_NEAR(upper, 0.5 + std::numbers::pi, 1e-12);
 }
 
 }  // namespace
