@@ -278,12 +278,14 @@ TEST(SafetyFilterTest, NoWishIsFastEnoughToPayForADistance) {
 }
 
 TEST(SafetyFilterTest, BrakesIfItHasNoProofOfItsAnswer) {
-  Wired wired(Hundred(), {});
-  wired.filter().position.Fix(wired.context(), Eigen::Vector2d(0.1, 0.1));
-  EXPECT_GT(wired.Answer().norm(), 0.1);
-  // The request is a number, five times it is none.
-  wired.filter().position.Fix(wired.context(), Eigen::Vector2d(0.1, 1e308));
-  EXPECT_EQ(wired.Answer(), Eigen::VectorXd(Eigen::Vector2d::Zero()));
+  const auto answer = [](double weight) {
+    SafetyFilter::Params params = Hundred();
+    params.weights = weight;
+    return Answer(params, {0.5, 0.5}, BesideTheTip(0.08, 0.0));
+  };
+  EXPECT_GT(answer(1.0).norm(), 0.1);
+  // A price so small that rows in units of it overflow.
+  EXPECT_EQ(answer(1e-310), Eigen::VectorXd(Eigen::Vector2d::Zero()));
 }
 
 TEST(SafetyFilterTest, KeepsTheNearestRowsIfThereIsNoRoomForAll) {
