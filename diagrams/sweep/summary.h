@@ -18,7 +18,8 @@ namespace oca::sweep {
 struct Judgement {
   /// certified_min_distance > 0 if there is one, thus at every time; else as `sampled_clear`.
   std::optional<bool> clear;
-  /// min_distance > 0, or of what was looked at nothing ever came within reach; at the control ticks.
+  /// min_distance > 0, or of what was looked at nothing ever came within reach; at the control
+  /// ticks.
   std::optional<bool> sampled_clear;
   std::optional<bool> arrived;  ///< final_error <= arrival of the campaign
   std::optional<bool> both;     ///< clear and arrived
