@@ -147,8 +147,8 @@ TEST(TaskPriorityTest, NoObstacleTakesMoreThanTheDampingLeaves) {
   Bench method(params, "lwr4");
   const Eigen::VectorXd rest = Eigen::VectorXd::Zero(7);
   ProximitySet set = AroundBentArm(method.model(), 0.12);
+  set.proximities = {set.proximities[1]};
   for (int i = 0; i < 100; ++i) {
-    set.proximities = {set.proximities[1]};
     set.proximities[0].normal =
         Eigen::Vector3d(std::cos(0.3 * i), std::sin(0.3 * i), 0.1 * (i % 7)).normalized();
     const Eigen::VectorXd u = method.Answer(BentArm(), rest, set);
