@@ -97,6 +97,19 @@ std::vector<std::size_t> Places(const std::vector<std::string>& names, const std
   return exact.empty() ? alike : exact;
 }
 
+/// What a comment may name columns by, however they are separated, each without its unit.
+std::vector<std::string> Words(const std::string& comment) {
+  std::vector<std::string> words;
+  for (std::size_t at = 0; at < comment.size();) {
+    const std::size_t end = std::min(comment.find_first_of(",; \t", at), comment.size());
+    std::string word = comment.substr(at, end - at);
+    word.erase(std::min(word.find_first_of("[("), word.size()));
+    if (!word.empty() && !word.ends_with(':')) words.push_back(std::move(word));
+    at = end + 1;
+  }
+  return words;
+}
+
 }  // namespace
 
 CsvTable::CsvTable(const std::filesystem::path& file)
@@ -141,7 +154,12 @@ void CsvTable::CheckBytes() {
 /// The row of names, or what a comment says in its place before a row of values.
 void CsvTable::ReadFirst() {
   if (!ReadRow()) return;
-  if (cells_.front().starts_with("//") && !quoted_.front()) cells_.front().erase(0, 2);
+  const bool comment = cells_.front().starts_with("//") && !quoted_.front();
+  if (comment) cells_.front().erase(0, 2);
+  if (comment && cells_.front().empty() && cells_.size() > 1) {
+    cells_.erase(cells_.begin());
+    quoted_.erase(quoted_.begin());
+  }
   width_ = cells_.size();
   bool numbers = true, bare_number = false;
   for (std::size_t i = 0; i < width_; ++i) {
@@ -154,14 +172,16 @@ void CsvTable::ReadFirst() {
     cells_.clear();
     return;
   }
+  if (comment) return ReadFirst();  // a row that was put aside
   pending_ = true;
   const auto row = std::tuple(cells_, quoted_, at_, line_, next_line_);
   std::string text = std::exchange(text_, comment_);
   at_ = 0;
   try {
     if (ReadRow() && cells_.size() == width_) commented_ = cells_;
-  } catch (const ModelError&) {  // no names then
+  } catch (const ModelError&) {  // separated otherwise, or no names
   }
+  if (commented_.empty()) commented_ = Words(comment_);
   text_ = std::move(text);
   std::tie(cells_, quoted_, at_, line_, next_line_) = row;
 }
@@ -170,7 +190,13 @@ std::vector<std::size_t> CsvTable::Columns(const std::vector<std::string>& wante
   if (names_.empty() && std::all_of(wanted.begin(), wanted.end(), [&](const std::string& name) {
         return Places(commented_, name).size() == 1;
       })) {
-    names_ = commented_;
+    if (commented_.size() == width_) {
+      names_ = commented_;
+    } else if (wanted.size() > 1) {
+      RefuseRow("comment that names columns", fmt::format("{} words", commented_.size()),
+                fmt::format("a name for each of {} columns, or none of {}", width_,
+                            fmt::join(wanted, ", ")));
+    }
   }
   std::vector<std::size_t> columns;
   if (names_.empty()) return columns;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -26,18 +27,25 @@ struct Columns {
   Numbers positions, velocities, accelerations;
 };
 
-/// The column of each joint, of names that begin with a letter and end with the joint's number, as
-/// p1 or position[0]; empty if there are none.
-Numbers Numbered(const models::CsvTable& table, char letter) {
+/// The column of each joint, of names that are a word or its first letter and the joint's number,
+/// as p1 or position[0]; empty if there are none.
+Numbers Numbered(const models::CsvTable& table, std::string_view word) {
+  const char letter = word.front();
   std::map<std::size_t, std::size_t> columns;
   const auto& names = table.names();
   for (std::size_t i = 0; i < names.size(); ++i) {
     std::string_view name = names[i];
-    if (name.empty() || std::tolower(static_cast<unsigned char>(name.front())) != letter) continue;
-    if (name.ends_with(']')) name.remove_suffix(1);
+    const bool bracketed = name.ends_with(']');
+    if (bracketed) name.remove_suffix(1);
     const std::size_t last = name.find_last_not_of("0123456789");
     const std::string_view digits = name.substr(last + 1);
     if (digits.empty() || digits.size() > 6) continue;
+    std::string before(name.substr(0, last + 1));
+    if (bracketed != before.ends_with('[')) continue;
+    if (bracketed || before.ends_with('_')) before.pop_back();
+    std::transform(before.begin(), before.end(), before.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (before != word && before != word.substr(0, 1)) continue;
     std::size_t number = 0;
     std::from_chars(digits.data(), digits.data() + digits.size(), number);
     if (columns.emplace(number, i).second) continue;
@@ -76,9 +84,9 @@ Columns FindColumns(models::CsvTable& table, const std::vector<std::string>& joi
     columns.positions.resize(table.width() == 0 ? 0 : table.width() - 1);
     std::iota(columns.positions.begin(), columns.positions.end(), std::size_t{1});
   } else {
-    columns.positions = Numbered(table, 'p');
-    columns.velocities = Numbered(table, 'v');
-    columns.accelerations = Numbered(table, 'a');
+    columns.positions = Numbered(table, "position");
+    columns.velocities = Numbered(table, "velocity");
+    columns.accelerations = Numbered(table, "acceleration");
     const std::size_t count = columns.positions.size();
     const auto fits = [&](const Numbers& rates) { return rates.empty() || rates.size() == count; };
     if (count == 0 || !fits(columns.velocities) || !fits(columns.accelerations)) {

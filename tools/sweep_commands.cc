@@ -203,7 +203,10 @@ int MergeCommand(const MergeArguments& arguments) {
   std::vector<InputFile> inputs;
   for (const auto& entry : fs::directory_iterator(arguments.folder)) {
     const std::string name = entry.path().filename().string();
-    if (!name.starts_with("shard-") && !name.starts_with("results.jsonl")) continue;
+    if (!name.starts_with("shard-") && !name.starts_with("results.jsonl") &&
+        !name.starts_with("results.timings.jsonl")) {
+      continue;
+    }
     inputs.push_back({entry.path(), "what is merged"});
   }
   CheckOutputs({{"--jsonl", arguments.lines}, {"-o", database}}, inputs);

@@ -84,12 +84,17 @@ Grid ReadPgm(const fs::path& file, std::string_view rest) {
   }
   const std::uint64_t bytes = brightest > 255 ? 2 : 1;
   if (rest.size() < 1 + bytes * count) {
-    RefuseText(file, 0, "ends too early", fmt::format("{} bytes of pixels", rest.size()),
+    RefuseText(file, 0, "ends too early",
+               fmt::format("{} bytes of pixels", rest.empty() ? 0 : rest.size() - 1),
                fmt::format("{}", bytes * count));
   }
   const auto* at = reinterpret_cast<const unsigned char*>(rest.data()) + 1;
   for (std::size_t i = 0; i < count; ++i) {
-    const int grey = bytes == 2 ? 256 * at[2 * i] + at[2 * i + 1] : at[i];
+    const unsigned grey = bytes == 2 ? 256u * at[2 * i] + at[2 * i + 1] : at[i];
+    if (grey > brightest) {
+      RefuseText(file, 0, "grey value", fmt::format("{} as pixel {}", grey, i),
+                 fmt::format("a whole number up to {}", brightest));
+    }
     grid.values.push_back(grey / white);
   }
   return grid;

@@ -27,7 +27,7 @@ struct Kind {
 
 const std::vector<Kind>& Kinds() {
   static const std::vector<Kind> kinds = {
-      {"group", {"name"}, {}, {"link", "joint", "chain", "group"}},
+      {"group", {"name"}, {}, {"link", "joint", "chain", "group", "passive_joint"}},
       {"group_state", {"name", "group"}, {}, {"joint"}},
       {"end_effector", {"name", "parent_link", "group"}, {"parent_group"}, {}},
       {"virtual_joint", {"name", "type", "parent_frame", "child_link"}, {}, {}},
@@ -203,9 +203,9 @@ class SrdfReader {
     } else {
       CheckAttributes(part, {"name"}, {});
       CheckKnown(part, "name", name.c_str(),
-                 name == "link"    ? robot_.links
-                 : name == "joint" ? joints_
-                                   : groups_);
+                 name == "link"            ? robot_.links
+                 : name.ends_with("joint") ? joints_
+                                           : groups_);
     }
   }
 

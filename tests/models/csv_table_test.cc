@@ -140,6 +140,21 @@ TEST_F(CsvTableTest, LetsACommentBeforeTheFirstRowNameTheColumns) {
   EXPECT_THAT(Numbers("# two numbers\n2 1\n"), ElementsAre(2.0, 1.0));
 }
 
+TEST_F(CsvTableTest, ACommentMayNameColumnsInItsOwnWayButNotInPart) {
+  EXPECT_THAT(Numbers("# y x\n0,2\n"), ElementsAre(2.0, 0.0));
+  EXPECT_THAT(Numbers("# y;x\n0,2\n"), ElementsAre(2.0, 0.0));
+  EXPECT_THAT(Numbers("# columns: y[m] x[m]\n0,2\n"), ElementsAre(2.0, 0.0));
+  EXPECT_THAT([&] { Numbers("# y x intensity\n0,2\n"); },
+              testing::ThrowsMessage<ModelError>(HasSubstr("comment that names columns")));
+  EXPECT_THAT(Numbers("# a few points\n0,2\n"), ElementsAre(0.0, 2.0));
+}
+
+TEST_F(CsvTableTest, ARowBehindSlashesIsNamesOrAComment) {
+  EXPECT_THAT(Numbers("// y x\n0 2\n"), ElementsAre(2.0, 0.0));
+  EXPECT_THAT(Numbers("//y x\n0 2\n"), ElementsAre(2.0, 0.0));
+  EXPECT_THAT(Numbers("//7 7\n0 2\n"), ElementsAre(0.0, 2.0));
+}
+
 TEST_F(CsvTableTest, TakesNoDamagedNumberForAName) {
   EXPECT_THAT(Refusal("2,0,x\n"), HasSubstr(":1: column 3: not a number; got 'x'"));
   EXPECT_THAT(NameRefusal("2,0o\n1,2\n"), HasSubstr(":1: column 2: not a number; got '0o'"));

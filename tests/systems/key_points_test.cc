@@ -92,8 +92,13 @@ TEST(KeyPointsTest, GoesByTheNamesOfColumnsInAnyOrder) {
   EXPECT_EQ(Eigen::Vector2d(points[0].position), Eigen::Vector2d(2.0, 3.0));
   EXPECT_EQ(Eigen::Vector2d(*points[0].velocity), Eigen::Vector2d(5.0, 6.0));
   EXPECT_THAT(RefusalOf("time,p1,p3\n0,1,2\n"), HasSubstr("got p3 without those before"));
-  EXPECT_THAT(RefusalOf("time,p1,pos1\n0,1,2\n"), HasSubstr("two with number 1"));
+  EXPECT_THAT(RefusalOf("time,p1,position1\n0,1,2\n"), HasSubstr("two with number 1"));
   EXPECT_THAT(RefusalOf("p1,p2\n1,2\n"), HasSubstr("no 'time'"));
+  EXPECT_THAT(RefusalOf("time,q1,pwm1,pressure2\n0,1,100,2\n"), HasSubstr("or `joints`"));
+  const TemporaryFile other("time,P_1,voltage1,axis1,valid[1]\n0,4,1,2,3\n");
+  const auto alone = ReadKeyPoints(other.path());
+  EXPECT_EQ(alone.at(0).position[0], 4.0);
+  EXPECT_FALSE(alone.at(0).velocity || alone.at(0).acceleration);
   EXPECT_THAT(RefusalOf("time,elbow,wrist\n0,1,2\n"), HasSubstr("or `joints`"));
 }
 

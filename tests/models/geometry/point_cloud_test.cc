@@ -255,6 +255,7 @@ TEST_F(PointCloudTest, RefusesWhatIsNoHeightmap) {
   EXPECT_THAT(MapRefusal("map.pgm", "P6 1 1 255\nx"), HasSubstr("kind of PGM; got P6"));
   EXPECT_THAT(MapRefusal("map.pgm", "P5 2 2 255\nxxx"), HasSubstr("ends too early"));
   EXPECT_THAT(MapRefusal("map.pgm", "P2 2 1 9\n4 10\n"), HasSubstr("grey value; got 10"));
+  EXPECT_THAT(MapRefusal("map.pgm", "P5 2 1 100\n\x64\x65"), HasSubstr("got 101 as pixel 1"));
   EXPECT_THAT(MapRefusal("map.pgm", "P5 10000 10000 255\nx"), HasSubstr("cells; got 100000000"));
   EXPECT_THAT(MapRefusal("map.pgm", "P5 4294967297 1 255\nx"), HasSubstr("width; got"));
   EXPECT_THAT(MapRefusal("map.pgm", "P2 -2 1 9\n4\n"), HasSubstr("width; got -2"));

@@ -73,6 +73,7 @@ TEST(SrdfTest, AllElementsOfMoveItAreAccepted) {
   <end_effector name="gripper" parent_link="hand" group="arm" parent_group="all"/>
   <virtual_joint name="world_joint" type="planar" parent_frame="odom" child_link="base"/>
   <passive_joint name="grip"/>
+  <group name="passive"><passive_joint name="grip"/></group>
   <joint_property joint_name="turn" property_name="angular_distance_weight" value="0.1"/>
   <link_sphere_approximation link="arm"><sphere center="0 0 0.1" radius="0"/></link_sphere_approximation>
   <disable_default_collisions link="arm"/>
