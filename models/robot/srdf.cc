@@ -2,7 +2,9 @@
 #include "models/robot/srdf.h"
 
 #include <fmt/format.h>
+#include <stdlib.h>
 #include <tinyxml.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
@@ -99,16 +101,28 @@ void SaveDisabledPairs(const std::filesystem::path& file, const std::string& rob
   TiXmlPrinter printer;
   printer.SetIndent("  ");
   document->Accept(&printer);
-  std::filesystem::path part = file;
-  part += ".part";
-  std::ofstream out(part, std::ios::binary);
+  // Whole or not at all, beside what is replaced: where a link leads, and over no other file.
+  namespace fs = std::filesystem;
+  std::error_code error;
+  fs::path target = file;
+  for (int hops = 0; hops < 40 && fs::is_symlink(target, error); ++hops) {
+    target = target.parent_path() / fs::read_symlink(target, error);
+  }
+  std::string part = target.string() + ".XXXXXX";
+  const auto kept = fs::status(target, error).permissions();
+  const bool replaces = fs::exists(target, error);
+  const int descriptor = mkstemp(part.data());
+  if (descriptor >= 0) close(descriptor);
+  std::ofstream out;
+  if (descriptor >= 0) out.open(part, std::ios::binary);
   out << printer.Str();
   out.close();
-  std::error_code error;
-  if (out) std::filesystem::rename(part, file, error);
+  error.clear();
+  if (out) fs::permissions(part, replaces ? kept : fs::perms{0644}, error);
+  if (out && !error) fs::rename(part, target, error);
   if (out && !error) return;
   const std::string reason = error ? error.message() : "no file";
-  std::filesystem::remove(part, error);
+  if (descriptor >= 0) fs::remove(part, error);
   throw ModelError(
       fmt::format("{}: SRDF to write; got {}; expected a folder and a file that can "
                   "be written",

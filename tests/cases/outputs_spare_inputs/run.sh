@@ -43,3 +43,10 @@ md5sum top.yaml >> before
 refuse sweep top.yaml --samples 1 -o results
 [ ! -e x.mcap ] || { echo 'a record was begun'; exit 1; }
 "$SIMULATOR" run mine.yaml --record /dev/null > /dev/null
+# An SRDF is written where a link leads, and over no file that merely has a similar name.
+mkdir srdf && cd srdf
+cp "$OCA_SOURCE/models/robots/planar2/planar2.urdf" .
+echo mine > s.srdf.part
+ln -s real.srdf s.srdf
+"$SIMULATOR" robot check-collisions planar2.urdf --samples 10 --write-srdf s.srdf > out 2>&1 || { cat out; exit 1; }
+[ "$(cat s.srdf.part)" = mine ] && [ -L s.srdf ] && grep -q '<robot' real.srdf && [ "$(ls | wc -l)" = 5 ] || { ls -l; exit 1; }
