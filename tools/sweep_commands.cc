@@ -12,6 +12,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -196,6 +197,18 @@ int SweepCommand(const SweepArguments& arguments) {
   return kInterrupted;
 }
 
+/// A file that holds something else is not ours to replace.
+void RequireDatabase(const fs::path& file) {
+  std::error_code error;
+  if (!fs::exists(file, error) || fs::file_size(file, error) == 0) return;
+  std::string head(15, '\0');
+  std::ifstream(file, std::ios::binary).read(head.data(), std::ssize(head));
+  if (head == "SQLite format 3") return;
+  throw ConfigError(
+      fmt::format("-o: {}; got a file that is no database; expected a new one, or one to replace",
+                  file.string()));
+}
+
 int MergeCommand(const MergeArguments& arguments) {
   const Results results = sweep::MergeShards(arguments.folder);
   const fs::path database = arguments.database.empty() ? fs::path(arguments.folder) / "results.db"
@@ -210,6 +223,7 @@ int MergeCommand(const MergeArguments& arguments) {
     inputs.push_back({entry.path(), "what is merged"});
   }
   CheckOutputs({{"--jsonl", arguments.lines}, {"-o", database}}, inputs);
+  RequireDatabase(database);
   if (!arguments.lines.empty()) {
     sweep::WriteResults(arguments.lines, results.campaign, results.rows);
   }

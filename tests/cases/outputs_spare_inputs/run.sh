@@ -50,3 +50,10 @@ echo mine > s.srdf.part
 ln -s real.srdf s.srdf
 "$SIMULATOR" robot check-collisions planar2.urdf --samples 10 --write-srdf s.srdf > out 2>&1 || { cat out; exit 1; }
 [ "$(cat s.srdf.part)" = mine ] && [ -L s.srdf ] && grep -q '<robot' real.srdf && [ "$(ls | wc -l)" = 5 ] || { ls -l; exit 1; }
+# The database of a campaign replaces a database, no other file.
+"$SIMULATOR" sweep "$OCA_SOURCE/diagrams/scenarios/random_static.yaml" --samples 2 -o campaign > /dev/null 2>&1
+echo mine > notes.yaml
+status=0
+"$SIMULATOR" merge campaign -o notes.yaml > out 2>&1 || status=$?
+[ $status = 2 ] && grep -q 'no database' out && [ "$(cat notes.yaml)" = mine ] || { cat out; exit 1; }
+for again in 1 2; do "$SIMULATOR" merge campaign -o all.db > out 2>&1 || { cat out; exit 1; }; done
