@@ -19,7 +19,7 @@ namespace oca::diagrams {
 namespace {
 
 constexpr std::size_t kLargestCopies = 100000;
-constexpr int kDeepest = 32;
+constexpr int kDeepestTerm = 32;
 constexpr std::size_t kLongest = 1000;
 constexpr int kLongestChain = 100;
 
@@ -228,7 +228,7 @@ Value Expressions::ResolveText(const std::string& text, const Location& location
 }
 
 Value Expressions::Evaluate(const std::string& expression, const Location& location, int depth) {
-  if (depth > kDeepest || expression.size() > kLongest) {
+  if (depth > kDeepestTerm || expression.size() > kLongest) {
     problems_.Add(location, "${...}: too long or nested too deep");
     return Value({}, location);
   }

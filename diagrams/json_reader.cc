@@ -15,10 +15,10 @@
 namespace oca::diagrams {
 namespace {
 
-constexpr int kDeepest = 64;
+constexpr int kDeepestJson = 64;
 
 Value FromJson(const nlohmann::ordered_json& json, const Location& location, int depth) {
-  if (depth > kDeepest) throw ConfigError(fmt::format("nested deeper than {} levels", kDeepest));
+  if (depth > kDeepestJson) throw ConfigError(fmt::format("nested deeper than {} levels", kDeepestJson));
   if (json.is_boolean()) return Value(json.get<bool>(), location);
   const bool beyond = json.is_number_unsigned() &&
                       json.get<std::uint64_t>() > std::numeric_limits<std::int64_t>::max();

@@ -23,7 +23,7 @@
 namespace oca::diagrams {
 namespace {
 
-constexpr int kDeepest = 64;
+constexpr int kDeepestYaml = 64;
 /// Maps are searched key by key, so their size is limited.
 constexpr std::size_t kMostKeys = 5000;
 constexpr std::size_t kMostProblems = 50;
@@ -149,8 +149,8 @@ class TreeBuilder final : public YAML::EventHandler {
   void Open(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
             Value::Data data) {
     CheckPlainNode(mark, tag, anchor);
-    if (stack_.size() >= kDeepest) {
-      throw YAML::ParserException(mark, fmt::format("nested deeper than {} levels", kDeepest));
+    if (stack_.size() >= kDeepestYaml) {
+      throw YAML::ParserException(mark, fmt::format("nested deeper than {} levels", kDeepestYaml));
     }
     const bool as_key = ExpectsKey();
     if (as_key) problems_.Add(At(mark), "a map or list as a key; expected text");
@@ -240,7 +240,7 @@ bool NestsTooDeep(std::string_view text, int& line) {
     if (c == '-' || c == '?' || c == ':') ++dashes;
     if (c != '-' && c != '?' && c != ':' && c != ' ') dashes = 0;
     if (c == '\n') ++line;
-    if (depth > 4 * kDeepest || dashes > 4 * kDeepest) return true;
+    if (depth > 4 * kDeepestYaml || dashes > 4 * kDeepestYaml) return true;
   }
   return false;
 }
@@ -266,7 +266,7 @@ Value ReadYaml(std::string_view text, const std::string& name, Problems& problem
     return {};
   }
   if (NestsTooDeep(text, line)) {
-    problems.Add({shared_name, line, 1}, fmt::format("nested deeper than {} levels", kDeepest));
+    problems.Add({shared_name, line, 1}, fmt::format("nested deeper than {} levels", kDeepestYaml));
     return {};
   }
   TreeBuilder builder(text, shared_name, problems);

@@ -19,11 +19,6 @@ namespace {
 
 constexpr std::align_val_t kAlignment{64};
 
-Log& SilentLog() {
-  static Log log;
-  return log;
-}
-
 }  // namespace
 
 void Context::FreeArena::operator()(std::byte* arena) const { operator delete(arena, kAlignment); }

@@ -15,11 +15,6 @@
 namespace oca {
 namespace {
 
-Log& SilentLog() {
-  static Log log;
-  return log;
-}
-
 /// How many times `period` goes into `span`; throws ConfigError unless that is a whole number.
 std::int64_t Ratio(const Period& span, const Period& period, const std::string& system) {
   const std::int64_t over = std::gcd(span.numerator(), period.numerator());

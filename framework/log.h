@@ -16,4 +16,10 @@ class Log {
   virtual void Write(LogLevel /*level*/, double /*time*/, std::string_view /*text*/) {}
 };
 
+/// The one that drops everything.
+inline Log& SilentLog() {
+  static Log log;
+  return log;
+}
+
 }  // namespace oca

@@ -25,11 +25,6 @@ constexpr std::int64_t kMostTicks = std::int64_t{1} << 53;
 /// The clock stays exact at least so long: more than a day.
 constexpr std::int64_t kLeastSeconds = 100000;
 
-Log& SilentLog() {
-  static Log log;
-  return log;
-}
-
 }  // namespace
 
 /// All periods and offsets as whole ticks of one clock, whose rate is their least common multiple.

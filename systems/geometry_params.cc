@@ -205,9 +205,9 @@ SolidParams SolidParamsOf(const models::Shape& shape) {
 }  // namespace
 
 void PoseParams::Describe(Fields<PoseParams>& fields) {
-  constexpr double kFarthest = 1e6;    // m; from there on a double no longer tells 1e-10 m apart
+  constexpr double kFarthestOrigin = 1e6;    // m; from there on a double no longer tells 1e-10 m apart
   constexpr double kMostTurned = 1e3;  // rad
-  fields.Add("xyz", &PoseParams::xyz, "m", "position").AtLeast(-kFarthest).AtMost(kFarthest);
+  fields.Add("xyz", &PoseParams::xyz, "m", "position").AtLeast(-kFarthestOrigin).AtMost(kFarthestOrigin);
   fields.Add("rpy", &PoseParams::rpy, "rad", "roll, pitch, yaw about the fixed axes x, y, z")
       .AtLeast(-kMostTurned)
       .AtMost(kMostTurned);

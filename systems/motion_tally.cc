@@ -16,7 +16,7 @@ constexpr double kArrived = 0.01;
 constexpr double kStill = 0.02;
 constexpr double kPatience = 2.0;
 // What rounding may take a joint beyond its limits: rad or m, and shares of the others.
-constexpr double kRounding = 1e-6;
+constexpr double kTallyRounding = 1e-6;
 
 double MaxNorm(const Eigen::Ref<const Eigen::VectorXd>& values) {
   return values.size() == 0 ? 0.0 : values.cwiseAbs().maxCoeff();
@@ -100,14 +100,14 @@ void MotionTally::AddDistance(const MotionSample& sample) {
 void MotionTally::CountViolations(VectorView position, const models::RobotModel& model,
                                   double step) {
   for (Eigen::Index i = 0; i < position.size(); ++i) {
-    bool beyond = position[i] < model.lower_limits()[i] - kRounding ||
-                  position[i] > model.upper_limits()[i] + kRounding;
+    bool beyond = position[i] < model.lower_limits()[i] - kTallyRounding ||
+                  position[i] > model.upper_limits()[i] + kTallyRounding;
     if (samples_ > 0) {
       const double velocity = (position[i] - position_[i]) / step;
       const double acceleration = (velocity - velocity_[i]) / step;
-      beyond |= std::fabs(velocity) > (1.0 + kRounding) * model.velocity_limits()[i];
+      beyond |= std::fabs(velocity) > (1.0 + kTallyRounding) * model.velocity_limits()[i];
       beyond |= samples_ > 1 &&
-                std::fabs(acceleration) > (1.0 + kRounding) * model.acceleration_limits()[i];
+                std::fabs(acceleration) > (1.0 + kTallyRounding) * model.acceleration_limits()[i];
     }
     limit_violations_ += beyond ? 1.0 : 0.0;
   }
@@ -157,7 +157,7 @@ void MotionTally::AddStandstill(const MotionSample& sample) {
     return;
   }
   const double stood = sample.time - still_since_;
-  if (stood < kPatience * (1.0 - kRounding) || stood <= stuck_time_) return;
+  if (stood < kPatience * (1.0 - kTallyRounding) || stood <= stuck_time_) return;
   stuck_time_ = stood;
   // What blocked may be gone by the time that the arm goes on.
   if (sample.proximities == nullptr || sample.proximities->proximities.empty()) return;

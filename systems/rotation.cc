@@ -11,10 +11,10 @@ namespace oca::systems {
 namespace {
 
 // Four numbers rounded to three digits are off by 0.0005 each, so their length by 0.001.
-constexpr double kRounding = 1e-3;
+constexpr double kLengthRounding = 1e-3;
 
 void CheckLength(double length, const std::string& where, const char* expected) {
-  if (std::fabs(length - 1.0) <= kRounding) return;
+  if (std::fabs(length - 1.0) <= kLengthRounding) return;
   throw ConfigError(fmt::format("{}: length; got {}; expected {}", where, length, expected));
 }
 

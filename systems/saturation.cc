@@ -9,7 +9,7 @@
 namespace oca::systems {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 const Saturation::Params& Checked(const Saturation::Params& params) {
   if (params.lower) RequireFinite("lower", *params.lower);
@@ -28,8 +28,8 @@ void Saturation::Params::Describe(Fields<Params>& fields) {
 }
 
 Saturation::Saturation(const Params& params)
-    : lower_(Checked(params).lower.value_or(-kInfinity)),
-      upper_(params.upper.value_or(kInfinity)),
+    : lower_(Checked(params).lower.value_or(-kUnbounded)),
+      upper_(params.upper.value_or(kUnbounded)),
       size_(DeclareSize({{"lower", &lower_}, {"upper", &upper_}})),
       unit_(DeclareUnit()),
       in(DeclareInput<Vector>("in", {size_, unit_})),

@@ -5,8 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
-#include <csignal>
 #include <fstream>
 #include <iostream>
 #include <memory>
@@ -22,6 +20,7 @@
 #include "diagrams/signal_recorder.h"
 #include "framework/error.h"
 #include "tools/commands.h"
+#include "tools/interrupt.h"
 #include "tools/live_commands.h"
 #include "tools/output_files.h"
 #include "tools/report_writer.h"
@@ -32,15 +31,6 @@ namespace oca::tools {
 namespace {
 
 using nlohmann::ordered_json;
-
-std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
-
-/// The first signal ends the run after the present step; a second one ends the program.
-void Interrupt(int signal) {
-  interrupted.store(true, std::memory_order_relaxed);
-  std::signal(signal, SIG_DFL);
-}
 
 /// What systems log, on standard error.
 class StderrLog final : public Log {
@@ -240,10 +230,8 @@ int RunCommand(const RunArguments& arguments) {
                       arguments.file));
     }
     StderrLog live_log(arguments.log_level);
-    std::signal(SIGINT, Interrupt);
-    std::signal(SIGTERM, Interrupt);
-    return RunLiveCommand(arguments, overrides, &live_log,
-                          [] { return interrupted.load(std::memory_order_relaxed); });
+    CatchInterrupts();
+    return RunLiveCommand(arguments, overrides, &live_log, Interrupted);
   }
   std::optional<record::ExtractedRecord> extracted;
   const diagrams::LoadedDiagram loaded = Load(arguments.file, overrides, extracted);
@@ -269,15 +257,14 @@ int RunCommand(const RunArguments& arguments) {
     options.observers.push_back(&report->recorder());
     options.log = &report->recorder();
   }
-  std::signal(SIGINT, Interrupt);
-  std::signal(SIGTERM, Interrupt);
+  CatchInterrupts();
   std::optional<ProgressBar> bar;
   if (!arguments.no_progress && IsTerminal(STDERR_FILENO)) {
     bar.emplace(arguments.duration.value_or(loaded.simulator.duration));
   }
   options.progress = [&bar](double time) {
     if (bar) bar->Show(time);
-    return !interrupted.load(std::memory_order_relaxed);
+    return !Interrupted();
   };
   const diagrams::RunResult result = diagrams::Run(loaded, options);
   bar.reset();

@@ -6,10 +6,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <atomic>
 #include <charconv>
 #include <chrono>
-#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -27,6 +25,7 @@
 #include "framework/error.h"
 #include "models/opened_files.h"
 #include "tools/commands.h"
+#include "tools/interrupt.h"
 #include "tools/output_files.h"
 #include "tools/sweep_report.h"
 #include "tools/terminal.h"
@@ -38,14 +37,6 @@ namespace fs = std::filesystem;
 using sweep::Campaign;
 using sweep::Results;
 using sweep::Shard;
-
-std::atomic<bool> interrupted{false};
-
-/// The first signal ends the sweep, a second one the program.
-void Interrupt(int signal) {
-  interrupted.store(true, std::memory_order_relaxed);
-  std::signal(signal, SIG_DFL);
-}
 
 struct SweepArguments {
   Campaign campaign;
@@ -173,12 +164,11 @@ int SweepCommand(const SweepArguments& arguments) {
   if (before > 0) {
     Tell("{} of {} runs are there already\n", before, CountRuns(campaign, shard));
   }
-  std::signal(SIGINT, Interrupt);
-  std::signal(SIGTERM, Interrupt);
+  CatchInterrupts();
   sweep::SweepOptions options;
   options.jobs = arguments.jobs;
   options.timeout = arguments.timeout;
-  options.interrupted = [] { return interrupted.load(std::memory_order_relaxed); };
+  options.interrupted = Interrupted;
   std::optional<SweepBar> bar(std::in_place, WantsBar(arguments.no_progress));
   options.progress = [&bar](std::int64_t done, std::int64_t all) { bar->Show(done, all); };
   const auto start = std::chrono::steady_clock::now();

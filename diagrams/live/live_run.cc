@@ -24,8 +24,6 @@ namespace {
 using diagrams::LoadedDiagram;
 using diagrams::Override;
 
-constexpr double kForever = 1e6;  // s
-
 std::uint64_t WallClock() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   return static_cast<std::uint64_t>(
@@ -58,7 +56,7 @@ class LiveRunner {
   }
 
   LiveRunResult Run() {
-    const double end = options_.duration.value_or(kForever);
+    const double end = options_.duration.value_or(kLiveDuration);
     try {
       while (!stop_ && !session_->simulator().AdvanceTo(end)) {
         if (stop_) break;

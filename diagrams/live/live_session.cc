@@ -8,11 +8,6 @@
 #include "framework/port_access.h"
 
 namespace oca::live {
-namespace {
-
-constexpr double kForever = 1e6;  // s
-
-}  // namespace
 
 LiveSession::LiveSession(diagrams::LoadedDiagram loaded, record::RecorderOptions options,
                          std::vector<record::RecordSink*> sinks, double realtime_factor, Log* log)
@@ -25,7 +20,7 @@ LiveSession::LiveSession(diagrams::LoadedDiagram loaded, record::RecorderOptions
 
 void LiveSession::Start(Simulator::Monitor monitor) {
   simulator_.AddMonitor(std::move(monitor));
-  recorder_.Attach(simulator_, true, kForever);
+  recorder_.Attach(simulator_, true, kLiveDuration);
   attached_ = true;
 }
 

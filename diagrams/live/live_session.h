@@ -14,6 +14,9 @@
 
 namespace oca::live {
 
+/// How long a run lasts that somebody looks at and no file ends, s.
+inline constexpr double kLiveDuration = 1e6;
+
 /// Where obstacles were moved to from where the file has them, m, by the names of their positions.
 using Moves = std::map<std::string, Eigen::Vector3d>;
 

@@ -18,7 +18,7 @@ using Tangents = Eigen::Matrix<double, 3, 2>;
 constexpr int kMostSteps = 20;
 constexpr double kLongestStep = 0.1;  // rad
 constexpr double kLastStep = 1e-9;    // rad; the next one is its square
-constexpr double kRounding = 2e-15;   // of a support, of the size of the pair
+constexpr double kSupportRounding = 2e-15;   // of a support, of the size of the pair
 constexpr double kMostRest = 1e-11;   // the same, where a rim follows the last digit of a normal
 
 bool HasRim(const Collider& core, const Vector3d& p) {
@@ -158,7 +158,7 @@ bool Contact::AddExtreme() {
     lowest = std::min(lowest, n_.dot(points_[k].w));
     if (weights_[k] < weights_[lightest]) lightest = k;
   }
-  if (n_.dot(extreme.w) >= lowest - kRounding * pair_.Extent()) return false;
+  if (n_.dot(extreme.w) >= lowest - kSupportRounding * pair_.Extent()) return false;
   if (count_ == 3) points_[lightest] = points_[--count_];
   Add(extreme);
   return true;
@@ -205,12 +205,12 @@ bool FlatEnd(const CorePair& pair, bool of_a, double lower, CoreDistance* found)
   if (core.core() == Collider::Core::kCone && (n.dot(axis) > 0.0) != of_a) return false;
   const CorePair::Difference support = pair.Support(-n);
   const double reach = n.dot(support.w);
-  if (reach < lower - kRounding * pair.Extent()) return false;
+  if (reach < lower - kSupportRounding * pair.Extent()) return false;
   // The other core's point is the nearest one; what is below it on the end must be on the end.
   const Vector3d extreme = of_a ? Vector3d(pair.X_AB * support.b) : support.a;
   Vector3d other = of_a ? found->point_b : found->point_a;
   const double height = (extreme - other).dot(n);
-  if (std::abs(height) > kRounding * pair.Extent()) other = extreme;
+  if (std::abs(height) > kSupportRounding * pair.Extent()) other = extreme;
   const Vector3d below = of_a ? Vector3d(other + reach * n) : Vector3d(other - reach * n);
   const Vector3d centre = of_a ? Vector3d(Vector3d::Zero()) : Vector3d(pair.X_AB.translation());
   if ((below - centre).cross(axis).norm() > core.half().x()) return false;
@@ -227,7 +227,7 @@ bool RefineContact(const CorePair& pair, std::span<const CorePair::Difference> p
                    CoreDistance* found) {
   const double lower = found->distance - (found->distance > 0.0 ? found->gap : 0.0);
   CoreDistance better = *found;
-  const double rounding = kRounding * pair.Extent();
+  const double rounding = kSupportRounding * pair.Extent();
   double rest_left = 0.0;
   if (!FlatEnd(pair, true, lower, &better) && !FlatEnd(pair, false, lower, &better)) {
     Contact contact(pair, found->normal);

@@ -18,7 +18,7 @@ constexpr double kDirection = 4e-15;  // rounding of v, of the size, times the s
 constexpr double kBlunt = 1e-9;       // of the size: a bound that costs a direction nothing
 constexpr double kRefinable = 1e-5;   // of the size: from so near on a round contact is solved for
 constexpr double kRefinableShare = 1e-3;  // the same, of |v|
-constexpr double kRounding = 1e-15;  // of a difference of support points, of the size of the pair
+constexpr double kStepRounding = 1e-15;  // of a difference of support points, of the size of the pair
 
 // The bodies may have moved such that a remembered triangle is worth little; it is a start still.
 void Start(const CorePair& pair, const PairCache* cache, Simplex* simplex) {
@@ -105,7 +105,7 @@ GjkStatus Gjk(const CorePair& pair, double max_distance, bool separated, PairCac
     }
     const double shorter = std::sqrt(nearest.squared);
     // A step may gain less than rounding shows, yet turn the simplex for the next one.
-    if (shorter > length + kRounding * size || (shorter >= length && ++idle > kMaxIdleSteps)) {
+    if (shorter > length + kStepRounding * size || (shorter >= length && ++idle > kMaxIdleSteps)) {
       simplex.Drop();
       break;
     }

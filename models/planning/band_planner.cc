@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "models/planning/rrt_connect.h"
+#include "models/planning/smooth_step.h"
 #include "models/random.h"
 
 namespace oca::models {
@@ -30,11 +31,6 @@ constexpr double kMuchCheaper = 0.7;
 constexpr double kAtRest = 1e-9;
 
 /// 0 before 0, 1 after 1, with two derivatives that vanish at both.
-double SmoothStep(double s) {
-  s = std::clamp(s, 0.0, 1.0);
-  return s * s * s * (10.0 + s * (6.0 * s - 15.0));
-}
-
 /// 1 between first and last, falling to 0 within `ramp` on either side.
 double Window(double time, double first, double last, double ramp) {
   return SmoothStep((time - first + ramp) / ramp) * SmoothStep((last + ramp - time) / ramp);

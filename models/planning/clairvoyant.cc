@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "models/error.h"
+#include "models/planning/smooth_step.h"
 #include "models/random.h"
 
 namespace oca::models {
@@ -16,7 +17,7 @@ using Eigen::VectorXd;
 
 constexpr double kMovingInterval = 0.1;  // s, of the band while anything moves
 constexpr double kInterval = 0.2;        // s, else
-constexpr int kFewest = 8;               // intervals
+constexpr int kFewestIntervals = 8;      // intervals
 constexpr double kCoarseGrid = 1e-2;     // s; of the judge while the search goes on
 constexpr int kSteps = 80;               // of a relaxation
 constexpr int kFirstTries = 6;           // before the planner's, which are many
@@ -60,11 +61,6 @@ BandPlannerSettings PlannerSettings(const ClairvoyantTask& task) {
 }
 
 /// 0 before 0, 1 after 1, smooth.
-double SmoothStep(double s) {
-  s = std::clamp(s, 0.0, 1.0);
-  return s * s * s * (10.0 + s * (6.0 * s - 15.0));
-}
-
 class Search {
  public:
   Search(const std::shared_ptr<const RobotModel>& model, const ClairvoyantTask& task)
@@ -110,7 +106,8 @@ class Search {
     const bool moving = std::any_of(bodies_.begin(), bodies_.end(),
                                     [](const BandBody& body) { return !body.stands; });
     const double interval = moving ? kMovingInterval : kInterval;
-    const int count = std::max(kFewest, static_cast<int>(std::ceil(task_.duration / interval)));
+    const int count =
+        std::max(kFewestIntervals, static_cast<int>(std::ceil(task_.duration / interval)));
     std::vector<double> times;
     for (int i = 0; i <= count; ++i) times.push_back(task_.duration * i / count);
     return times;

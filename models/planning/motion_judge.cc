@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kRounding = 1.0 + 1e-9;  // of a share
+constexpr double kShareRounding = 1.0 + 1e-9;  // of a share
 constexpr double kKept = 2e-3;            // m; what is nearer lacks something
 constexpr double kUnit = 0.01;            // m that lack count as much as a whole limit
 
@@ -27,7 +27,7 @@ double Share(double x, double limit) {
 /// limit too, and beyond a range of one end or none the share is 2.
 double PositionShare(double q, double lower, double upper) {
   if (!std::isfinite(upper - lower)) {
-    const auto rounding = [](double limit) { return (kRounding - 1.0) * std::fabs(limit); };
+    const auto rounding = [](double limit) { return (kShareRounding - 1.0) * std::fabs(limit); };
     return q > upper + rounding(upper) || q < lower - rounding(lower) ? 2.0 : 0.0;
   }
   constexpr double kPoint = 1e-12;
@@ -37,7 +37,7 @@ double PositionShare(double q, double lower, double upper) {
 }  // namespace
 
 bool MotionVerdict::within_limits() const {
-  return position <= kRounding && speed <= kRounding && acceleration <= kRounding;
+  return position <= kShareRounding && speed <= kShareRounding && acceleration <= kShareRounding;
 }
 
 MotionJudge::MotionJudge(std::shared_ptr<const RobotModel> model, BandRequest request,
@@ -68,7 +68,7 @@ double MotionJudge::Excess(const VectorXd motion[3], const VectorXd& start,
   }
   double excess = 0.0;
   const auto count = [&](double share, double& largest) {
-    excess += std::max(share - kRounding, 0.0);
+    excess += std::max(share - kShareRounding, 0.0);
     largest = std::max(largest, share);
   };
   for (Eigen::Index j = 0; j < motion[0].size(); ++j) {

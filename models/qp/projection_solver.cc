@@ -9,7 +9,7 @@
 namespace oca::models {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 // Of the numbers that make up one residual, at least of 1: far above rounding, far below anything
 // that a joint can do.
 constexpr double kTolerance = 1e-12;
@@ -49,7 +49,7 @@ bool ProjectionSolver::Valid(const ProjectionQp& qp) const {
          qp.penalties.head(qp.num_rows).allFinite() &&
          (qp.penalties.head(qp.num_rows).array() >= 0.0).all() && qp.weights.allFinite() &&
          (qp.weights.array() > 0.0).all() && (qp.lower.array() <= qp.upper.array()).all() &&
-         (qp.lower.array() < kInfinity).all() && (qp.upper.array() > -kInfinity).all();
+         (qp.lower.array() < kUnbounded).all() && (qp.upper.array() > -kUnbounded).all();
 }
 
 /// False if a number overflows, of which nothing more could be said.
@@ -70,7 +70,7 @@ bool ProjectionSolver::Scale(const ProjectionQp& qp) {
   }
   lengths = lengths.cwiseSqrt();
   caps_.head(m_) = qp.penalties.head(m_).cwiseProduct(lengths);
-  caps_.segment(m_, 2 * n_).setConstant(kInfinity);
+  caps_.segment(m_, 2 * n_).setConstant(kUnbounded);
   multipliers_.head(m_ + 2 * n_).setZero();
   std::fill_n(places_.begin(), m_ + 2 * n_, Place::kFree);
   for (int i = 0; i < m_; ++i) {
@@ -156,7 +156,7 @@ ProjectionSolver::Step ProjectionSolver::LongestStep(int constraint, double dire
   for (int k = 0; k < factor_.size(); ++k) {
     const int other = active_[static_cast<std::size_t>(k)];
     const double rate = -direction * factor_.coefficients()[k];
-    double length = kInfinity;
+    double length = kUnbounded;
     if (rate < 0.0) length = multipliers_[other] / -rate;
     if (rate > 0.0) length = (caps_[other] - multipliers_[other]) / rate;
     if (length < step.length) step = {std::max(length, 0.0), k};
@@ -184,11 +184,11 @@ void ProjectionSolver::Enforce(int constraint, QpSolution& solution) {
     const double square = factor_.squared_length();
     const bool moves = factor_.size() < n_ && square > kDependent;
     const double whole =
-        moves ? std::max(-direction * Residual(constraint), 0.0) / square : kInfinity;
+        moves ? std::max(-direction * Residual(constraint), 0.0) / square : kUnbounded;
     Step step = LongestStep(constraint, direction);
     const bool arrives = whole <= step.length;
     if (arrives) step.length = whole;
-    if (step.length == kInfinity) {  // contradicts the box by no more than rounding
+    if (step.length == kUnbounded) {  // contradicts the box by no more than rounding
       place = Place::kIgnored;
       return;
     }
@@ -267,7 +267,7 @@ void ProjectionSolver::Solve(const ProjectionQp& qp, QpSolution& solution) {
       solution.u[j] = std::isfinite(nearest) ? nearest : 0.0;
     }
     solution.active.clear();
-    solution.kkt_residual = solution.relative_residual = solution.gap = kInfinity;
+    solution.kkt_residual = solution.relative_residual = solution.gap = kUnbounded;
     return;
   }
   guess_.clear();

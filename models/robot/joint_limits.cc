@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 // Of the larger end of a range: what digits in a file take from ranges that are meant to touch.
-constexpr double kRounding = 1e-9;
+constexpr double kLimitRounding = 1e-9;
 
 double Given(double limit) { return limit == 0.0 ? kUnlimited : limit; }
 
@@ -47,14 +47,14 @@ void Intersect(const PositionLimits& other, PositionLimits& limits) {
   limits.jerk = std::min(limits.jerk, other.jerk);
 }
 
-std::string Range(double lower, double upper) {
+std::string RangeText(double lower, double upper) {
   return fmt::format("[{:.9g}, {:.9g}]", lower, upper);
 }
 
 const char* UnitOf(const Joint& joint) { return joint.type == JointType::kPrismatic ? "m" : "rad"; }
 
 bool Below(double a, double b) {
-  return a < b - kRounding * std::max(std::fabs(a), std::isfinite(b) ? std::fabs(b) : 0.0);
+  return a < b - kLimitRounding * std::max(std::fabs(a), std::isfinite(b) ? std::fabs(b) : 0.0);
 }
 
 /// Takes what a mimic leaves of `limits`. Two ends that rounding has made cross are one.
@@ -70,8 +70,8 @@ void Bind(Name robot, const Joint& mimic, const KinematicStep& step, const Joint
         "robot '{}' joint '{}': mimic; got {} times the position of '{}' plus {}, which is outside "
         "its own limits {} {} wherever '{}' may stand, {} {}; expected limits that both can keep",
         robot.text(), mimic.name.text(), m, leader.name.text(), step.offset,
-        Range(mimic.lower_limit, mimic.upper_limit), UnitOf(mimic), leader.name.text(),
-        Range(before.lower, before.upper), UnitOf(leader)));
+        RangeText(mimic.lower_limit, mimic.upper_limit), UnitOf(mimic), leader.name.text(),
+        RangeText(before.lower, before.upper), UnitOf(leader)));
   }
   if (limits.upper < limits.lower) {
     limits.lower = limits.upper = 0.5 * limits.lower + 0.5 * limits.upper;
@@ -113,7 +113,7 @@ void WarnOfMimics(const RobotModel& model, std::vector<std::string>& lines) {
     std::vector<std::string> bounds;
     const char* unit = UnitOf(leader);
     if (Below(own.lower, lower) || Below(upper, own.upper)) {
-      bounds.push_back(fmt::format("{} {}", Range(lower, upper), unit));
+      bounds.push_back(fmt::format("{} {}", RangeText(lower, upper), unit));
     }
     if (Below(velocity, own.velocity)) bounds.push_back(fmt::format("{:.9g} {}/s", velocity, unit));
     if (Below(acceleration, own.acceleration)) {
@@ -139,7 +139,7 @@ void WarnOfRanges(const RobotModel& model, std::vector<std::string>& lines) {
     const double upper = model.upper_limits()[i];
     if (!std::isfinite(lower) || !std::isfinite(upper)) continue;
     lines.push_back(fmt::format("joint '{}': range {} {}, wider than {}; it is kept, but {}",
-                                joint.name.text(), Range(lower, upper), UnitOf(joint),
+                                joint.name.text(), RangeText(lower, upper), UnitOf(joint),
                                 joint.type == JointType::kPrismatic ? "100 m" : "100 turns",
                                 DrawnRange(model, i)
                                     ? "where postures are drawn they are drawn from one turn"

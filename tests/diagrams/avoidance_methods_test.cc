@@ -12,7 +12,7 @@
 #include "tests/diagrams/method_run.h"
 
 namespace oca::diagrams {
-namespace {
+namespace avoidance_methods_test {
 
 struct Case {
   std::string method;
@@ -117,5 +117,5 @@ INSTANTIATE_TEST_SUITE_P(Methods, WholeMotionTest,
                                                      "vortex", "safety_filter"})),
                          NameOf);
 
-}  // namespace
+}  // namespace avoidance_methods_test
 }  // namespace oca::diagrams

@@ -12,7 +12,7 @@
 #include "tests/temporary_folder.h"
 
 namespace oca::diagrams {
-namespace {
+namespace blind_spots_test {
 
 using testing::AllOf;
 using testing::ElementsAre;
@@ -172,5 +172,5 @@ TEST_F(BlindSpotsTest, AContactIsToldOnce) {
   EXPECT_EQ(result.expectations.size(), 1u);
 }
 
-}  // namespace
+}  // namespace blind_spots_test
 }  // namespace oca::diagrams

@@ -8,7 +8,7 @@
 #include <cmath>
 
 namespace oca::diagrams {
-namespace {
+namespace chatter_check_test {
 
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -79,5 +79,5 @@ TEST(ChatterCheckTest, LooksAtEveryArm) {
   EXPECT_NEAR(NumberAfter(warnings[0], "g = "), NumberAfter(warnings[1], "g = "), 0.5);
 }
 
-}  // namespace
+}  // namespace chatter_check_test
 }  // namespace oca::diagrams

@@ -23,7 +23,7 @@
 #include "tests/allocation_count.h"
 
 namespace oca::diagrams {
-namespace {
+namespace conformance_test {
 
 using nlohmann::ordered_json;
 using testing::HasSubstr;
@@ -305,5 +305,5 @@ TEST(CatalogueTest, NamesTheNearestOfAnUnknownType) {
   }
 }
 
-}  // namespace
+}  // namespace conformance_test
 }  // namespace oca::diagrams

@@ -9,7 +9,7 @@
 #include "tests/temporary_folder.h"
 
 namespace oca::diagrams {
-namespace {
+namespace document_test {
 
 using testing::HasSubstr;
 
@@ -275,5 +275,5 @@ TEST_F(DocumentTest, FilesThatIncludeOneAnotherTwiceEachAreRefusedQuickly) {
   EXPECT_THAT(problems, HasSubstr("include: more than 200 files"));
 }
 
-}  // namespace
+}  // namespace document_test
 }  // namespace oca::diagrams

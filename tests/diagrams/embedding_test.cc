@@ -13,7 +13,7 @@
 #include "tests/temporary_folder.h"
 
 namespace oca::diagrams {
-namespace {
+namespace embedding_test {
 
 using systems::ObstacleSet;
 using testing::HasSubstr;
@@ -178,5 +178,5 @@ connections: [obstacles.obstacles -> gain.in]
               HasSubstr("type; got ObstacleSet; expected Vector"));
 }
 
-}  // namespace
+}  // namespace embedding_test
 }  // namespace oca::diagrams

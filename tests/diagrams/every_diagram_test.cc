@@ -11,7 +11,7 @@
 #include "diagrams/run.h"
 
 namespace oca::diagrams {
-namespace {
+namespace every_diagram_test {
 
 namespace fs = std::filesystem;
 
@@ -53,5 +53,5 @@ INSTANTIATE_TEST_SUITE_P(Diagrams, EveryDiagramTest, testing::ValuesIn(DiagramFi
                            return name;
                          });
 
-}  // namespace
+}  // namespace every_diagram_test
 }  // namespace oca::diagrams

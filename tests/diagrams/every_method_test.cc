@@ -12,7 +12,7 @@
 #include "tests/diagrams/method_run.h"
 
 namespace oca::diagrams {
-namespace {
+namespace every_method_test {
 
 namespace fs = std::filesystem;
 
@@ -57,5 +57,5 @@ TEST_P(EveryMethodTest, RunsInEveryFile) {
 INSTANTIATE_TEST_SUITE_P(Methods, EveryMethodTest, testing::ValuesIn(Methods()),
                          [](const auto& method) { return method.param; });
 
-}  // namespace
+}  // namespace every_method_test
 }  // namespace oca::diagrams

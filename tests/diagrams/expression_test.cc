@@ -11,7 +11,7 @@
 #include "tests/diagrams/yaml_text.h"
 
 namespace oca::diagrams {
-namespace {
+namespace expression_test {
 
 using testing::HasSubstr;
 
@@ -312,5 +312,5 @@ TEST(ExpressionTest, AParameterThatNothingUsesIsNamedWithItsNearest) {
   EXPECT_EQ(expressions.Unused({"raeching"}).size(), 1u);
 }
 
-}  // namespace
+}  // namespace expression_test
 }  // namespace oca::diagrams

@@ -8,7 +8,7 @@
 #include "tests/temporary_folder.h"
 
 namespace oca::diagrams {
-namespace {
+namespace hull_warning_test {
 
 using testing::AllOf;
 using testing::ElementsAre;
@@ -74,5 +74,5 @@ TEST_F(HullWarningTest, AnObstacleMayBeDecomposed) {
   EXPECT_THAT(loaded.warnings, IsEmpty());
 }
 
-}  // namespace
+}  // namespace hull_warning_test
 }  // namespace oca::diagrams

@@ -13,7 +13,7 @@
 #include "tests/temporary_folder.h"
 
 namespace oca::diagrams {
-namespace {
+namespace loader_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -537,5 +537,5 @@ TEST_F(LoaderTest, AttachedObjectsThatCannotBeAreRefused) {
               HasSubstr("did you mean 'touches'?"));
 }
 
-}  // namespace
+}  // namespace loader_test
 }  // namespace oca::diagrams

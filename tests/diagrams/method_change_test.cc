@@ -7,7 +7,7 @@
 #include "tests/diagrams/method_run.h"
 
 namespace oca::diagrams {
-namespace {
+namespace method_change_test {
 
 std::string Ball(const std::string& id, const Eigen::Vector3d& p, const std::string& when = "") {
   return fmt::format(
@@ -117,5 +117,5 @@ INSTANTIATE_TEST_SUITE_P(
     Methods, JumpTest, testing::Combine(testing::ValuesIn(Methods()), testing::ValuesIn(Scenes())),
     [](const auto& of) { return std::get<0>(of.param) + "_" + std::get<1>(of.param).name; });
 
-}  // namespace
+}  // namespace method_change_test
 }  // namespace oca::diagrams

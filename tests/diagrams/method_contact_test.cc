@@ -7,7 +7,7 @@
 #include "tests/diagrams/method_run.h"
 
 namespace oca::diagrams {
-namespace {
+namespace method_contact_test {
 
 using Eigen::Vector3d;
 
@@ -95,5 +95,5 @@ TEST(ServoScalingContactTest, TheArmStaysWhereItIsWhateverIsRequested) {
   }
 }
 
-}  // namespace
+}  // namespace method_contact_test
 }  // namespace oca::diagrams

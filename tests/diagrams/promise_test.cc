@@ -12,7 +12,7 @@
 #include "diagrams/run.h"
 
 namespace oca::diagrams {
-namespace {
+namespace promise_test {
 
 namespace fs = std::filesystem;
 
@@ -74,5 +74,5 @@ INSTANTIATE_TEST_SUITE_P(Methods, PromiseTest, testing::ValuesIn(Cases()), [](co
   return name;
 });
 
-}  // namespace
+}  // namespace promise_test
 }  // namespace oca::diagrams

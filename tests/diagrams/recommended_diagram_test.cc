@@ -8,7 +8,7 @@
 #include "diagrams/run.h"
 
 namespace oca::diagrams {
-namespace {
+namespace recommended_diagram_test {
 
 nlohmann::json MetricsOf(const std::string& name, std::vector<Override> overrides) {
   overrides.push_back({"parameters.avoidance", "recommended"});
@@ -56,5 +56,5 @@ TEST(RecommendedDiagramTest, RunsToTheSameBitsTwice) {
   EXPECT_EQ(MetricsOf("dynamic_test", {}), MetricsOf("dynamic_test", {}));
 }
 
-}  // namespace
+}  // namespace recommended_diagram_test
 }  // namespace oca::diagrams

@@ -13,7 +13,7 @@
 #include "tests/allocation_count.h"
 
 namespace oca::diagrams {
-namespace {
+namespace safety_filter_diagram_test {
 
 std::string FileOf(const std::string& name) { return OCA_SOURCE_DIR "/diagrams/" + name + ".yaml"; }
 
@@ -123,5 +123,5 @@ TEST(SafetyFilterDiagramTest, TwoRunsGiveTheSameBits) {
   EXPECT_EQ(MetricsOf("safety_filter_static", {}), MetricsOf("safety_filter_static", {}));
 }
 
-}  // namespace
+}  // namespace safety_filter_diagram_test
 }  // namespace oca::diagrams

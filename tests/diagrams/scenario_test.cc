@@ -25,7 +25,7 @@
 #include "tests/temporary_folder.h"
 
 namespace oca::diagrams {
-namespace {
+namespace scenario_test {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
@@ -298,5 +298,5 @@ TEST(ScenarioTest, TellsWhereAMistakeStands) {
       HasSubstr("expected either shell or approach"));
 }
 
-}  // namespace
+}  // namespace scenario_test
 }  // namespace oca::diagrams

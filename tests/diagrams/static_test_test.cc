@@ -11,7 +11,7 @@
 #include "tests/allocation_count.h"
 
 namespace oca::diagrams {
-namespace {
+namespace static_test_test {
 
 constexpr double kJointRange = 2.97;  // rad, of joint 1
 
@@ -163,5 +163,5 @@ TEST(StaticTest, RunsWithoutTheHeapFromInitializeToTheGoal) {
   }
 }
 
-}  // namespace
+}  // namespace static_test_test
 }  // namespace oca::diagrams

@@ -12,7 +12,7 @@
 #include "tests/diagrams/method_run.h"
 
 namespace oca::diagrams {
-namespace {
+namespace symmetry_test {
 
 using Eigen::Vector3d;
 
@@ -115,5 +115,5 @@ std::vector<Case> Cases() {
 INSTANTIATE_TEST_SUITE_P(Methods, SymmetryTest, testing::ValuesIn(Cases()),
                          [](const auto& of) { return of.param.method + "_" + of.param.file; });
 
-}  // namespace
+}  // namespace symmetry_test
 }  // namespace oca::diagrams

@@ -13,7 +13,7 @@
 #include "tests/diagrams/method_run.h"
 
 namespace oca::diagrams {
-namespace {
+namespace unmovable_row_test {
 
 using Eigen::Vector3d;
 
@@ -149,5 +149,5 @@ INSTANTIATE_TEST_SUITE_P(Arms, UnmovableRowTest, testing::ValuesIn(Cases()), [](
   return of.param.scene.name + "_" + of.param.method;
 });
 
-}  // namespace
+}  // namespace unmovable_row_test
 }  // namespace oca::diagrams

@@ -8,7 +8,7 @@
 #include "diagrams/run.h"
 
 namespace oca::diagrams {
-namespace {
+namespace velocity_methods_diagram_test {
 
 nlohmann::json MetricsOf(const std::string& name, const std::vector<Override>& overrides) {
   const RunResult result =
@@ -67,5 +67,5 @@ TEST(VelocityMethodsDiagramTest, WithoutAvoidanceTheyLeaveTheRequestAlone) {
   }
 }
 
-}  // namespace
+}  // namespace velocity_methods_diagram_test
 }  // namespace oca::diagrams

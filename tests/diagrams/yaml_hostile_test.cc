@@ -13,7 +13,7 @@
 #include "tests/temporary_folder.h"
 
 namespace oca::diagrams {
-namespace {
+namespace yaml_hostile_test {
 
 using testing::HasSubstr;
 namespace fs = std::filesystem;
@@ -163,5 +163,5 @@ TEST(YamlHostileTest, TenThousandMutationsOfRealFilesNeverCrash) {
   EXPECT_LT(refused, 10000);
 }
 
-}  // namespace
+}  // namespace yaml_hostile_test
 }  // namespace oca::diagrams

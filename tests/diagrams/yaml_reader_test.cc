@@ -9,7 +9,7 @@
 #include "tests/diagrams/yaml_text.h"
 
 namespace oca::diagrams {
-namespace {
+namespace yaml_reader_test {
 
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -227,5 +227,5 @@ TEST(YamlReaderTest, JsonThatIsWrongIsRefusedByName) {
   EXPECT_THAT(refusal(std::string(1000, '[') + std::string(1000, ']')), HasSubstr("nested deeper"));
 }
 
-}  // namespace
+}  // namespace yaml_reader_test
 }  // namespace oca::diagrams

@@ -4,7 +4,7 @@
 #include "tests/framework/blocks.h"
 
 namespace oca {
-namespace {
+namespace algebraic_loop_test {
 
 using blocks::ProblemsOf;
 using testing::ElementsAre;
@@ -135,5 +135,5 @@ TEST(AlgebraicLoopTest, IsJudgedPortByPortNotSystemBySystem) {
   EXPECT_EQ(crossing.out1.Eval(diagram->MakeContext())[0], 5.0);
 }
 
-}  // namespace
+}  // namespace algebraic_loop_test
 }  // namespace oca

@@ -6,7 +6,7 @@
 #include "tests/framework/blocks.h"
 
 namespace oca {
-namespace {
+namespace caching_test {
 
 using blocks::Vec;
 
@@ -195,5 +195,5 @@ TEST(CachingTest, AnExportedInputThatNobodyFixedIsNamedWhateverItsType) {
             "system.in at t = 0 s: the exported input has not been fixed");
 }
 
-}  // namespace
+}  // namespace caching_test
 }  // namespace oca

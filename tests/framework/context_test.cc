@@ -13,7 +13,7 @@
 #include "tests/framework/integrator_kinds.h"
 
 namespace oca {
-namespace {
+namespace context_test {
 
 using blocks::Vec;
 
@@ -207,5 +207,5 @@ TEST(ContextValueTest, RefusesStatesOfAnotherLengthOrThatAreNotFinite) {
   EXPECT_EQ(ode.x.Get(context)[0], 4.0);
 }
 
-}  // namespace
+}  // namespace context_test
 }  // namespace oca

@@ -12,7 +12,7 @@
 #include "tests/framework/blocks.h"
 
 namespace oca {
-namespace {
+namespace control_loop_test {
 
 using blocks::Vec;
 using testing::ElementsAre;
@@ -344,5 +344,5 @@ TEST(StatusTest, TellsAnyException) {
   EXPECT_TRUE(Status().ok());
 }
 
-}  // namespace
+}  // namespace control_loop_test
 }  // namespace oca

@@ -6,7 +6,7 @@
 #include "tests/framework/blocks.h"
 
 namespace oca {
-namespace {
+namespace event_order_test {
 
 using blocks::Vec;
 using testing::ElementsAre;
@@ -253,5 +253,5 @@ TEST(SimulatorContractTest, AnUpdateMayNotWriteContinuousStateNorTwoUpdatesOneSt
   EXPECT_THROW(WritesTwice{}, WiringError);
 }
 
-}  // namespace
+}  // namespace event_order_test
 }  // namespace oca

@@ -9,7 +9,7 @@
 #include "tests/framework/blocks.h"
 
 namespace oca {
-namespace {
+namespace event_rates_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -156,5 +156,5 @@ TEST(SimulatorContractTest, Line4AStartTooLateToCountTicksIsRefused) {
   EXPECT_THROW(rates.simulator->Initialize(), ConfigError);
 }
 
-}  // namespace
+}  // namespace event_rates_test
 }  // namespace oca

@@ -11,7 +11,7 @@
 #include "tests/framework/integrator_kinds.h"
 
 namespace oca {
-namespace {
+namespace failure_test {
 
 using blocks::Vec;
 using testing::ElementsAre;
@@ -306,5 +306,5 @@ TEST(FailureOfStartTest, AVectorThatIsNotFiniteIsRefusedWhereItIsFixed) {
   EXPECT_THROW(diagram->GetInput<Vector>("in").Fix(context, Vec({std::nan("")})), ConfigError);
 }
 
-}  // namespace
+}  // namespace failure_test
 }  // namespace oca

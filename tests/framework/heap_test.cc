@@ -14,7 +14,7 @@
 #include "tests/framework/integrator_kinds.h"
 
 namespace oca {
-namespace {
+namespace heap_test {
 
 class HeapTest : public testing::TestWithParam<IntegratorKind> {
  protected:
@@ -173,5 +173,5 @@ TEST(HeapObjectTest, AssigningAContextWithObjectsReusesTheirCapacity) {
   EXPECT_EQ(out.Eval(two).text, other.text);
 }
 
-}  // namespace
+}  // namespace heap_test
 }  // namespace oca

@@ -10,7 +10,7 @@
 #include "tests/framework/integrator_kinds.h"
 
 namespace oca {
-namespace {
+namespace integrator_test {
 
 using blocks::Vec;
 
@@ -220,5 +220,5 @@ TEST(IntegratorOrderTest, TolerancesCanBeSetForOneSystem) {
   EXPECT_THROW(steps({{"ode", {1e-10, -1.0}}}), ConfigError);
 }
 
-}  // namespace
+}  // namespace integrator_test
 }  // namespace oca

@@ -9,7 +9,7 @@
 #include "tests/framework/blocks.h"
 
 namespace oca {
-namespace {
+namespace nested_diagram_test {
 
 using blocks::Vec;
 
@@ -153,5 +153,5 @@ TEST(NestedDiagramTest, ErrorsNameThePathInside) {
                                    "of type Vector"));
 }
 
-}  // namespace
+}  // namespace nested_diagram_test
 }  // namespace oca

@@ -9,7 +9,7 @@
 #include "tests/framework/blocks.h"
 
 namespace oca {
-namespace {
+namespace pacing_test {
 
 using testing::DoubleNear;
 using testing::ElementsAre;
@@ -146,5 +146,5 @@ TEST(ProfileTest, BelongsToItsSimulatorAndNotToCopiesOfItsContext) {
   EXPECT_EQ(simulator.profile()[0].calls, 0) << "evaluated outside AdvanceTo";
 }
 
-}  // namespace
+}  // namespace pacing_test
 }  // namespace oca

@@ -7,7 +7,7 @@
 #include "tests/framework/example_params.h"
 
 namespace oca {
-namespace {
+namespace params_schema_test {
 
 using nlohmann::json;
 
@@ -110,5 +110,5 @@ TEST(ParamsSchemaTest, EveryTypeHasAName) {
                          "number", "number", "number or list"));
 }
 
-}  // namespace
+}  // namespace params_schema_test
 }  // namespace oca

@@ -11,7 +11,7 @@
 #include "tests/framework/values.h"
 
 namespace oca {
-namespace {
+namespace params_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -263,5 +263,5 @@ TEST(BoundsTest, ReadAsAPersonWouldWriteThem) {
   EXPECT_FALSE(Bounds{}.Contains(kNan));
 }
 
-}  // namespace
+}  // namespace params_test
 }  // namespace oca

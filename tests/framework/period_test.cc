@@ -11,7 +11,7 @@
 #include "framework/error.h"
 
 namespace oca {
-namespace {
+namespace period_test {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -105,5 +105,5 @@ TEST(PeriodTest, ReadsAsADecimalWhereItIsOne) {
   EXPECT_EQ(Period(1, 60).ToString(), "1/60 s");
 }
 
-}  // namespace
+}  // namespace period_test
 }  // namespace oca

@@ -7,7 +7,7 @@
 #include "tests/framework/blocks.h"
 
 namespace oca {
-namespace {
+namespace signal_log_test {
 
 using blocks::Vec;
 using testing::HasSubstr;
@@ -104,5 +104,5 @@ TEST(SignalLogTest, RefusesOutputsOfAnotherDiagramAndALateStart) {
   EXPECT_THROW(SignalLog(simulator, {sources.clocks}, Period(1, 1), 1), ConfigError);
 }
 
-}  // namespace
+}  // namespace signal_log_test
 }  // namespace oca

@@ -13,7 +13,7 @@
 #include "tests/framework/blocks.h"
 
 namespace oca {
-namespace {
+namespace signal_test {
 
 using testing::HasSubstr;
 using Limits = std::numeric_limits<double>;
@@ -129,5 +129,5 @@ TEST(SignalTest, TheTypeEntryHandlesValuesWithoutTheirCppType) {
   type.destroy(memory[1]);
 }
 
-}  // namespace
+}  // namespace signal_test
 }  // namespace oca

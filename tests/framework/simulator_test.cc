@@ -10,7 +10,7 @@
 #include "tests/framework/blocks.h"
 
 namespace oca {
-namespace {
+namespace simulator_test {
 
 using blocks::Vec;
 using testing::ElementsAre;
@@ -230,5 +230,5 @@ TEST(SimulatorTest, RefusesIntegratorOptionsOutOfBounds) {
   EXPECT_NO_THROW(Simulator(*diagram, {.max_steps = 1}));
 }
 
-}  // namespace
+}  // namespace simulator_test
 }  // namespace oca

@@ -6,7 +6,7 @@
 #include "tests/framework/blocks.h"
 
 namespace oca {
-namespace {
+namespace typed_ports_test {
 
 using blocks::ProblemsOf;
 using blocks::Vec;
@@ -117,5 +117,5 @@ TEST(TypedPortsTest, APortOfAnotherTypeOrNameIsRefusedNamingWhatThereIs) {
               HasSubstr("no input port 'nothing_like_it'; input ports are: in"));
 }
 
-}  // namespace
+}  // namespace typed_ports_test
 }  // namespace oca

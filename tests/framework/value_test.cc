@@ -7,7 +7,7 @@
 #include "framework/nearest.h"
 
 namespace oca {
-namespace {
+namespace value_test {
 
 const auto kFile = std::make_shared<const std::string>("arm.yaml");
 
@@ -114,5 +114,5 @@ TEST(DidYouMeanTest, DoesNotTryHugeWords) {
   EXPECT_EQ(DidYouMean(std::string(201, 'a'), names), "");
 }
 
-}  // namespace
+}  // namespace value_test
 }  // namespace oca

@@ -6,7 +6,7 @@
 #include "tests/framework/blocks.h"
 
 namespace oca {
-namespace {
+namespace wiring_test {
 
 using blocks::ProblemsOf;
 using blocks::Vec;
@@ -458,5 +458,5 @@ TEST(WiringTest, AnEmptyDiagramIsADiagram) {
   EXPECT_EQ(diagram->MakeContext().time(), 0.0);
 }
 
-}  // namespace
+}  // namespace wiring_test
 }  // namespace oca

@@ -15,7 +15,7 @@
 #include "tests/framework/integrator_kinds.h"
 
 namespace oca {
-namespace {
+namespace witness_peer_test {
 
 constexpr double kStart = 2.0;  // rad
 constexpr double kEnd = 20.0;   // s
@@ -102,5 +102,5 @@ TEST_P(WitnessPeerTest, AgreesWithTheRootsThatCvodeFinds) {
   }
 }
 
-}  // namespace
+}  // namespace witness_peer_test
 }  // namespace oca

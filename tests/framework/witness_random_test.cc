@@ -13,7 +13,7 @@
 #include "tests/framework/integrator_kinds.h"
 
 namespace oca {
-namespace {
+namespace witness_random_test {
 
 constexpr int kCases = 400;
 constexpr int kGuards = 3;
@@ -287,5 +287,5 @@ TEST_P(WitnessRandomTest, AWalkerThatTurnsAndIsThrownCrossesWhereArithmeticSays)
   }
 }
 
-}  // namespace
+}  // namespace witness_random_test
 }  // namespace oca

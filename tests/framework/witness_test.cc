@@ -11,7 +11,7 @@
 #include "tests/framework/integrator_kinds.h"
 
 namespace oca {
-namespace {
+namespace witness_test {
 
 using blocks::Vec;
 using testing::DoubleNear;
@@ -490,5 +490,5 @@ TEST(WitnessDeclarationTest, RefusesASecondWitnessOfOneNameAndAForeignOne) {
   EXPECT_THROW(Wrong wrong(&foreign), WiringError);
 }
 
-}  // namespace
+}  // namespace witness_test
 }  // namespace oca

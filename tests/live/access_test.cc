@@ -9,7 +9,7 @@
 #include "framework/error.h"
 
 namespace oca::live {
-namespace {
+namespace access_test {
 
 using testing::HasSubstr;
 
@@ -232,5 +232,5 @@ TEST(AccessTest, MakesATokenOf128BitsThatNobodyHadBefore) {
   }
 }
 
-}  // namespace
+}  // namespace access_test
 }  // namespace oca::live

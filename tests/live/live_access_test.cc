@@ -13,7 +13,7 @@
 #include "tests/live/ws_client.h"
 
 namespace oca::live {
-namespace {
+namespace live_access_test {
 
 using testing::HasSubstr;
 
@@ -170,5 +170,5 @@ TEST(LiveAccessTest, RefusesAnOriginThatIsNone) {
   EXPECT_THROW(LiveServer{options}, ConfigError);
 }
 
-}  // namespace
+}  // namespace live_access_test
 }  // namespace oca::live

@@ -14,7 +14,7 @@
 #include "tests/temporary_folder.h"
 
 namespace oca::live {
-namespace {
+namespace live_change_test {
 
 using testing::HasSubstr;
 
@@ -192,5 +192,5 @@ TEST(ContinuedSinkTest, GivesLaterRecordersTheChannelsOfTheFirst) {
   EXPECT_EQ(noting.notes, "begin 2;1 x;1 y;0 z;");
 }
 
-}  // namespace
+}  // namespace live_change_test
 }  // namespace oca::live

@@ -14,7 +14,7 @@
 #include "tests/temporary_folder.h"
 
 namespace oca::live {
-namespace {
+namespace live_run_test {
 
 using diagrams::LoadDiagram;
 using diagrams::LoadedDiagram;
@@ -142,5 +142,5 @@ TEST_F(LiveRunTest, RefusesAFileThatCannotBeLoaded) {
   EXPECT_THROW(RunLive(options, server), ConfigError);
 }
 
-}  // namespace
+}  // namespace live_run_test
 }  // namespace oca::live

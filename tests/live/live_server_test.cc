@@ -20,7 +20,7 @@
 #include "tests/live/ws_client.h"
 
 namespace oca::live {
-namespace {
+namespace live_server_test {
 
 using testing::HasSubstr;
 using namespace std::chrono_literals;
@@ -367,5 +367,5 @@ TEST(LiveServerTest, RefusesMoreConnectionsThanItWants) {
   three.Settle();
 }
 
-}  // namespace
+}  // namespace live_server_test
 }  // namespace oca::live

@@ -11,7 +11,7 @@
 #include "tests/temporary_folder.h"
 
 namespace oca::live {
-namespace {
+namespace page_test {
 
 using testing::HasSubstr;
 
@@ -65,5 +65,5 @@ TEST(PageTest, SaysHowToBuildThePageIfThereIsNone) {
   }
 }
 
-}  // namespace
+}  // namespace page_test
 }  // namespace oca::live

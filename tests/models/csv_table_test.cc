@@ -14,7 +14,7 @@
 #include "tests/temporary_folder.h"
 
 namespace oca::models {
-namespace {
+namespace csv_table_test {
 
 using ::testing::ElementsAre;
 using ::testing::EndsWith;
@@ -269,5 +269,5 @@ TEST_F(CsvTableTest, ReadsBackWhatIsWritten) {
   }
 }
 
-}  // namespace
+}  // namespace csv_table_test
 }  // namespace oca::models

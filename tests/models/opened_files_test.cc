@@ -8,7 +8,7 @@
 #include "tests/temporary_folder.h"
 
 namespace oca::models {
-namespace {
+namespace opened_files_test {
 
 namespace fs = std::filesystem;
 using ::testing::ElementsAre;
@@ -71,5 +71,5 @@ TEST(OpenedFilesTest, ComparesNamesOfFoldersWhole) {
   EXPECT_FALSE(LiesBelow("/a/b", "/a/b"));
 }
 
-}  // namespace
+}  // namespace opened_files_test
 }  // namespace oca::models

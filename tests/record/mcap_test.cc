@@ -10,7 +10,7 @@
 #include "framework/error.h"
 
 namespace oca::record {
-namespace {
+namespace mcap_test {
 
 using testing::HasSubstr;
 
@@ -140,5 +140,5 @@ TEST(McapTest, RefusesAnUnknownCompression) {
   EXPECT_THROW(ParseCompression("gzip"), ConfigError);
 }
 
-}  // namespace
+}  // namespace mcap_test
 }  // namespace oca::record

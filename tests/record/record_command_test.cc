@@ -9,7 +9,7 @@
 #include "tests/tools/program.h"
 
 namespace oca::tools {
-namespace {
+namespace record_command_test {
 
 using nlohmann::json;
 using testing::HasSubstr;
@@ -132,5 +132,5 @@ TEST_F(RecordCommandTest, RefusesFilesThatAreNoRecordsOrCannotBeWritten) {
             64);
 }
 
-}  // namespace
+}  // namespace record_command_test
 }  // namespace oca::tools

@@ -14,7 +14,7 @@
 #include "tests/temporary_folder.h"
 
 namespace oca::record {
-namespace {
+namespace record_files_test {
 
 namespace fs = std::filesystem;
 using oca::test::TemporaryFolder;
@@ -222,5 +222,5 @@ TEST(RecordFilesTest, RefusesARecordWithoutADiagram) {
   EXPECT_THROW(ExtractedRecord{FileOf({})}, ConfigError);
 }
 
-}  // namespace
+}  // namespace record_files_test
 }  // namespace oca::record

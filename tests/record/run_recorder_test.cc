@@ -18,7 +18,7 @@
 #include "tests/temporary_folder.h"
 
 namespace oca::record {
-namespace {
+namespace run_recorder_test {
 
 using nlohmann::json;
 using test::kEpoch;
@@ -294,5 +294,5 @@ TEST(RunRecorderTest, TakesNothingFromTheHeapInATick) {
   EXPECT_EQ(watch.after - watch.before, 0);
 }
 
-}  // namespace
+}  // namespace run_recorder_test
 }  // namespace oca::record

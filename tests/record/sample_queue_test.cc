@@ -10,7 +10,7 @@
 #include "systems/gain.h"
 
 namespace oca::record {
-namespace {
+namespace sample_queue_test {
 
 /// A gain of 1: its output is what it is told.
 class SampleQueueTest : public testing::Test {
@@ -96,5 +96,5 @@ TEST_F(SampleQueueTest, LosesNothingBetweenTwoThreads) {
   EXPECT_EQ(queue.dropped(), 0);
 }
 
-}  // namespace
+}  // namespace sample_queue_test
 }  // namespace oca::record

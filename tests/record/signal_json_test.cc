@@ -11,7 +11,7 @@
 #include "systems/signals.h"
 
 namespace oca::record {
-namespace {
+namespace signal_json_test {
 
 using nlohmann::json;
 
@@ -106,5 +106,5 @@ TEST(SignalJsonTest, TimesAreSecondsAndNanoseconds) {
   EXPECT_EQ(out, R"({"sec":1700000000,"nsec":1})");
 }
 
-}  // namespace
+}  // namespace signal_json_test
 }  // namespace oca::record

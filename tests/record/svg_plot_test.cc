@@ -13,7 +13,7 @@
 #include "framework/error.h"
 
 namespace oca::record {
-namespace {
+namespace svg_plot_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -89,5 +89,5 @@ TEST(SvgPlotTest, RefusesToDrawNothing) {
   EXPECT_THROW(SvgPlot({PlotPanel{"", "", "", {{"", {0}, {std::nan("")}}}}}), ConfigError);
 }
 
-}  // namespace
+}  // namespace svg_plot_test
 }  // namespace oca::record

@@ -9,7 +9,7 @@
 #include "framework/error.h"
 
 namespace oca::sweep {
-namespace {
+namespace campaign_test {
 
 using testing::HasSubstr;
 
@@ -116,5 +116,5 @@ TEST(ShardTest, ReadsIndexAndCount) {
   }
 }
 
-}  // namespace
+}  // namespace campaign_test
 }  // namespace oca::sweep

@@ -15,7 +15,7 @@
 #include "tests/sweep/tiny_campaign.h"
 
 namespace oca::sweep {
-namespace {
+namespace result_file_test {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
@@ -196,5 +196,5 @@ TEST_F(SweepTest, MergesOnlyWhatIsWholeAndOfOneCampaign) {
   EXPECT_THAT(MergeError("out"), HasSubstr("got shards of divisions by 2, 3"));
 }
 
-}  // namespace
+}  // namespace result_file_test
 }  // namespace oca::sweep

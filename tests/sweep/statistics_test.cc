@@ -8,7 +8,7 @@
 #include "diagrams/sweep/step_times.h"
 
 namespace oca::sweep {
-namespace {
+namespace statistics_test {
 
 // Newcombe, Two-sided confidence intervals for the single proportion, Stat. Med. 17, 1998, table I,
 // method 3.
@@ -69,5 +69,5 @@ TEST(StepTimesTest, FindsQuantilesToOnePerCentAndAddsUp) {
   EXPECT_EQ(StepTimes().Quantile(0.5), 0.0);
 }
 
-}  // namespace
+}  // namespace statistics_test
 }  // namespace oca::sweep

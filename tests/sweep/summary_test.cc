@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace oca::sweep {
-namespace {
+namespace summary_test {
 
 SampleRow Row(std::int64_t sample, const char* metrics) {
   SampleRow row;
@@ -85,5 +85,5 @@ TEST(SummarizeTest, CountsSharesAndFindsMedianAndWorst) {
   EXPECT_EQ(summary.failures[2].command, "simulator run f.yaml --seed 0");
 }
 
-}  // namespace
+}  // namespace summary_test
 }  // namespace oca::sweep

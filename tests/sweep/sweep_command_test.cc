@@ -11,7 +11,7 @@
 #include "tests/tools/program.h"
 
 namespace oca::tools {
-namespace {
+namespace sweep_command_test {
 
 using nlohmann::json;
 using testing::HasSubstr;
@@ -148,5 +148,5 @@ TEST_F(SweepCommandTest, RefusesWhatItCannotDo) {
   EXPECT_EQ(run(sweep_ + "-o /nowhere/at/all").status, 64) << "-o twice";
 }
 
-}  // namespace
+}  // namespace sweep_command_test
 }  // namespace oca::tools

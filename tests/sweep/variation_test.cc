@@ -9,7 +9,7 @@
 #include "framework/error.h"
 
 namespace oca::sweep {
-namespace {
+namespace variation_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -92,5 +92,5 @@ TEST(VariationTest, RefusesWhatItDoesNotUnderstand) {
   }
 }
 
-}  // namespace
+}  // namespace variation_test
 }  // namespace oca::sweep

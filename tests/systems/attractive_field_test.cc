@@ -9,7 +9,7 @@
 #include "tests/system_bench.h"
 
 namespace oca::systems {
-namespace {
+namespace attractive_field_test {
 
 AttractiveField::Params Pull() {
   AttractiveField::Params params;
@@ -101,5 +101,5 @@ TEST(AttractiveFieldTest, RefusesParametersThatMakeNoField) {
   EXPECT_NO_THROW(AttractiveField(with([](Params& p) { p.gain = 0.0; })));
 }
 
-}  // namespace
+}  // namespace attractive_field_test
 }  // namespace oca::systems

@@ -10,7 +10,7 @@
 #include "tests/system_bench.h"
 
 namespace oca::systems {
-namespace {
+namespace avoidance_log_test {
 
 using ::testing::ElementsAre;
 
@@ -90,5 +90,5 @@ TEST(AvoidanceLogTest, RefusesAPeriodOfZero) {
   EXPECT_THROW(AvoidanceLog(AvoidanceLog::Params{}), ConfigError);
 }
 
-}  // namespace
+}  // namespace avoidance_log_test
 }  // namespace oca::systems

@@ -8,7 +8,7 @@
 #include "framework/error.h"
 
 namespace oca::systems {
-namespace {
+namespace avoidance_velocity_test {
 
 TEST(AvoidanceVelocityTest, ComesBackFromItsText) {
   AvoidanceVelocity value;
@@ -32,5 +32,5 @@ TEST(AvoidanceVelocityTest, RefusesAnUnknownKeyAndTellsNumbersThatAreNone) {
   EXPECT_FALSE(Signal<AvoidanceVelocity>::Check(value, Look::kFinite).ok());
 }
 
-}  // namespace
+}  // namespace avoidance_velocity_test
 }  // namespace oca::systems

@@ -6,7 +6,7 @@
 #include "framework/error.h"
 
 namespace oca::systems {
-namespace {
+namespace band_memory_test {
 
 models::BandCurve Curve(double start) {
   std::vector<double> times;
@@ -57,5 +57,5 @@ TEST(BandMemoryTest, ABandThatIsNotFiniteIsNoSignal) {
   EXPECT_FALSE(Signal<BandMemory>::Check(memory, Look::kFinite).ok());
 }
 
-}  // namespace
+}  // namespace band_memory_test
 }  // namespace oca::systems

@@ -15,7 +15,7 @@
 #include "tests/systems/test_models.h"
 
 namespace oca::systems {
-namespace {
+namespace bullet_distance_test {
 
 using Eigen::Vector3d;
 using ::testing::AllOf;
@@ -539,5 +539,5 @@ TEST(BulletDistanceTest, FindsThatTheRequestedPathOfTheStaticTestGoesThroughTheB
   EXPECT_NEAR(least, -0.122, 0.001);
 }
 
-}  // namespace
+}  // namespace bullet_distance_test
 }  // namespace oca::systems

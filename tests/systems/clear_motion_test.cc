@@ -8,7 +8,7 @@
 #include "framework/error.h"
 
 namespace oca::systems {
-namespace {
+namespace clear_motion_test {
 
 TEST(ClearMotionTest, KnowsWhatItWasPlannedWithAndNothingElse) {
   ClearMotion motion{.clear_for = 1.0, .bodies = {models::Name("box"), models::Name("ball")}};
@@ -47,5 +47,5 @@ TEST(ClearMotionTest, TellsNumbersThatAreNone) {
                    .ok());
 }
 
-}  // namespace
+}  // namespace clear_motion_test
 }  // namespace oca::systems

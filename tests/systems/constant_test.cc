@@ -10,7 +10,7 @@
 #include "tests/system_bench.h"
 
 namespace oca::systems {
-namespace {
+namespace constant_test {
 
 TEST(ConstantTest, ShowsItsValueAtAnyTime) {
   SystemBench<Constant> bench(Constant::Example());
@@ -35,5 +35,5 @@ TEST(ConstantTest, RefusesNaNAndNothing) {
   EXPECT_THROW(Constant({.value = Eigen::VectorXd()}), ConfigError);
 }
 
-}  // namespace
+}  // namespace constant_test
 }  // namespace oca::systems

@@ -8,7 +8,7 @@
 #include "framework/error.h"
 
 namespace oca::systems {
-namespace {
+namespace contact_slopes_test {
 
 using SlopesSignal = Signal<ContactSlopes>;
 
@@ -43,5 +43,5 @@ TEST(ContactSlopesTest, IsNotFiniteWithOneNumberThatIsNot) {
   EXPECT_FALSE(SlopesSignal::Check(value, Look::kFinite).ok());
 }
 
-}  // namespace
+}  // namespace contact_slopes_test
 }  // namespace oca::systems

@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace oca::systems {
-namespace {
+namespace delay_line_test {
 
 using Eigen::Vector2d;
 
@@ -43,5 +43,5 @@ TEST(DelayLineTest, ShowsItsSamplesAsJson) {
   EXPECT_EQ(Eigen::VectorXd(ReadVectorJson(json)), Eigen::Vector4d(1.0, 2.5, 1.0, 2.5));
 }
 
-}  // namespace
+}  // namespace delay_line_test
 }  // namespace oca::systems

@@ -8,7 +8,7 @@
 #include "tests/system_bench.h"
 
 namespace oca::systems {
-namespace {
+namespace delay_test {
 
 using ::testing::HasSubstr;
 
@@ -96,5 +96,5 @@ TEST(DelayTest, RefusesNoDelayTwoDelaysAndEndlessOnes) {
   EXPECT_THAT(RefusalOf({.period = Period(), .steps = 1}), HasSubstr("period"));
 }
 
-}  // namespace
+}  // namespace delay_test
 }  // namespace oca::systems

@@ -9,7 +9,7 @@
 #include "tests/system_bench.h"
 
 namespace oca::systems {
-namespace {
+namespace delta_limiter_test {
 
 DeltaLimiter::Params Limit(const PerComponent& max_joint_velocity) {
   return {.max_joint_velocity = max_joint_velocity, .period = Period(1, 100)};
@@ -95,5 +95,5 @@ TEST(DeltaLimiterTest, RefusesPeriodZero) {
   EXPECT_THROW(DeltaLimiter({.max_joint_velocity = 0.6, .period = Period()}), ConfigError);
 }
 
-}  // namespace
+}  // namespace delta_limiter_test
 }  // namespace oca::systems

@@ -7,7 +7,7 @@
 #include "tests/system_bench.h"
 
 namespace oca::systems {
-namespace {
+namespace delta_overlay_test {
 
 Eigen::VectorXd One(double value) { return Eigen::VectorXd::Constant(1, value); }
 
@@ -87,5 +87,5 @@ TEST(DeltaOverlayTest, RefusesANegativePeriod) {
   EXPECT_THROW(DeltaOverlay({.period = Period(-1, 100)}), ConfigError);
 }
 
-}  // namespace
+}  // namespace delta_overlay_test
 }  // namespace oca::systems

@@ -11,7 +11,7 @@
 #include "tests/system_bench.h"
 
 namespace oca::systems {
-namespace {
+namespace delta_relaxation_test {
 
 DeltaRelaxation::Params Relax(double relaxation_time) {
   return {.relaxation_time = relaxation_time, .period = Period(1, 100)};
@@ -98,5 +98,5 @@ TEST(DeltaRelaxationTest, RefusesANegativeTimeAndPeriodZero) {
   EXPECT_THROW(DeltaRelaxation({.relaxation_time = 0.1, .period = Period()}), ConfigError);
 }
 
-}  // namespace
+}  // namespace delta_relaxation_test
 }  // namespace oca::systems

@@ -13,7 +13,7 @@
 #include "tests/system_bench.h"
 
 namespace oca::systems {
-namespace {
+namespace elastic_band_test {
 
 using Eigen::Vector3d;
 using Eigen::VectorXd;
@@ -232,5 +232,5 @@ TEST(ElasticBandTest, RefusesARequestForAnotherArm) {
   EXPECT_ANY_THROW(bench.AdvanceTo(0.1));
 }
 
-}  // namespace
+}  // namespace elastic_band_test
 }  // namespace oca::systems

@@ -9,7 +9,7 @@
 #include "framework/error.h"
 
 namespace oca::systems {
-namespace {
+namespace filter_activity_test {
 
 const char* const kText =
     R"({"status":"iteration_limit","rows":9,"dropped":1,"yields":2,"slack":0.5,"margin":0.01,)"
@@ -43,5 +43,5 @@ TEST(FilterActivityTest, IsNotFiniteIfANumberOfItIsNot) {
   EXPECT_FALSE(Signal<FilterActivity>::Check(activity, Look::kFinite).ok());
 }
 
-}  // namespace
+}  // namespace filter_activity_test
 }  // namespace oca::systems

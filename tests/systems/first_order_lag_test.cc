@@ -9,7 +9,7 @@
 #include "tests/system_bench.h"
 
 namespace oca::systems {
-namespace {
+namespace first_order_lag_test {
 
 TEST(FirstOrderLagTest, CoversAStepExponentially) {
   SystemBench<FirstOrderLag> bench(FirstOrderLag::Params{
@@ -26,5 +26,5 @@ TEST(FirstOrderLagTest, RefusesATimeConstantThatIsNotPositive) {
   EXPECT_THROW(FirstOrderLag({.initial = Eigen::VectorXd()}), ConfigError);
 }
 
-}  // namespace
+}  // namespace first_order_lag_test
 }  // namespace oca::systems

@@ -10,7 +10,7 @@
 #include "tests/allocation_count.h"
 
 namespace oca::systems {
-namespace {
+namespace flacco_de_luca_test {
 
 using Bench = MethodBench<FlaccoDeLuca>;
 constexpr const char* kElbow = "planar2_link_1";
@@ -175,5 +175,5 @@ TEST(FlaccoDeLucaTest, TicksWithoutTheHeap) {
   EXPECT_EQ(AllocationCount(), before);
 }
 
-}  // namespace
+}  // namespace flacco_de_luca_test
 }  // namespace oca::systems

@@ -7,7 +7,7 @@
 #include "tests/system_bench.h"
 
 namespace oca::systems {
-namespace {
+namespace force_sum_test {
 
 LinkForceSet Forces(std::initializer_list<double> along_x) {
   LinkForceSet set;
@@ -47,5 +47,5 @@ TEST(ForceSumTest, RefusesToRunWithOneFieldOnly) {
   EXPECT_THROW(builder.Build(), WiringError);
 }
 
-}  // namespace
+}  // namespace force_sum_test
 }  // namespace oca::systems

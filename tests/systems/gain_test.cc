@@ -9,7 +9,7 @@
 #include "tests/system_bench.h"
 
 namespace oca::systems {
-namespace {
+namespace gain_test {
 
 TEST(GainTest, MultipliesEveryComponentByAScalar) {
   SystemBench<Gain> bench(Gain::Params{.gain = -2.0});
@@ -32,5 +32,5 @@ TEST(GainTest, RefusesAGainThatIsNotFinite) {
   EXPECT_THROW(Gain({.gain = std::numeric_limits<double>::quiet_NaN()}), ConfigError);
 }
 
-}  // namespace
+}  // namespace gain_test
 }  // namespace oca::systems

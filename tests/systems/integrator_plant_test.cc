@@ -9,7 +9,7 @@
 #include "tests/system_bench.h"
 
 namespace oca::systems {
-namespace {
+namespace integrator_plant_test {
 
 using ::testing::HasSubstr;
 
@@ -109,5 +109,5 @@ TEST(IntegratorPlantTest, RefusesListsOfDifferentLengthAndNaN) {
               HasSubstr("not finite"));
 }
 
-}  // namespace
+}  // namespace integrator_plant_test
 }  // namespace oca::systems

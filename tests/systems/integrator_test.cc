@@ -10,7 +10,7 @@
 #include "tests/system_bench.h"
 
 namespace oca::systems {
-namespace {
+namespace integrator_test {
 
 TEST(IntegratorTest, IntegratesAConstant) {
   SystemBench<Integrator> bench(
@@ -40,5 +40,5 @@ TEST(IntegratorTest, RefusesAnInitialValueThatIsNotFinite) {
   EXPECT_THROW(Integrator({.initial = std::numeric_limits<double>::infinity()}), ConfigError);
 }
 
-}  // namespace
+}  // namespace integrator_test
 }  // namespace oca::systems

@@ -20,7 +20,7 @@
 #include "tests/systems/test_models.h"
 
 namespace oca::systems {
-namespace {
+namespace jacobian_mapping_test {
 
 using Method = JacobianMapping::Method;
 
@@ -249,5 +249,5 @@ TEST_F(ChainTest, AClonedContextGoesOnWithTheSameBits) {
   }
 }
 
-}  // namespace
+}  // namespace jacobian_mapping_test
 }  // namespace oca::systems

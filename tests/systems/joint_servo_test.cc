@@ -11,7 +11,7 @@
 #include "tests/system_bench.h"
 
 namespace oca::systems {
-namespace {
+namespace joint_servo_test {
 
 Eigen::VectorXd One(double value) { return Eigen::VectorXd::Constant(1, value); }
 
@@ -146,5 +146,5 @@ TEST(JointServoTest, RefusesGainsWithoutSense) {
   EXPECT_NO_THROW(JointServo({.mode = ServoMode::kSecondOrder, .damping_ratio = 0.0}));
 }
 
-}  // namespace
+}  // namespace joint_servo_test
 }  // namespace oca::systems

@@ -9,7 +9,7 @@
 #include "tests/temporary_folder.h"
 
 namespace oca::systems {
-namespace {
+namespace key_points_test {
 
 using ::testing::HasSubstr;
 
@@ -151,5 +151,5 @@ TEST(KeyPointsTest, RefusesNoPointsAndTwoSources) {
   EXPECT_THROW(KeyPointsFrom({At(0.0, Eigen::VectorXd::Zero(1))}, "some.csv"), ConfigError);
 }
 
-}  // namespace
+}  // namespace key_points_test
 }  // namespace oca::systems

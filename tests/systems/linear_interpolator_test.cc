@@ -7,7 +7,7 @@
 #include "tests/system_bench.h"
 
 namespace oca::systems {
-namespace {
+namespace linear_interpolator_test {
 
 Eigen::VectorXd One(double value) { return Eigen::VectorXd::Constant(1, value); }
 
@@ -62,5 +62,5 @@ TEST(LinearInterpolatorTest, RefusesNoKeyPointsAndANegativePeriod) {
   EXPECT_THROW(LinearInterpolator{params}, ConfigError);
 }
 
-}  // namespace
+}  // namespace linear_interpolator_test
 }  // namespace oca::systems

@@ -25,7 +25,7 @@
 #include "tests/systems/test_models.h"
 
 namespace oca::systems {
-namespace {
+namespace loop_gain_test {
 
 using Method = JacobianMapping::Method;
 constexpr double kDt = 0.01;
@@ -263,9 +263,10 @@ TEST(LoopGainTest, RefusesSafetyBelowOneAndPeriodZeroAndForeignLinks) {
   EXPECT_THROW(LoopGain({.safety = 0.999, .period = Period(1, 100)}, models), ConfigError);
   EXPECT_NO_THROW(LoopGain({.safety = 1.0, .period = Period(1, 100)}, models));
   EXPECT_THROW(LoopGain({}, models), ConfigError);
-  EXPECT_THROW(Estimate({}, {{Contact("nobody", {}, Eigen::Vector3d::UnitX(), 1.0)}}),
-               std::runtime_error);
+  EXPECT_THROW(
+      Estimate({}, {{Contact("nobody", Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(), 1.0)}}),
+      std::runtime_error);
 }
 
-}  // namespace
+}  // namespace loop_gain_test
 }  // namespace oca::systems

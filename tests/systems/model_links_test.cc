@@ -8,7 +8,7 @@
 #include "models/robot/robot_model.h"
 
 namespace oca::systems {
-namespace {
+namespace model_links_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -70,5 +70,5 @@ TEST(ModelLinksTest, DifferencesAndRatesOfPositionsCanBeAnything) {
   EXPECT_EQ(DeltaSpec(Mixed()).size.number(), 4);
 }
 
-}  // namespace
+}  // namespace model_links_test
 }  // namespace oca::systems

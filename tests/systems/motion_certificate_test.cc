@@ -15,7 +15,7 @@
 #include "tests/systems/test_models.h"
 
 namespace oca::systems {
-namespace {
+namespace motion_certificate_test {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -195,5 +195,5 @@ TEST(MotionCertificateTest, RefusesARobotThatIsNotThere) {
   EXPECT_THROW(MotionMetrics(params, TestModels("planar2")), ConfigError);
 }
 
-}  // namespace
+}  // namespace motion_certificate_test
 }  // namespace oca::systems

@@ -13,7 +13,7 @@
 #include "tests/system_bench.h"
 
 namespace oca::systems {
-namespace {
+namespace motion_limiter_test {
 
 constexpr double kDt = 0.01;
 
@@ -239,5 +239,5 @@ TEST_F(MotionLimiterTest, WritesAndReadsItsClips) {
   EXPECT_FALSE(Signal<MotionClips>::Check(clips, Look::kFinite).ok());
 }
 
-}  // namespace
+}  // namespace motion_limiter_test
 }  // namespace oca::systems

@@ -12,7 +12,7 @@
 #include "tests/systems/test_models.h"
 
 namespace oca::systems {
-namespace {
+namespace motion_metrics_test {
 
 using Eigen::Vector2d;
 using VectorScript = std::function<Vector2d(double)>;
@@ -351,5 +351,5 @@ TEST(MotionMetricsTest, RefusesAPeriodOfZero) {
   EXPECT_THROW(MotionMetrics(MotionMetrics::Params{}), ConfigError);
 }
 
-}  // namespace
+}  // namespace motion_metrics_test
 }  // namespace oca::systems

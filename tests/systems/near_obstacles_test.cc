@@ -15,7 +15,7 @@
 #include "tests/systems/test_models.h"
 
 namespace oca::systems {
-namespace {
+namespace near_obstacles_test {
 
 using Eigen::Vector3d;
 using ::testing::ElementsAre;
@@ -214,5 +214,5 @@ TEST_F(NearAnArmTest, TakesNothingFromTheHeapWhileBodiesMove) {
   EXPECT_EQ(AllocationCount() - before, 0);
 }
 
-}  // namespace
+}  // namespace near_obstacles_test
 }  // namespace oca::systems

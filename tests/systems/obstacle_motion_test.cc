@@ -13,7 +13,7 @@
 #include "tests/temporary_folder.h"
 
 namespace oca::systems {
-namespace {
+namespace obstacle_motion_test {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
@@ -282,5 +282,5 @@ TEST_F(CsvMotionTest, RefusesWhatIsNoSuchTable) {
   EXPECT_THAT(RefusalOf(params), HasSubstr("at least one waypoint"));
 }
 
-}  // namespace
+}  // namespace obstacle_motion_test
 }  // namespace oca::systems

@@ -11,7 +11,7 @@
 #include "tests/system_bench.h"
 
 namespace oca::systems {
-namespace {
+namespace obstacle_sensor_test {
 
 using ::testing::HasSubstr;
 
@@ -115,5 +115,5 @@ TEST(ObstacleSensorTest, RefusesALatencyBetweenPeriodsAndTimesOutOfOrder) {
   EXPECT_THAT(RefusalOf({}), HasSubstr("period"));
 }
 
-}  // namespace
+}  // namespace obstacle_sensor_test
 }  // namespace oca::systems

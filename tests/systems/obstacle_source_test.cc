@@ -13,7 +13,7 @@
 #include "tests/temporary_folder.h"
 
 namespace oca::systems {
-namespace {
+namespace obstacle_source_test {
 
 using Eigen::Vector3d;
 using ::testing::HasSubstr;
@@ -358,5 +358,5 @@ TEST(ObstacleSourceTest, RefusesWhatFramesAndMotionsAddUpTo) {
   EXPECT_THAT(RefusalOf(params), HasSubstr("obstacle 'ball': position; got [1800000, 0, 0] m"));
 }
 
-}  // namespace
+}  // namespace obstacle_source_test
 }  // namespace oca::systems

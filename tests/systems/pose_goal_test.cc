@@ -12,7 +12,7 @@
 #include "models/robot/urdf.h"
 
 namespace oca::systems {
-namespace {
+namespace pose_goal_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -136,5 +136,5 @@ TEST(PoseGoalTest, RefusesWhatItCannotStartFromOrName) {
   EXPECT_THAT(RefusalOf(goal, At(0.0, before.position), arm), HasSubstr("clearance"));
 }
 
-}  // namespace
+}  // namespace pose_goal_test
 }  // namespace oca::systems

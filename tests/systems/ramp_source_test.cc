@@ -10,7 +10,7 @@
 #include "tests/system_bench.h"
 
 namespace oca::systems {
-namespace {
+namespace ramp_source_test {
 
 RampSource::Params RampFromAThird() {
   return {.slope = 3.0, .initial = 1.0, .start = Period(1, 3)};
@@ -49,5 +49,5 @@ TEST(RampSourceTest, RefusesANegativeStartAndNaN) {
   EXPECT_THROW(RampSource({.slope = std::numeric_limits<double>::quiet_NaN()}), ConfigError);
 }
 
-}  // namespace
+}  // namespace ramp_source_test
 }  // namespace oca::systems

@@ -10,7 +10,7 @@
 #include "tests/system_bench.h"
 
 namespace oca::systems {
-namespace {
+namespace repulsive_field_test {
 
 ProximitySet At(double distance, const Eigen::Vector3d& normal = Eigen::Vector3d::UnitZ()) {
   Proximity proximity;
@@ -119,5 +119,5 @@ TEST(RepulsiveFieldTest, RefusesDistancesAndGainsThatMakeNoField) {
   EXPECT_NO_THROW(RepulsiveField(Params{.force_gain = 0.0}));
 }
 
-}  // namespace
+}  // namespace repulsive_field_test
 }  // namespace oca::systems

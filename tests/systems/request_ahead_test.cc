@@ -8,7 +8,7 @@
 #include "tests/system_bench.h"
 
 namespace oca::systems {
-namespace {
+namespace request_ahead_test {
 
 Eigen::VectorXd One(double value) { return Eigen::VectorXd::Constant(1, value); }
 
@@ -51,5 +51,5 @@ TEST(RequestAheadTest, RefusesPointsThatAreNoMotion) {
                ConfigError);
 }
 
-}  // namespace
+}  // namespace request_ahead_test
 }  // namespace oca::systems

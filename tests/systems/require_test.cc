@@ -9,7 +9,7 @@
 #include "framework/error.h"
 
 namespace oca::systems {
-namespace {
+namespace require_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -66,5 +66,5 @@ TEST(RequireTest, TellsPeriodsApartAtZero) {
   EXPECT_THROW(RequireNotNegative("period", Period(-1, 10)), ConfigError);
 }
 
-}  // namespace
+}  // namespace require_test
 }  // namespace oca::systems

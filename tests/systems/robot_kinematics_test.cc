@@ -12,7 +12,7 @@
 #include "tests/systems/test_models.h"
 
 namespace oca::systems {
-namespace {
+namespace robot_kinematics_test {
 
 TEST(RobotKinematicsTest, PlacesTheLinksOfAPlanarArmByHand) {
   SystemBench<RobotKinematics> bench(RobotKinematics::Params{}, TestModels("planar2"));
@@ -104,5 +104,5 @@ TEST(RobotKinematicsTest, KnowsTheVelocitiesOfItsLinksIfThoseOfTheJointsComeIn) 
               0.0, 1e-15);
 }
 
-}  // namespace
+}  // namespace robot_kinematics_test
 }  // namespace oca::systems

@@ -18,7 +18,7 @@
 #include "tests/system_bench.h"
 
 namespace oca::systems {
-namespace {
+namespace safety_filter_test {
 
 constexpr double kDt = 0.01;
 
@@ -525,5 +525,5 @@ TEST(SafetyFilterTest, KeepsItsMarginInTheBrakingFormToo) {
   ExpectTheBound(SafetyFilter::Form::kBraking, 0.3);
 }
 
-}  // namespace
+}  // namespace safety_filter_test
 }  // namespace oca::systems

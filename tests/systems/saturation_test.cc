@@ -9,7 +9,7 @@
 #include "tests/system_bench.h"
 
 namespace oca::systems {
-namespace {
+namespace saturation_test {
 
 double Saturated(const Saturation::Params& params, double x) {
   SystemBench<Saturation> bench(params);
@@ -42,5 +42,5 @@ TEST(SaturationTest, RefusesBoundsInTheWrongOrder) {
   EXPECT_THROW(Saturation({.lower = std::numeric_limits<double>::quiet_NaN()}), ConfigError);
 }
 
-}  // namespace
+}  // namespace saturation_test
 }  // namespace oca::systems

@@ -10,7 +10,7 @@
 #include "tests/allocation_count.h"
 
 namespace oca::systems {
-namespace {
+namespace servo_scaling_test {
 
 constexpr const char* kElbow = "planar2_link_1";
 constexpr double kHalf = 0.0316227766;  // 1000^-1/2: the law at half the distance
@@ -168,5 +168,5 @@ TEST(ServoScalingTest, TicksWithoutTheHeap) {
   EXPECT_EQ(AllocationCount(), before);
 }
 
-}  // namespace
+}  // namespace servo_scaling_test
 }  // namespace oca::systems

@@ -12,7 +12,7 @@
 #include "tests/allocation_count.h"
 
 namespace oca::systems {
-namespace {
+namespace signal_checks_test {
 
 using testing::HasSubstr;
 using testing::StrEq;
@@ -177,5 +177,5 @@ TEST(SignalChecksTest, LookingTakesNoMemoryGoodOrBad) {
   EXPECT_EQ(AllocationCount() - before, 0);
 }
 
-}  // namespace
+}  // namespace signal_checks_test
 }  // namespace oca::systems

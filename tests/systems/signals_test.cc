@@ -12,7 +12,7 @@
 #include "tests/temporary_folder.h"
 
 namespace oca::systems {
-namespace {
+namespace signals_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -308,5 +308,5 @@ TEST(SignalsTest, AProximityTellsWhichLinkOfItsOwnRobotItMeets) {
   EXPECT_TRUE(Signal<ProximitySet>::ReadJson(kProximity).proximities[0].own_link.empty());
 }
 
-}  // namespace
+}  // namespace signals_test
 }  // namespace oca::systems

@@ -10,7 +10,7 @@
 #include "tests/system_bench.h"
 
 namespace oca::systems {
-namespace {
+namespace sine_source_test {
 
 TEST(SineSourceTest, OscillatesAroundItsOffset) {
   // 10 + 2 sin(2 pi 0.5 t + pi / 6)
@@ -30,5 +30,5 @@ TEST(SineSourceTest, RefusesListsOfDifferentLengthAndNaN) {
   EXPECT_THROW(SineSource({.frequency = std::numeric_limits<double>::quiet_NaN()}), ConfigError);
 }
 
-}  // namespace
+}  // namespace sine_source_test
 }  // namespace oca::systems

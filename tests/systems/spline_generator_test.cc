@@ -7,7 +7,7 @@
 #include "tests/system_bench.h"
 
 namespace oca::systems {
-namespace {
+namespace spline_generator_test {
 
 using ::testing::HasSubstr;
 
@@ -92,5 +92,5 @@ TEST(SplineGeneratorTest, RefusesNoKeyPointsAndANegativePeriod) {
   EXPECT_THAT(RefusalOf(params), HasSubstr("period"));
 }
 
-}  // namespace
+}  // namespace spline_generator_test
 }  // namespace oca::systems

@@ -8,7 +8,7 @@
 #include "tests/system_bench.h"
 
 namespace oca::systems {
-namespace {
+namespace step_source_test {
 
 constexpr double kThird = 1.0 / 3.0;  // s
 
@@ -51,5 +51,5 @@ TEST(StepSourceTest, RefusesANegativeTimeAndListsOfDifferentLength) {
                ConfigError);
 }
 
-}  // namespace
+}  // namespace step_source_test
 }  // namespace oca::systems

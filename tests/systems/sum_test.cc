@@ -9,7 +9,7 @@
 #include "tests/system_bench.h"
 
 namespace oca::systems {
-namespace {
+namespace sum_test {
 
 using ::testing::HasSubstr;
 
@@ -74,5 +74,5 @@ TEST(SumTest, RefusesTooFewInputsTooManyAndTwoAnswers) {
   EXPECT_THAT(RefusalOf({.signs = Eigen::VectorXd::Ones(2), .inputs = 2}), HasSubstr("twice"));
 }
 
-}  // namespace
+}  // namespace sum_test
 }  // namespace oca::systems

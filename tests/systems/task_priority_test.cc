@@ -10,7 +10,7 @@
 #include "tests/allocation_count.h"
 
 namespace oca::systems {
-namespace {
+namespace task_priority_test {
 
 using Bench = MethodBench<TaskPriority>;
 constexpr const char* kElbow = "planar2_link_1";
@@ -187,5 +187,5 @@ TEST(TaskPriorityTest, TicksWithoutTheHeap) {
   EXPECT_EQ(AllocationCount(), before);
 }
 
-}  // namespace
+}  // namespace task_priority_test
 }  // namespace oca::systems

@@ -9,7 +9,7 @@
 #include "tests/system_bench.h"
 
 namespace oca::systems {
-namespace {
+namespace tip_error_test {
 
 TipError::Params Hand() {
   TipError::Params params;
@@ -51,5 +51,5 @@ TEST(TipErrorTest, RefusesNoNameAWrongPoseAndALinkThatDoesNotComeIn) {
   EXPECT_ANY_THROW(bench->position.Eval(bench.context()));
 }
 
-}  // namespace
+}  // namespace tip_error_test
 }  // namespace oca::systems

@@ -11,7 +11,7 @@
 #include "models/robot/urdf.h"
 
 namespace oca::systems {
-namespace {
+namespace tip_trajectory_test {
 
 using ::testing::HasSubstr;
 
@@ -137,5 +137,5 @@ TEST(TipTrajectoryTest, RefusesAPathBeyondReachAndOneHalfGiven) {
   EXPECT_EQ(RefusalOf(Line()), "accepted");
 }
 
-}  // namespace
+}  // namespace tip_trajectory_test
 }  // namespace oca::systems

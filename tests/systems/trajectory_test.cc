@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace oca::systems {
-namespace {
+namespace trajectory_test {
 
 using Eigen::Vector2d;
 
@@ -166,5 +166,5 @@ TEST(TrajectoryTest, LinesTakeTheRateOfTheLaterSegmentAtAKnot) {
   EXPECT_EQ(linear.Evaluate(0.75, 2).norm(), 0.0);
 }
 
-}  // namespace
+}  // namespace trajectory_test
 }  // namespace oca::systems

@@ -9,7 +9,7 @@
 #include "tests/system_bench.h"
 
 namespace oca::systems {
-namespace {
+namespace velocity_aware_field_test {
 
 using Eigen::Vector3d;
 using Params = VelocityAwareField::Params;
@@ -179,5 +179,5 @@ TEST(VelocityAwareFieldTest, RefusesWhatItCannotUse) {
   EXPECT_THROW(ForceIn(stranger), std::runtime_error);
 }
 
-}  // namespace
+}  // namespace velocity_aware_field_test
 }  // namespace oca::systems

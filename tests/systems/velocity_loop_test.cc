@@ -12,7 +12,7 @@
 #include "tests/system_bench.h"
 
 namespace oca::systems {
-namespace {
+namespace velocity_loop_test {
 
 constexpr double kDt = 0.01;
 VelocityLoop::Params Hundred() { return {.period = Period(1, 100)}; }
@@ -86,5 +86,5 @@ TEST(VelocityLoopTest, TicksWithoutTheHeap) {
   EXPECT_EQ(AllocationCount(), before);
 }
 
-}  // namespace
+}  // namespace velocity_loop_test
 }  // namespace oca::systems

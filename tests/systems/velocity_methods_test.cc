@@ -7,7 +7,7 @@
 #include "method_scene.h"
 
 namespace oca::systems {
-namespace {
+namespace velocity_methods_test {
 
 TEST(VelocityMethodsTest, TheLastLinkIsTheTipUnlessOneIsNamed) {
   const auto model = LoadTestModel("planar2");
@@ -33,5 +33,5 @@ TEST(VelocityMethodsTest, BetweenTwoLinksTheJointsThatCarryBothDoNotCount) {
   EXPECT_NEAR(RowOf(*model, poses.poses, own)[1], -0.4, 1e-15);
 }
 
-}  // namespace
+}  // namespace velocity_methods_test
 }  // namespace oca::systems

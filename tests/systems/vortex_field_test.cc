@@ -13,7 +13,7 @@
 #include "tests/systems/test_models.h"
 
 namespace oca::systems {
-namespace {
+namespace vortex_field_test {
 
 using Eigen::Vector3d;
 constexpr const char* kLink = "lwr4_link_5";
@@ -233,5 +233,5 @@ TEST(VortexFieldTest, RefusesTooWideATurnAndWhatARepulsiveFieldRefuses) {
   EXPECT_THROW(VortexField({.max_distance = 0.0, .period = Period(1, 100)}, models), ConfigError);
 }
 
-}  // namespace
+}  // namespace vortex_field_test
 }  // namespace oca::systems

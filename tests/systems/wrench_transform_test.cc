@@ -7,7 +7,7 @@
 #include "tests/system_bench.h"
 
 namespace oca::systems {
-namespace {
+namespace wrench_transform_test {
 
 Eigen::Isometry3d PoseAt(double x, double y, double z) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -81,5 +81,5 @@ TEST(WrenchTransformTest, RefusesAForceOnALinkWithoutAPose) {
   EXPECT_THROW(bench->wrenches.Eval(bench.context()), SimulationError);
 }
 
-}  // namespace
+}  // namespace wrench_transform_test
 }  // namespace oca::systems

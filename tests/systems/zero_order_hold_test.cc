@@ -8,7 +8,7 @@
 #include "tests/system_bench.h"
 
 namespace oca::systems {
-namespace {
+namespace zero_order_hold_test {
 
 TEST(ZeroOrderHoldTest, HoldsTheSampleUpToAndIncludingTheNextTick) {
   DiagramBuilder builder;
@@ -31,5 +31,5 @@ TEST(ZeroOrderHoldTest, RefusesPeriodZeroAndNoInitialValue) {
   EXPECT_THROW(ZeroOrderHold({.period = Period(1, 10), .initial = Eigen::VectorXd()}), ConfigError);
 }
 
-}  // namespace
+}  // namespace zero_order_hold_test
 }  // namespace oca::systems

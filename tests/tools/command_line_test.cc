@@ -11,7 +11,7 @@
 #include "tests/tools/program.h"
 
 namespace oca::tools {
-namespace {
+namespace command_line_test {
 
 using nlohmann::json;
 using testing::HasSubstr;
@@ -367,5 +367,5 @@ TEST_F(CommandLineTest, GraphsAreDrawnBySvgWhereGraphvizIs) {
   EXPECT_THAT(ran.out, HasSubstr("<svg"));
 }
 
-}  // namespace
+}  // namespace command_line_test
 }  // namespace oca::tools

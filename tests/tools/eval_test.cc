@@ -9,7 +9,7 @@
 #include "tests/tools/program.h"
 
 namespace oca::tools {
-namespace {
+namespace eval_test {
 
 using nlohmann::json;
 using testing::HasSubstr;
@@ -221,5 +221,5 @@ TEST_F(EvalTest, WrongParametersAndModelsEndWithTwo) {
   }
 }
 
-}  // namespace
+}  // namespace eval_test
 }  // namespace oca::tools

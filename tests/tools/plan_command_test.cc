@@ -9,7 +9,7 @@
 #include "tests/tools/program.h"
 
 namespace oca::tools {
-namespace {
+namespace plan_command_test {
 
 using nlohmann::json;
 using testing::ElementsAre;
@@ -222,5 +222,5 @@ TEST_F(PlanCommandTest, SaysInItsHelpWhatItPrintsAndHowItEnds) {
   }
 }
 
-}  // namespace
+}  // namespace plan_command_test
 }  // namespace oca::tools

@@ -9,7 +9,7 @@
 #include "tests/tools/program.h"
 
 namespace oca::tools {
-namespace {
+namespace robot_command_test {
 
 using nlohmann::json;
 using testing::HasSubstr;
@@ -103,5 +103,5 @@ TEST_F(RobotCommandTest, RefusesWhatItCannotDo) {
   EXPECT_THAT(misspelt.err, HasSubstr("did you mean '--samples'?"));
 }
 
-}  // namespace
+}  // namespace robot_command_test
 }  // namespace oca::tools

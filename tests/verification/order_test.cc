@@ -13,7 +13,7 @@
 #include "tests/verification/plants.h"
 
 namespace oca::verification {
-namespace {
+namespace order_test {
 
 constexpr int kCoarse = 20;  // steps a second
 
@@ -89,5 +89,5 @@ TEST_P(OrderTest, HalvingTheStepGainsItsOrderOnAServo) {
   }
 }
 
-}  // namespace
+}  // namespace order_test
 }  // namespace oca::verification

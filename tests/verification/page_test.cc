@@ -14,7 +14,7 @@
 #include <vector>
 
 namespace oca::verification {
-namespace {
+namespace page_test {
 
 std::string Committed(const std::string& name) {
   std::ifstream stream(OCA_SOURCE_DIR "/tests/verification/" + name);
@@ -65,5 +65,5 @@ TEST(PageTest, TheCommittedFigureHasTheSamePanelsAndCurves) {
   EXPECT_EQ(committed, structure(MakeFigure()));
 }
 
-}  // namespace
+}  // namespace page_test
 }  // namespace oca::verification

@@ -15,7 +15,7 @@
 #include "tests/framework/integrator_kinds.h"
 
 namespace oca::verification {
-namespace {
+namespace plants_test {
 
 constexpr double kRounding = 1e-14;
 
@@ -91,5 +91,5 @@ TEST(PlantCasesTest, AnAnswerReadAMillisecondEarlyIsOffByAsMuchAsItShould) {
   EXPECT_NEAR(plant.answers[0].value - early, std::exp(-2.0) * (std::exp(0.02) - 1.0), 1e-9);
 }
 
-}  // namespace
+}  // namespace plants_test
 }  // namespace oca::verification

@@ -14,7 +14,7 @@
 #include "tests/verification/yardstick.h"
 
 namespace oca::verification {
-namespace {
+namespace problems_test {
 
 /// Where rounding takes over: a hundred units in the last place of 1.
 constexpr double kRounding = 2e-14;
@@ -104,5 +104,5 @@ TEST(ProblemsTest, EveryPlantHasItsProblem) {
   for (const PlantCase& plant : PlantCases()) EXPECT_EQ(ProblemNamed(plant.name).plant, &plant);
 }
 
-}  // namespace
+}  // namespace problems_test
 }  // namespace oca::verification

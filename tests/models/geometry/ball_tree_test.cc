@@ -8,7 +8,7 @@
 #include <random>
 
 namespace oca::models {
-namespace {
+namespace ball_tree_test {
 
 using Eigen::Vector3d;
 using ::testing::ElementsAre;
@@ -131,5 +131,5 @@ TEST(BallTreeTest, SearchVisitsTheNearestAndFewOthers) {
   EXPECT_LT(visits, 200 * 100);
 }
 
-}  // namespace
+}  // namespace ball_tree_test
 }  // namespace oca::models

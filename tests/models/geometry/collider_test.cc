@@ -12,7 +12,7 @@
 #include "tests/models/geometry/random_bodies.h"
 
 namespace oca::models {
-namespace {
+namespace collider_test {
 
 using Eigen::Vector3d;
 using testing::AllOf;
@@ -108,5 +108,5 @@ TEST(HullSupportTest, VectorInstructionsFindAVertexAsFarAsTheLoop) {
   }
 }
 
-}  // namespace
+}  // namespace collider_test
 }  // namespace oca::models

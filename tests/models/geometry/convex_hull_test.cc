@@ -14,7 +14,7 @@
 #include "tests/models/geometry/random_bodies.h"
 
 namespace oca::models {
-namespace {
+namespace convex_hull_test {
 
 using Eigen::Vector3d;
 using testing::AllOf;
@@ -165,5 +165,5 @@ TEST(ConvexHullTest, ThinnestPlateIsAMillionthOfItsExtent) {
   EXPECT_THAT(RefusalOf(plate(0.9e-6)), HasSubstr("expected a body with volume"));
 }
 
-}  // namespace
+}  // namespace convex_hull_test
 }  // namespace oca::models

@@ -11,7 +11,7 @@
 #include "tests/models/geometry/random_bodies.h"
 
 namespace oca::models::internal {
-namespace {
+namespace core_methods_test {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
@@ -124,5 +124,5 @@ TEST(CoreMethodsTest, GjkReportsALowerBoundBeyondItsLimit) {
   EXPECT_LE(found.distance, 2.0 + 1e-12);
 }
 
-}  // namespace
+}  // namespace core_methods_test
 }  // namespace oca::models::internal

@@ -15,7 +15,7 @@
 #include "tests/temporary_folder.h"
 
 namespace oca::models {
-namespace {
+namespace decomposition_test {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
@@ -163,5 +163,5 @@ TEST_F(DecompositionTest, RefusesWhatIsNoMeshAndNoConcavity) {
   EXPECT_THROW(DecomposeMesh({}, "nothing"), ModelError);
 }
 
-}  // namespace
+}  // namespace decomposition_test
 }  // namespace oca::models

@@ -13,7 +13,7 @@
 #include "tests/models/geometry/random_bodies.h"
 
 namespace oca::models {
-namespace {
+namespace distance_accuracy_test {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
@@ -211,5 +211,5 @@ TEST(DistanceEnumerationTest, BoxesApartAreAsFarAsTheirMeshes) {
   EXPECT_LE(worst, 1e-12);
 }
 
-}  // namespace
+}  // namespace distance_accuracy_test
 }  // namespace oca::models

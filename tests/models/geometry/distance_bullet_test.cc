@@ -19,7 +19,7 @@
 #include "tests/models/geometry/random_bodies.h"
 
 namespace oca::models {
-namespace {
+namespace distance_bullet_test {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
@@ -114,5 +114,5 @@ TEST_P(DistanceBulletTest, PairsOfAllKindsAgreeApartAndInOverlap) {
 
 INSTANTIATE_TEST_SUITE_P(Shares, DistanceBulletTest, testing::Range(0, kShares));
 
-}  // namespace
+}  // namespace distance_bullet_test
 }  // namespace oca::models

@@ -10,7 +10,7 @@
 #include "tests/models/geometry/random_bodies.h"
 
 namespace oca::models {
-namespace {
+namespace distance_fcl_test {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
@@ -78,5 +78,5 @@ TEST_P(DistanceFclTest, SeparatedPairsOfAllKindsAgree) {
 
 INSTANTIATE_TEST_SUITE_P(Shares, DistanceFclTest, testing::Range(0, kShares));
 
-}  // namespace
+}  // namespace distance_fcl_test
 }  // namespace oca::models

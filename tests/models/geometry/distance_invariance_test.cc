@@ -7,7 +7,7 @@
 #include "tests/models/geometry/random_bodies.h"
 
 namespace oca::models {
-namespace {
+namespace distance_invariance_test {
 
 using Eigen::AngleAxisd;
 using Eigen::Isometry3d;
@@ -129,5 +129,5 @@ TEST(DistanceInvarianceTest, TheLimitDividesNearFromFar) {
   EXPECT_GT(near, 1'000);
 }
 
-}  // namespace
+}  // namespace distance_invariance_test
 }  // namespace oca::models

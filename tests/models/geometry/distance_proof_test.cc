@@ -8,7 +8,7 @@
 #include "tests/models/geometry/random_bodies.h"
 
 namespace oca::models {
-namespace {
+namespace distance_proof_test {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
@@ -153,5 +153,5 @@ TEST(DistanceProofTest, AWrongAnswerWouldBeNoticed) {
   EXPECT_LT(SlabWidth(*box, X_WA, *box, X_WB, -Vector3d::UnitX()), -2.9);
 }
 
-}  // namespace
+}  // namespace distance_proof_test
 }  // namespace oca::models

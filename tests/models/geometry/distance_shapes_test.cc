@@ -7,7 +7,7 @@
 #include "tests/models/geometry/random_bodies.h"
 
 namespace oca::models {
-namespace {
+namespace distance_shapes_test {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
@@ -165,5 +165,5 @@ TEST(DistanceShapesTest, FacesThatTouchAreNoDistanceApart) {
   EXPECT_NEAR(Distance(*slab, At(0, 0, 1e-6), *slab, At(0, 0, 0)).distance, 0.0, 1e-15);
 }
 
-}  // namespace
+}  // namespace distance_shapes_test
 }  // namespace oca::models

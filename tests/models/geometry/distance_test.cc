@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace oca::models {
-namespace {
+namespace distance_test {
 
 using Eigen::AngleAxisd;
 using Eigen::Isometry3d;
@@ -223,5 +223,5 @@ TEST(DistanceTest, APoseThatIsNotFiniteIsReported) {
   }
 }
 
-}  // namespace
+}  // namespace distance_test
 }  // namespace oca::models

@@ -8,7 +8,7 @@
 #include "models/geometry/mesh.h"
 
 namespace oca::models {
-namespace {
+namespace mesh_robots_test {
 
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
@@ -90,5 +90,5 @@ TEST_F(MeshRobotsTest, HullOfAKnownLinkStaysAsItIs) {
   EXPECT_NEAR(hull->volume, 0.003240, 1e-6);
 }
 
-}  // namespace
+}  // namespace mesh_robots_test
 }  // namespace oca::models

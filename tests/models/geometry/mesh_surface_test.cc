@@ -10,7 +10,7 @@
 #include "tests/temporary_folder.h"
 
 namespace oca::models {
-namespace {
+namespace mesh_surface_test {
 
 using Eigen::Vector3d;
 
@@ -84,5 +84,5 @@ TEST(MeshSurfaceTest, IsSilentUpToOnePerCent) {
   EXPECT_NE(DescribeHullExcess(mesh, hull), "");
 }
 
-}  // namespace
+}  // namespace mesh_surface_test
 }  // namespace oca::models

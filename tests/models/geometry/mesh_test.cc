@@ -14,7 +14,7 @@
 #include "tests/temporary_folder.h"
 
 namespace oca::models {
-namespace {
+namespace mesh_test {
 
 using Eigen::Vector3d;
 using testing::AllOf;
@@ -238,5 +238,5 @@ TEST(MeshTest, RefusesAColladaOfNothingButOpeningTags) {
   EXPECT_THAT(RefusalOf(folder.Write("bomb.dae", bomb)), HasSubstr("nested too deep"));
 }
 
-}  // namespace
+}  // namespace mesh_test
 }  // namespace oca::models

@@ -17,7 +17,7 @@
 #include "tests/temporary_folder.h"
 
 namespace oca::models {
-namespace {
+namespace octree_test {
 
 using ::testing::HasSubstr;
 
@@ -177,5 +177,5 @@ TEST_F(OctreeTest, NeverCrashesOnRandomBytes) {
   }
 }
 
-}  // namespace
+}  // namespace octree_test
 }  // namespace oca::models

@@ -12,7 +12,7 @@
 #include "tests/temporary_folder.h"
 
 namespace oca::models {
-namespace {
+namespace point_cloud_test {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
@@ -261,5 +261,5 @@ TEST_F(PointCloudTest, RefusesWhatIsNoHeightmap) {
   EXPECT_THAT(MapRefusal("map.pgm", "P2 -2 1 9\n4\n"), HasSubstr("width; got -2"));
 }
 
-}  // namespace
+}  // namespace point_cloud_test
 }  // namespace oca::models

@@ -7,7 +7,7 @@
 #include <limits>
 
 namespace oca::models {
-namespace {
+namespace following_test {
 
 constexpr double kDt = 0.01;
 
@@ -37,5 +37,5 @@ TEST(FollowingVelocityTest, WithoutAnAccelerationLimitOnlyTheGainCounts) {
   EXPECT_DOUBLE_EQ(FollowingVelocity({3.0, 0.0, 0.0}, 1.0, 5.0, unlimited, kDt), 10.0);
 }
 
-}  // namespace
+}  // namespace following_test
 }  // namespace oca::models

@@ -9,7 +9,7 @@
 #include <random>
 
 namespace oca::models {
-namespace {
+namespace stoppable_motion_test {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kDt = 0.01;
@@ -267,5 +267,5 @@ TEST(StoppableMotionTest, ComesBackFromAnywhere) {
   }
 }
 
-}  // namespace
+}  // namespace stoppable_motion_test
 }  // namespace oca::models

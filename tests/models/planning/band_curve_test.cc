@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace oca::models {
-namespace {
+namespace band_curve_test {
 
 using Eigen::VectorXd;
 
@@ -80,5 +80,5 @@ TEST(BandCurveTest, RestsAtItsEndAndStaysThere) {
   EXPECT_EQ(At(curve, 9.0, 1).norm(), 0.0);
 }
 
-}  // namespace
+}  // namespace band_curve_test
 }  // namespace oca::models

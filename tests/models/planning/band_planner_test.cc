@@ -6,7 +6,7 @@
 #include "tests/models/planning/scene.h"
 
 namespace oca::models {
-namespace {
+namespace band_planner_test {
 
 using Eigen::VectorXd;
 
@@ -143,5 +143,5 @@ TEST(BandPlannerTest, DucksInTimeAwayFromWhatComes) {
   EXPECT_TRUE(x.isZero(0.0));
 }
 
-}  // namespace
+}  // namespace band_planner_test
 }  // namespace oca::models

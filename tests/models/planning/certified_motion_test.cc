@@ -7,7 +7,7 @@
 #include "tests/models/planning/scene.h"
 
 namespace oca::models {
-namespace {
+namespace certified_motion_test {
 
 using test::Arm;
 using test::BoxAt;
@@ -73,5 +73,5 @@ TEST(CertifiedMotionTest, OfAMotionThatRestsAsksForItsPositionOnly) {
   EXPECT_TRUE(motion.Clear(Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()));
 }
 
-}  // namespace
+}  // namespace certified_motion_test
 }  // namespace oca::models

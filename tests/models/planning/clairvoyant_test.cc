@@ -11,7 +11,7 @@
 #include "tests/models/planning/scene.h"
 
 namespace oca::models {
-namespace {
+namespace clairvoyant_test {
 
 using Eigen::VectorXd;
 
@@ -158,5 +158,5 @@ TEST(ClairvoyantTest, PlansTheSameTwice) {
   EXPECT_EQ(a.verdict.min_distance, b.verdict.min_distance);
 }
 
-}  // namespace
+}  // namespace clairvoyant_test
 }  // namespace oca::models

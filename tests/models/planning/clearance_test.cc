@@ -9,7 +9,7 @@
 #include "tests/models/planning/scene.h"
 
 namespace oca::models {
-namespace {
+namespace clearance_test {
 
 using test::Arm;
 using test::BoxAt;
@@ -125,5 +125,5 @@ TEST(ClearanceTest, FollowsABodyThatMoves) {
   EXPECT_GT(clearance.Nearest().distance, before + 0.5);
 }
 
-}  // namespace
+}  // namespace clearance_test
 }  // namespace oca::models

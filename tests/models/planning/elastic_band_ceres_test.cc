@@ -6,7 +6,7 @@
 #include "tests/models/planning/band_in_ceres.h"
 
 namespace oca::models::test {
-namespace {
+namespace elastic_band_ceres_test {
 
 constexpr std::uint64_t kScenes = 20;
 
@@ -53,5 +53,5 @@ TEST(ElasticBandCeresTest, FromTheSameStartItMostlyEndsWhereCeresDoes) {
   RecordProperty("dearer", dearer);
 }
 
-}  // namespace
+}  // namespace elastic_band_ceres_test
 }  // namespace oca::models::test

@@ -9,7 +9,7 @@
 #include "tests/models/planning/scene.h"
 
 namespace oca::models {
-namespace {
+namespace elastic_band_test {
 
 using Eigen::VectorXd;
 
@@ -270,5 +270,5 @@ TEST(ElasticBandTest, WithoutBodiesTheRequestIsBest) {
   EXPECT_LT(curve.controls().cwiseAbs().maxCoeff(), 1e-6);
 }
 
-}  // namespace
+}  // namespace elastic_band_test
 }  // namespace oca::models

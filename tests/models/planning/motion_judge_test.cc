@@ -10,7 +10,7 @@
 #include "tests/models/planning/scene.h"
 
 namespace oca::models {
-namespace {
+namespace motion_judge_test {
 
 using Eigen::VectorXd;
 
@@ -233,5 +233,5 @@ TEST_F(MotionJudgeTest, CountsWhatTheMotionEndsOffTheRequest) {
   EXPECT_NEAR(Judge().final_error, 0.3, 1e-9);
 }
 
-}  // namespace
+}  // namespace motion_judge_test
 }  // namespace oca::models

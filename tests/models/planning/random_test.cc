@@ -7,7 +7,7 @@
 #include <set>
 
 namespace oca::models {
-namespace {
+namespace random_test {
 
 TEST(RandomTest, IsSplitMix64) {
   // The first outputs of the published algorithm for seed 1234567.
@@ -47,5 +47,5 @@ TEST(RandomTest, SeedsOfNeighboursAndNamesDiffer) {
   EXPECT_EQ(seeds.size(), 10200u);
 }
 
-}  // namespace
+}  // namespace random_test
 }  // namespace oca::models

@@ -7,7 +7,7 @@
 #include "tests/models/planning/scene.h"
 
 namespace oca::models {
-namespace {
+namespace rrt_connect_test {
 
 using test::Arm;
 using test::BoxAt;
@@ -105,5 +105,5 @@ TEST(RrtConnectTest, ShortensAPathAndKeepsItClear) {
   ExpectClear(clearance, *shorter, 0.01);
 }
 
-}  // namespace
+}  // namespace rrt_connect_test
 }  // namespace oca::models

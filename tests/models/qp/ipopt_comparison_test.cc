@@ -10,7 +10,7 @@
 #include "random_qp.h"
 
 namespace oca::models::test {
-namespace {
+namespace ipopt_comparison_test {
 
 using Ipopt::Index;
 using Ipopt::Number;
@@ -149,5 +149,5 @@ TEST(IpoptComparisonTest, AgreesOnProblemsOfEveryKind) {
   EXPECT_GT(compared, kProblems * 9 / 10);
 }
 
-}  // namespace
+}  // namespace ipopt_comparison_test
 }  // namespace oca::models::test

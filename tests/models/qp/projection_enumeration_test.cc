@@ -10,7 +10,7 @@
 #include "random_qp.h"
 
 namespace oca::models::test {
-namespace {
+namespace projection_enumeration_test {
 
 using Real = long double;
 using RealVector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
@@ -132,5 +132,5 @@ TEST(ProjectionEnumerationTest, TheBestOfAllCandidatesIsTheAnswer) {
   RecordProperty("worst", std::to_string(worst * 1e12L) + "e-12");
 }
 
-}  // namespace
+}  // namespace projection_enumeration_test
 }  // namespace oca::models::test

@@ -13,7 +13,7 @@
 #include "tests/allocation_count.h"
 
 namespace oca::models::test {
-namespace {
+namespace projection_solver_test {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -235,5 +235,5 @@ TEST(ProjectionSolverTest, SolvesWithoutTheHeap) {
   }
 }
 
-}  // namespace
+}  // namespace projection_solver_test
 }  // namespace oca::models::test

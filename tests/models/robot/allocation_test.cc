@@ -13,7 +13,7 @@
 #include "tests/allocation_count.h"
 
 namespace oca::models::test {
-namespace {
+namespace allocation_test {
 
 TEST(AllocationTest, TheCounterSeesWhatEigenAndTheStandardLibraryTake) {
   if (!kCountsAllocations) GTEST_SKIP() << "malloc is not ours to count here";
@@ -58,5 +58,5 @@ TEST(AllocationTest, KinematicsAndMappingTakeNoMemory) {
   ExpectNoAllocation("robots/lwr4_dual/lwr4_dual.urdf");
 }
 
-}  // namespace
+}  // namespace allocation_test
 }  // namespace oca::models::test

@@ -9,7 +9,7 @@
 #include "random_robot.h"
 
 namespace oca::models::test {
-namespace {
+namespace attach_objects_test {
 
 using testing::HasSubstr;
 using testing::ThrowsMessage;
@@ -89,5 +89,5 @@ TEST(AttachObjectsTest, UnknownLinksAndTakenNamesAreRefused) {
   EXPECT_THAT([&] { attach(cup); }, ThrowsMessage<ModelError>(HasSubstr("no rotation")));
 }
 
-}  // namespace
+}  // namespace attach_objects_test
 }  // namespace oca::models::test

@@ -9,7 +9,7 @@
 #include "random_robot.h"
 
 namespace oca::models::test {
-namespace {
+namespace collision_check_test {
 
 using testing::HasSubstr;
 using testing::ThrowsMessage;
@@ -167,5 +167,5 @@ TEST(CollisionCheckTest, RefusesWhatCannotBeSampled) {
               ThrowsMessage<ModelError>(HasSubstr("links 'mast' and 'plate': distance")));
 }
 
-}  // namespace
+}  // namespace collision_check_test
 }  // namespace oca::models::test

@@ -8,7 +8,7 @@
 #include "models/robot/saturated_task.h"
 
 namespace oca::models {
-namespace {
+namespace filtered_inverse_test {
 
 TEST(FilteredInverseTest, IsExactAboveTheThresholdAndDampedBelowByHand) {
   // sigma 2 and 0.05: lambda^2 of the second is 0.01 (1 - 0.25).
@@ -82,5 +82,5 @@ TEST(SaturatedTaskTest, WithoutATaskItClipsTheWish) {
   EXPECT_EQ(u, Eigen::Vector2d(1, -0.5));
 }
 
-}  // namespace
+}  // namespace filtered_inverse_test
 }  // namespace oca::models

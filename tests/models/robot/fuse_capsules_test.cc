@@ -6,7 +6,7 @@
 #include "random_robot.h"
 
 namespace oca::models::test {
-namespace {
+namespace fuse_capsules_test {
 
 // A cylinder of length 0.4 with spheres at its ends, all in the frame X.
 std::vector<CollisionElement> Pill(const Eigen::Isometry3d& X, double cylinder_radius,
@@ -61,5 +61,5 @@ TEST(FuseCapsulesTest, LeavesOtherShapesInTheirOrder) {
   EXPECT_EQ(fused[1].source, "ball");
 }
 
-}  // namespace
+}  // namespace fuse_capsules_test
 }  // namespace oca::models::test

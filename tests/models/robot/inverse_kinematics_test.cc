@@ -19,7 +19,7 @@
 #include "random_robot.h"
 
 namespace oca::models::test {
-namespace {
+namespace inverse_kinematics_test {
 
 using testing::HasSubstr;
 
@@ -376,5 +376,5 @@ TEST(TipLinkTest, IsTheOneThatCarriesNoOther) {
   }
 }
 
-}  // namespace
+}  // namespace inverse_kinematics_test
 }  // namespace oca::models::test

@@ -11,7 +11,7 @@
 #include "random_robot.h"
 
 namespace oca::models::test {
-namespace {
+namespace jacobian_mapping_test {
 
 // A robot at random positions under random wrenches, with its explicit stack.
 struct Case {
@@ -234,5 +234,5 @@ TEST(JacobianMappingTest, RobotThatCannotMoveHasAnEmptyAnswer) {
   EXPECT_EQ(c.status, MappingStatus::kOk);
 }
 
-}  // namespace
+}  // namespace jacobian_mapping_test
 }  // namespace oca::models::test

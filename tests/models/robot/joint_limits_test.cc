@@ -9,7 +9,7 @@
 #include "models/error.h"
 
 namespace oca::models {
-namespace {
+namespace joint_limits_test {
 
 using testing::AllOf;
 using testing::ElementsAre;
@@ -232,5 +232,5 @@ TEST(JointLimitsTest, TellsStatesThatCannotBe) {
   EXPECT_NEAR(upper, 0.5 + std::numbers::pi, 1e-12);
 }
 
-}  // namespace
+}  // namespace joint_limits_test
 }  // namespace oca::models

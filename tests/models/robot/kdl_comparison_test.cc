@@ -14,7 +14,7 @@
 #include "tests/kdl_convert.h"
 
 namespace oca::models::test {
-namespace {
+namespace kdl_comparison_test {
 
 using oca::test::ToKdl;
 
@@ -164,5 +164,5 @@ TEST(PublicRobotsTest, EveryPublicDescriptionLoadsAsItIs) {
   EXPECT_EQ(files, 4);
 }
 
-}  // namespace
+}  // namespace kdl_comparison_test
 }  // namespace oca::models::test

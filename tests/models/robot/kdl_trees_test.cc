@@ -14,7 +14,7 @@
 #include "tests/kdl_convert.h"
 
 namespace oca::models::test {
-namespace {
+namespace kdl_trees_test {
 
 using oca::test::ToKdl;
 
@@ -114,5 +114,5 @@ TEST_P(KdlTreesTest, AgreeToThirteenDigits) {
 
 INSTANTIATE_TEST_SUITE_P(Quarters, KdlTreesTest, testing::Range(0, 4));
 
-}  // namespace
+}  // namespace kdl_trees_test
 }  // namespace oca::models::test

@@ -11,7 +11,7 @@
 #include "random_robot.h"
 
 namespace oca::models::test {
-namespace {
+namespace kinematics_test {
 
 using testing::HasSubstr;
 using testing::ThrowsMessage;
@@ -254,5 +254,5 @@ TEST(KinematicsTest, DistanceRowIsTheSlopeOfTheDistanceOfTwoPoints) {
   }
 }
 
-}  // namespace
+}  // namespace kinematics_test
 }  // namespace oca::models::test

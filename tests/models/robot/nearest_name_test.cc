@@ -6,7 +6,7 @@
 #include <vector>
 
 namespace oca::models::test {
-namespace {
+namespace nearest_name_test {
 
 TEST(NearestNameTest, DistanceCountsInsertionsRemovalsAndReplacements) {
   EXPECT_EQ(EditDistance("", ""), 0);
@@ -23,5 +23,5 @@ TEST(NearestNameTest, PicksTheClosestAndTheFirstOfEquals) {
   EXPECT_EQ(NearestName("anything", {}), "");
 }
 
-}  // namespace
+}  // namespace nearest_name_test
 }  // namespace oca::models::test

@@ -12,7 +12,7 @@
 #include "random_robot.h"
 
 namespace oca::models::test {
-namespace {
+namespace product_models_test {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
@@ -374,5 +374,5 @@ TEST(Ur5eTest, FlangeIsWhereThePublishedParametersPutIt) {
   EXPECT_NEAR(model.velocity_limits()[0], std::numbers::pi, 1e-15);
 }
 
-}  // namespace
+}  // namespace product_models_test
 }  // namespace oca::models::test

@@ -6,7 +6,7 @@
 #include "random_robot.h"
 
 namespace oca::models::test {
-namespace {
+namespace pseudo_inverse_test {
 
 Eigen::MatrixXd RandomMatrix(Random& random, int rows, int columns) {
   Eigen::MatrixXd matrix(rows, columns);
@@ -75,5 +75,5 @@ TEST(PseudoInverseTest, DampedTendsToItAsTheDampingVanishes) {
   }
 }
 
-}  // namespace
+}  // namespace pseudo_inverse_test
 }  // namespace oca::models::test

@@ -10,7 +10,7 @@
 #include "random_robot.h"
 
 namespace oca::models::test {
-namespace {
+namespace robot_model_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -203,5 +203,5 @@ TEST(RobotModelTest, InertiasOfNoBodyAreRefused) {
   EXPECT_THAT([&] { WithInertia(1.0, I); }, ThrowsMessage<ModelError>(HasSubstr("none below 0")));
 }
 
-}  // namespace
+}  // namespace robot_model_test
 }  // namespace oca::models::test

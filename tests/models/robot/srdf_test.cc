@@ -10,7 +10,7 @@
 #include "tests/temporary_folder.h"
 
 namespace oca::models::test {
-namespace {
+namespace srdf_test {
 
 using testing::AllOf;
 using testing::ElementsAre;
@@ -185,5 +185,5 @@ TEST(SrdfTest, WritingRefusesAFileOfAnotherRobotAndLeavesItAsItIs) {
               ThrowsMessage<ModelError>(HasSubstr("x.srdf: SRDF to write")));
 }
 
-}  // namespace
+}  // namespace srdf_test
 }  // namespace oca::models::test

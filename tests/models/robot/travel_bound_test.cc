@@ -11,7 +11,7 @@
 #include "models/robot/urdf.h"
 
 namespace oca::models {
-namespace {
+namespace travel_bound_test {
 
 RobotModel Arm(const std::string& name) {
   return LoadUrdf(OCA_SOURCE_DIR "/models/robots/" + name + "/" + name + ".urdf");
@@ -110,5 +110,5 @@ TEST(LeastDistanceBetweenTest, HoldsForAnArmThatPassesABall) {
   EXPECT_GT(dipped, 10);  // the samples alone would have missed these
 }
 
-}  // namespace
+}  // namespace travel_bound_test
 }  // namespace oca::models

@@ -10,7 +10,7 @@
 #include "tests/temporary_folder.h"
 
 namespace oca::models::test {
-namespace {
+namespace unseen_links_test {
 
 using testing::AllOf;
 using testing::ElementsAre;
@@ -124,5 +124,5 @@ TEST(VisualAsCollisionTest, MeshesBecomeHullsWithTheUsualWarning) {
   EXPECT_NO_THROW(ParseUrdf(Arm("", kLost, kSolid), "two.urdf", options, folder.path()));
 }
 
-}  // namespace
+}  // namespace unseen_links_test
 }  // namespace oca::models::test

@@ -6,7 +6,7 @@
 #include <vector>
 
 namespace oca::models::test {
-namespace {
+namespace urdf_meshes_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -39,5 +39,5 @@ TEST(UrdfMeshesTest, PutsNewNamesInTheirPlace) {
   EXPECT_THAT(renamed, HasSubstr("gone.stl"));
 }
 
-}  // namespace
+}  // namespace urdf_meshes_test
 }  // namespace oca::models::test

@@ -10,7 +10,7 @@
 #include "random_robot.h"
 
 namespace oca::models::test {
-namespace {
+namespace urdf_refusal_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -255,5 +255,5 @@ TEST(UrdfRefusalTest, DamagedTextIsReadOrRefusedButNeverCrashes) {
   EXPECT_GT(refused, 1000);
 }
 
-}  // namespace
+}  // namespace urdf_refusal_test
 }  // namespace oca::models::test

@@ -13,7 +13,7 @@
 #include "tests/temporary_folder.h"
 
 namespace oca::models::test {
-namespace {
+namespace urdf_test {
 
 using testing::HasSubstr;
 using testing::ThrowsMessage;
@@ -244,5 +244,5 @@ TEST(UrdfTest, AngleOfAQuarterTurnIsExactToTheLastDigits) {
   EXPECT_LT((X_WL[1].linear().col(0) - Eigen::Vector3d::UnitY()).norm(), 1e-16);
 }
 
-}  // namespace
+}  // namespace urdf_test
 }  // namespace oca::models::test

@@ -11,7 +11,7 @@
 #include "tests/temporary_folder.h"
 
 namespace oca::models::test {
-namespace {
+namespace xml_test {
 
 using testing::AllOf;
 using testing::ElementsAre;
@@ -107,5 +107,5 @@ TEST(XmlNumbersTest, RefusesWhatIsNoFiniteNumber) {
   }
 }
 
-}  // namespace
+}  // namespace xml_test
 }  // namespace oca::models::test
