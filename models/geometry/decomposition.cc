@@ -29,11 +29,11 @@ using Eigen::Vector3d;
 constexpr double kThinnest = 1e-4;  // of a part's extent; flat ones are padded to it
 constexpr double kScale = 1000.0;   // to which HACD brings the diagonal
 
-struct Extent {
+struct Span {
   Vector3d low, size;
 };
 
-Extent ExtentOf(const std::vector<Vector3d>& points) {
+Span ExtentOf(const std::vector<Vector3d>& points) {
   Vector3d low = points.front(), high = low;
   for (const Vector3d& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
   return {low, high - low};
