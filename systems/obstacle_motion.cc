@@ -59,13 +59,13 @@ class Keys {
   std::string where_;
 };
 
-void CheckFinite(bool finite, const std::string& where) {
+void CheckAllFinite(bool finite, const std::string& where) {
   if (!finite) throw ConfigError(where + ": got a NaN or an infinity; expected finite numbers");
 }
 
 double FiniteOr(const std::optional<double>& value, double otherwise, const std::string& where) {
   if (!value) return otherwise;
-  CheckFinite(std::isfinite(*value), where);
+  CheckAllFinite(std::isfinite(*value), where);
   return *value;
 }
 
@@ -93,7 +93,7 @@ Motion MakeLinear(const MotionParams& params, const Isometry3d& X_0, const std::
     }
     angular = given;
   }
-  CheckFinite(velocity.allFinite() && angular.allFinite(), where);
+  CheckAllFinite(velocity.allFinite() && angular.allFinite(), where);
   const double start = FiniteOr(params.start, 0.0, where + ".start");
   const double stop =
       FiniteOr(params.stop, std::numeric_limits<double>::infinity(), where + ".stop");
@@ -115,7 +115,7 @@ Motion MakeSinusoidal(const MotionParams& params, const Isometry3d& X_0, const s
   const Vector3d amplitude = *params.amplitude;
   const double frequency = *params.frequency;
   const double phase = FiniteOr(params.phase, 0.0, where + ".phase");
-  CheckFinite(amplitude.allFinite() && std::isfinite(frequency), where);
+  CheckAllFinite(amplitude.allFinite() && std::isfinite(frequency), where);
   if (!(frequency > 0.0)) {
     throw ConfigError(fmt::format("{}.frequency: got {} Hz; expected > 0", where, frequency));
   }
@@ -136,7 +136,7 @@ Motion MakeCircular(const MotionParams& params, const Isometry3d& X_0, const std
     throw ConfigError(where + ".angular_velocity: got a list; expected a number, about the axis");
   }
   const Vector3d center = *params.center;
-  CheckFinite(center.allFinite() && params.axis->allFinite() && std::isfinite(given[0]), where);
+  CheckAllFinite(center.allFinite() && params.axis->allFinite() && std::isfinite(given[0]), where);
   if (params.axis->norm() == 0.0) {
     throw ConfigError(where + ".axis: got length 0; expected a direction");
   }
@@ -169,9 +169,9 @@ std::vector<Piece> MakePieces(const std::vector<WaypointParams>& waypoints,
   for (std::size_t i = 0; i < waypoints.size(); ++i) {
     const WaypointParams& point = waypoints[i];
     const std::string at = fmt::format("{}[{}]", where, i);
-    CheckFinite(std::isfinite(point.time) && point.xyz.allFinite() &&
-                    (!point.rpy || point.rpy->allFinite()),
-                at);
+    CheckAllFinite(std::isfinite(point.time) && point.xyz.allFinite() &&
+                       (!point.rpy || point.rpy->allFinite()),
+                   at);
     if (point.rpy.has_value() != waypoints[0].rpy.has_value()) {
       throw ConfigError(at + ".rpy: got it in some waypoints; expected it in all or in none");
     }

@@ -13,7 +13,7 @@
 namespace oca::models {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 // Of the larger end of a range: what digits in a file take from ranges that are meant to touch.
 constexpr double kLimitRounding = 1e-9;
 
@@ -209,7 +209,7 @@ std::optional<std::pair<double, double>> DrawnRange(const RobotModel& model, Eig
   const double lower = model.lower_limits()[index];
   const double upper = model.upper_limits()[index];
   if (HasOwnRange(model, index)) return std::pair(lower, upper);
-  if (upper - lower < 2.0 * kPi) return std::nullopt;  // a mimic goes too far
+  if (upper - lower < 2.0 * kHalfTurn) return std::nullopt;  // a mimic goes too far
   for (const KinematicStep& step : model.steps()) {
     if (step.column != index) continue;
     const bool repeats =
@@ -217,8 +217,8 @@ std::optional<std::pair<double, double>> DrawnRange(const RobotModel& model, Eig
     if (!repeats) return std::nullopt;
   }
   // A whole turn, moved into the limits.
-  const double first = std::clamp(-kPi, lower, std::max(upper - 2.0 * kPi, lower));
-  return std::pair(first, first + 2.0 * kPi);
+  const double first = std::clamp(-kHalfTurn, lower, std::max(upper - 2.0 * kHalfTurn, lower));
+  return std::pair(first, first + 2.0 * kHalfTurn);
 }
 
 std::pair<double, double> PossibleRange(const RobotModel& model, Eigen::Index index) {
