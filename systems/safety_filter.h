@@ -55,8 +55,7 @@ struct FilterSolution {
 ///     u_j in the velocities from which joint j can stop within all its limits
 ///
 ///     r = velocity + acceleration period / 2 + position_gain (position - c), braked for arrival,
-///         within ten times the joint's velocity limit: slack has a price, so a wish must be
-///         bounded
+///         within ten times the joint's velocity limit, for slack has a price
 ///     w_j = weights_j (1 + progress_weight l_j / (max_k l_k + 0.05))
 ///     a_i = n_i^T (J at point_on_link), less that of the other link within one arm
 ///     h_i = distance_i - safe_distance,   v_i the obstacle's velocity at its point
