@@ -51,7 +51,7 @@ namespace oca::systems {
 ///        has a collision shape, a pair is no pair, max_distance is not positive,
 ///        calculate_link_forces has no `others`, or more than 8 of them move; while running if a
 ///        link comes in that is not of the model, or links of `others` without velocities
-/// source report section 3.2, Algorithm 2; THEORY.md section 1
+/// source report section 3.2, Algorithm 2; docs/theory.md, Distances
 class BulletDistance final : public System {
  public:
   static constexpr SystemDoc kDoc{

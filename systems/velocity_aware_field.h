@@ -30,7 +30,7 @@ namespace oca::systems {
 /// throws ConfigError if velocity_gain is negative, exponent < 2, or not
 ///        0 < min_distance < max_distance; while running if links come in without velocities, or a
 ///        proximity is of no link that comes in
-/// source Park, Hoffmann, Pastor, Schaal, Humanoids 2008, eq. (14), (15); THEORY.md section 3
+/// source Park, Hoffmann, Pastor, Schaal, Humanoids 2008, eq. (14), (15); docs/theory.md
 class VelocityAwareField final : public System {
  public:
   static constexpr SystemDoc kDoc{

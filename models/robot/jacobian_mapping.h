@@ -12,7 +12,7 @@
 namespace oca::models {
 
 /// Force (N) and torque (Nm) on a body, world axes; the torque is about the origin of the body's
-/// link, which lies on the joint that leads to it. source report section 3.3; THEORY.md section 1
+/// link, which lies on the joint that leads to it. source report section 3.3; docs/theory.md
 struct BodyWrench {
   Eigen::Vector3d force{Eigen::Vector3d::Zero()};
   Eigen::Vector3d torque{Eigen::Vector3d::Zero()};
