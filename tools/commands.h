@@ -93,6 +93,8 @@ int CheckCollisionsCommand(const CheckCollisionsArguments& arguments);
 int ListCommand();
 int DescribeCommand(const std::string& type);
 int SchemaCommand();
+/// A page of docs/reference in Markdown: `systems` or `diagram_file`.
+int DocsCommand(const std::string& page);
 
 struct EvalArguments {
   std::string type;

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/schema_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+#include "framework/params.h"
+
+namespace oca::tools {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct Row {
+  std::string key, type, unit, preset, bounds, meaning;
+};
+
+std::string TextOf(const ordered_json& schema, const char* key) {
+  const auto found = schema.find(key);
+  return found == schema.end() ? "" : found->get<std::string>();
+}
+
+/// The alternatives of a schema, without that of an expression in place of a value.
+std::vector<ordered_json> Alternatives(const ordered_json& schema) {
+  std::vector<ordered_json> all;
+  for (const char* const key : {"anyOf", "oneOf"}) {
+    const auto found = schema.find(key);
+    if (found == schema.end()) continue;
+    for (const ordered_json& item : *found) {
+      if (TextOf(item, "pattern") != "\\$\\{.*\\}") all.push_back(item);
+    }
+  }
+  return all;
+}
+
+/// `schema` without what allows an expression; what it says beside its one alternative is kept.
+ordered_json Plain(ordered_json schema) {
+  for (auto all = Alternatives(schema); all.size() == 1; all = Alternatives(schema)) {
+    ordered_json inner = all.front();
+    for (const auto& [key, value] : schema.items()) {
+      if (key != "anyOf" && key != "oneOf") inner[key] = value;
+    }
+    schema = std::move(inner);
+  }
+  return schema;
+}
+
+std::string TypeText(const ordered_json& given, bool plural = false) {
+  const ordered_json schema = Plain(given);
+  const char* const s = plural ? "s" : "";
+  if (const auto names = schema.find("enum"); names != schema.end()) {
+    std::string text;
+    for (const ordered_json& name : *names) {
+      text += fmt::format("{}`{}`", text.empty() ? "" : ", ", name.get<std::string>());
+    }
+    return text;
+  }
+  std::string text;
+  for (const ordered_json& item : Alternatives(schema)) {
+    text += (text.empty() ? "" : " or ") + TypeText(item);
+  }
+  if (!text.empty()) return text;
+  const std::string type = TextOf(schema, "type");
+  if (type == "string") return fmt::format("text{}", s);
+  if (type == "boolean") return "true or false";
+  if (type == "array") {
+    const bool fixed = schema.contains("maxItems") && schema["minItems"] == schema["maxItems"];
+    return fmt::format("list{} of {}{}", s,
+                       fixed ? fmt::format("{} ", schema["maxItems"].get<int>()) : "",
+                       TypeText(schema.value("items", ordered_json::object()), true));
+  }
+  if (type == "object") return fmt::format("map{}", s);
+  return type + s;
+}
+
+void Bound(const ordered_json& schema, Bounds& bounds) {
+  if (schema.contains("minimum")) bounds.lower = schema["minimum"].get<double>();
+  if (schema.contains("exclusiveMinimum")) {
+    bounds.lower = schema["exclusiveMinimum"].get<double>();
+    bounds.above = true;
+  }
+  if (schema.contains("maximum")) bounds.upper = schema["maximum"].get<double>();
+}
+
+/// Of the number, or of the numbers in the list.
+std::string BoundsText(const ordered_json& schema) {
+  Bounds bounds;
+  Bound(schema, bounds);
+  for (const ordered_json& item : Alternatives(schema)) Bound(Plain(item), bounds);
+  if (schema.contains("items")) Bound(Plain(schema["items"]), bounds);
+  return bounds.ToString();
+}
+
+void AddRows(const ordered_json& given, const std::string& path, std::vector<Row>& rows);
+
+void AddRow(const ordered_json& given, const std::string& key, bool required,
+            std::vector<Row>& rows) {
+  const ordered_json schema = Plain(given);
+  Row row{key, TypeText(schema), TextOf(schema, "x-unit"), "", BoundsText(schema), ""};
+  row.meaning = TextOf(schema, "description");
+  const std::string suffix = " [" + row.unit + "]";
+  if (row.meaning.ends_with(suffix)) row.meaning.resize(row.meaning.size() - suffix.size());
+  if (required) row.preset = "required";
+  if (schema.contains("default")) row.preset = fmt::format("`{}`", schema["default"].dump());
+  rows.push_back(row);
+  AddRows(schema, key, rows);
+}
+
+/// What is inside of an object, a map or a list of them.
+void AddRows(const ordered_json& given, const std::string& path, std::vector<Row>& rows) {
+  const ordered_json schema = Plain(given);
+  if (schema.contains("items")) return AddRows(schema["items"], path + "[]", rows);
+  const std::string prefix = path.empty() ? "" : path + ".";
+  const ordered_json required = schema.value("required", ordered_json::array());
+  if (schema.contains("properties")) {
+    for (const auto& [key, property] : schema["properties"].items()) {
+      const bool needed = std::find(required.begin(), required.end(), key) != required.end();
+      AddRow(property, prefix + key, needed, rows);
+    }
+  }
+  const auto values = schema.find("additionalProperties");
+  if (values != schema.end() && values->is_object()) {
+    const ordered_json value = Plain(*values);
+    if (value.contains("properties")) return AddRows(value, prefix + "NAME", rows);
+    AddRow(value, prefix + "NAME", false, rows);
+  }
+}
+
+}  // namespace
+
+std::string Cell(std::string text) {
+  for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) {
+    text.insert(at, "\\");
+  }
+  return text;
+}
+
+std::string SchemaTable(const ordered_json& schema, const std::string& skip) {
+  std::vector<Row> rows;
+  AddRows(schema, "", rows);
+  std::erase_if(rows, [&](const Row& row) { return !skip.empty() && row.key == skip; });
+  if (rows.empty()) return "";
+  std::string text =
+      "| key | type | unit | default | bounds | meaning |\n|---|---|---|---|---|---|\n";
+  for (const Row& row : rows) {
+    text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", row.key, Cell(row.type), row.unit,
+                        Cell(row.preset), Cell(row.bounds), Cell(row.meaning));
+  }
+  return text;
+}
+
+}  // namespace oca::tools
