@@ -24,6 +24,11 @@ std::string Anchor(std::string heading) {
   return heading;
 }
 
+std::string Sentence(std::string text) {
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text + ".";
+}
+
 template <class Info>
 void AddPorts(const char* kind, const std::vector<Info>& ports, std::string& page) {
   for (const Info& port : ports) {
@@ -34,7 +39,8 @@ void AddPorts(const char* kind, const std::vector<Info>& ports, std::string& pag
 void AddSystem(const diagrams::CatalogueRow& row, const systems::ModelSet& models,
                std::string& page) {
   const auto example = row.make_example(models);
-  page += fmt::format("\n## {}\n\n{}.\n\n    {}\n", row.type, row.doc.summary, row.doc.equation);
+  page += fmt::format("\n## {}\n\n{}\n\n    {}\n", row.type, Sentence(row.doc.summary),
+                      row.doc.equation);
   if (*row.doc.source != '\0') page += fmt::format("\nSource: {}.\n", row.doc.source);
   page += "\n| | port | carries |\n|---|---|---|\n";
   AddPorts("input", example->inputs(), page);
@@ -74,7 +80,7 @@ std::string DiagramFilePage() {
       "expressions know: [write a diagram](../how-to/write_a_diagram.md).\n";
   const ordered_json schema = ordered_json::parse(diagrams::DiagramSchema());
   for (const diagrams::Section& section : diagrams::Sections()) {
-    page += fmt::format("\n## {}\n\n{}.\n", section.key, section.meaning);
+    page += fmt::format("\n## {}\n\n{}\n", section.key, Sentence(section.meaning));
     const ordered_json& keys = schema["properties"][section.key];
     if (std::string(section.key) == "systems") {
       page +=

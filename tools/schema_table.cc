@@ -120,6 +120,9 @@ void AddRows(const ordered_json& given, const std::string& path, std::vector<Row
     for (const auto& [key, property] : schema["properties"].items()) {
       const bool needed = std::find(required.begin(), required.end(), key) != required.end();
       AddRow(property, prefix + key, needed, rows);
+      // The schema requires neither of the two.
+      const bool either = key == "period" && schema["properties"].contains("frequency");
+      if (either && rows.back().preset.empty()) rows.back().preset = "required, or `frequency`";
     }
   }
   const auto values = schema.find("additionalProperties");
