@@ -142,10 +142,9 @@ std::string Cell(std::string text) {
   return text;
 }
 
-std::string SchemaTable(const ordered_json& schema, const std::string& skip) {
+std::string SchemaTable(const ordered_json& schema) {
   std::vector<Row> rows;
   AddRows(schema, "", rows);
-  std::erase_if(rows, [&](const Row& row) { return !skip.empty() && row.key == skip; });
   if (rows.empty()) return "";
   std::string text =
       "| key | type | unit | default | bounds | meaning |\n|---|---|---|---|---|---|\n";

@@ -87,6 +87,16 @@ check_cited_pages() {
   while read -r line; do problem "$line"; done < "$work/cited"
 }
 
+check_named_files_are_there() {
+  local page file
+  for page in $(pages); do
+    [[ $page == CHANGELOG.md ]] && continue  # it names what was
+    for file in $(grep -oE '\b(framework|systems|models|diagrams|tools|tests|cmake|docs)/[A-Za-z0-9_/.-]+\.(h|cc|sh|yaml|md|urdf|csv)\b' "$page" | sort -u); do
+      [[ -e $file || $file == *NAME* ]] || problem "$page: names $file, which is not there"
+    done
+  done
+}
+
 check_smallest_diagram_runs() {
   blocks README.md yaml > "$work/first.yaml"
   diff -u diagrams/first.yaml "$work/first.yaml" > "$work/diff" ||
