@@ -25,7 +25,7 @@ namespace oca::systems {
 /// in    proximities  ProximitySet     with the obstacles' velocities
 /// in    links        LinkPoses        with velocities
 /// out   forces       LinkForceSet  N  one a proximity, same order, at point_on_link
-/// out   slopes       ContactSlopes    for a LoopGain; `damping` is that of the worst direction of v
+/// out   slopes       ContactSlopes    for a LoopGain; `damping` for the worst direction of v
 /// state -
 /// throws ConfigError if velocity_gain is negative, exponent < 2, or not
 ///        0 < min_distance < max_distance; while running if links come in without velocities, or a
