@@ -30,21 +30,21 @@ std::string Sentence(std::string text) {
 }
 
 template <class Info>
-void AddPorts(const char* kind, const std::vector<Info>& ports, std::string& page) {
+void AddPortRows(const char* kind, const std::vector<Info>& ports, std::string& page) {
   for (const Info& port : ports) {
     page += fmt::format("| {} | `{}` | {} |\n", kind, port.name, PortText(port));
   }
 }
 
-void AddSystem(const diagrams::CatalogueRow& row, const systems::ModelSet& models,
-               std::string& page) {
+void AddSystemSection(const diagrams::CatalogueRow& row, const systems::ModelSet& models,
+                      std::string& page) {
   const auto example = row.make_example(models);
   page += fmt::format("\n## {}\n\n{}\n\n    {}\n", row.type, Sentence(row.doc.summary),
                       row.doc.equation);
   if (*row.doc.source != '\0') page += fmt::format("\nSource: {}.\n", row.doc.source);
   page += "\n| | port | carries |\n|---|---|---|\n";
-  AddPorts("input", example->inputs(), page);
-  AddPorts("output", example->outputs(), page);
+  AddPortRows("input", example->inputs(), page);
+  AddPortRows("output", example->outputs(), page);
   const std::string table = SchemaTable(ordered_json::parse(row.schema()));
   page += table.empty() ? "\nNo parameters.\n" : "\n" + table;
   page += fmt::format("\nExample parameters: `{}`\n", row.example());
@@ -65,7 +65,7 @@ std::string SystemsPage() {
   for (const auto& row : diagrams::Catalogue()) {
     page += fmt::format("| [{}](#{}) | {} |\n", row.type, Anchor(row.type), Cell(row.doc.summary));
   }
-  for (const auto& row : diagrams::Catalogue()) AddSystem(row, models, page);
+  for (const auto& row : diagrams::Catalogue()) AddSystemSection(row, models, page);
   return page;
 }
 

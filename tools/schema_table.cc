@@ -15,11 +15,11 @@ namespace {
 
 using nlohmann::ordered_json;
 
-struct Row {
+struct KeyRow {
   std::string key, type, unit, preset, bounds, meaning;
 };
 
-std::string TextOf(const ordered_json& schema, const char* key) {
+std::string SchemaText(const ordered_json& schema, const char* key) {
   const auto found = schema.find(key);
   return found == schema.end() ? "" : found->get<std::string>();
 }
@@ -31,14 +31,14 @@ std::vector<ordered_json> Alternatives(const ordered_json& schema) {
     const auto found = schema.find(key);
     if (found == schema.end()) continue;
     for (const ordered_json& item : *found) {
-      if (TextOf(item, "pattern") != "\\$\\{.*\\}") all.push_back(item);
+      if (SchemaText(item, "pattern") != "\\$\\{.*\\}") all.push_back(item);
     }
   }
   return all;
 }
 
 /// `schema` without what allows an expression; what it says beside its one alternative is kept.
-ordered_json Plain(ordered_json schema) {
+ordered_json PlainSchema(ordered_json schema) {
   for (auto all = Alternatives(schema); all.size() == 1; all = Alternatives(schema)) {
     ordered_json inner = all.front();
     for (const auto& [key, value] : schema.items()) {
@@ -50,7 +50,7 @@ ordered_json Plain(ordered_json schema) {
 }
 
 std::string TypeText(const ordered_json& given, bool plural = false) {
-  const ordered_json schema = Plain(given);
+  const ordered_json schema = PlainSchema(given);
   const char* const s = plural ? "s" : "";
   if (const auto names = schema.find("enum"); names != schema.end()) {
     std::string text;
@@ -64,7 +64,7 @@ std::string TypeText(const ordered_json& given, bool plural = false) {
     text += (text.empty() ? "" : " or ") + TypeText(item);
   }
   if (!text.empty()) return text;
-  const std::string type = TextOf(schema, "type");
+  const std::string type = SchemaText(schema, "type");
   if (type == "string") return fmt::format("text{}", s);
   if (type == "boolean") return "true or false";
   if (type == "array") {
@@ -77,7 +77,7 @@ std::string TypeText(const ordered_json& given, bool plural = false) {
   return type + s;
 }
 
-void Bound(const ordered_json& schema, Bounds& bounds) {
+void ReadBound(const ordered_json& schema, Bounds& bounds) {
   if (schema.contains("minimum")) bounds.lower = schema["minimum"].get<double>();
   if (schema.contains("exclusiveMinimum")) {
     bounds.lower = schema["exclusiveMinimum"].get<double>();
@@ -89,37 +89,37 @@ void Bound(const ordered_json& schema, Bounds& bounds) {
 /// Of the number, or of the numbers in the list.
 std::string BoundsText(const ordered_json& schema) {
   Bounds bounds;
-  Bound(schema, bounds);
-  for (const ordered_json& item : Alternatives(schema)) Bound(Plain(item), bounds);
-  if (schema.contains("items")) Bound(Plain(schema["items"]), bounds);
+  ReadBound(schema, bounds);
+  for (const ordered_json& item : Alternatives(schema)) ReadBound(PlainSchema(item), bounds);
+  if (schema.contains("items")) ReadBound(PlainSchema(schema["items"]), bounds);
   return bounds.ToString();
 }
 
-void AddRows(const ordered_json& given, const std::string& path, std::vector<Row>& rows);
+void AddKeyRows(const ordered_json& given, const std::string& path, std::vector<KeyRow>& rows);
 
-void AddRow(const ordered_json& given, const std::string& key, bool required,
-            std::vector<Row>& rows) {
-  const ordered_json schema = Plain(given);
-  Row row{key, TypeText(schema), TextOf(schema, "x-unit"), "", BoundsText(schema), ""};
-  row.meaning = TextOf(schema, "description");
+void AddKeyRow(const ordered_json& given, const std::string& key, bool required,
+               std::vector<KeyRow>& rows) {
+  const ordered_json schema = PlainSchema(given);
+  KeyRow row{key, TypeText(schema), SchemaText(schema, "x-unit"), "", BoundsText(schema), ""};
+  row.meaning = SchemaText(schema, "description");
   const std::string suffix = " [" + row.unit + "]";
   if (row.meaning.ends_with(suffix)) row.meaning.resize(row.meaning.size() - suffix.size());
   if (required) row.preset = "required";
   if (schema.contains("default")) row.preset = fmt::format("`{}`", schema["default"].dump());
   rows.push_back(row);
-  AddRows(schema, key, rows);
+  AddKeyRows(schema, key, rows);
 }
 
 /// What is inside of an object, a map or a list of them.
-void AddRows(const ordered_json& given, const std::string& path, std::vector<Row>& rows) {
-  const ordered_json schema = Plain(given);
-  if (schema.contains("items")) return AddRows(schema["items"], path + "[]", rows);
+void AddKeyRows(const ordered_json& given, const std::string& path, std::vector<KeyRow>& rows) {
+  const ordered_json schema = PlainSchema(given);
+  if (schema.contains("items")) return AddKeyRows(schema["items"], path + "[]", rows);
   const std::string prefix = path.empty() ? "" : path + ".";
   const ordered_json required = schema.value("required", ordered_json::array());
   if (schema.contains("properties")) {
     for (const auto& [key, property] : schema["properties"].items()) {
       const bool needed = std::find(required.begin(), required.end(), key) != required.end();
-      AddRow(property, prefix + key, needed, rows);
+      AddKeyRow(property, prefix + key, needed, rows);
       // The schema requires neither of the two.
       const bool either = key == "period" && schema["properties"].contains("frequency");
       if (either && rows.back().preset.empty()) rows.back().preset = "required, or `frequency`";
@@ -127,9 +127,9 @@ void AddRows(const ordered_json& given, const std::string& path, std::vector<Row
   }
   const auto values = schema.find("additionalProperties");
   if (values != schema.end() && values->is_object()) {
-    const ordered_json value = Plain(*values);
-    if (value.contains("properties")) return AddRows(value, prefix + "NAME", rows);
-    AddRow(value, prefix + "NAME", false, rows);
+    const ordered_json value = PlainSchema(*values);
+    if (value.contains("properties")) return AddKeyRows(value, prefix + "NAME", rows);
+    AddKeyRow(value, prefix + "NAME", false, rows);
   }
 }
 
@@ -143,12 +143,12 @@ std::string Cell(std::string text) {
 }
 
 std::string SchemaTable(const ordered_json& schema) {
-  std::vector<Row> rows;
-  AddRows(schema, "", rows);
+  std::vector<KeyRow> rows;
+  AddKeyRows(schema, "", rows);
   if (rows.empty()) return "";
   std::string text =
       "| key | type | unit | default | bounds | meaning |\n|---|---|---|---|---|---|\n";
-  for (const Row& row : rows) {
+  for (const KeyRow& row : rows) {
     text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", row.key, Cell(row.type), row.unit,
                         Cell(row.preset), Cell(row.bounds), Cell(row.meaning));
   }

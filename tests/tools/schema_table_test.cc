@@ -9,7 +9,7 @@
 #include "framework/params.h"
 
 namespace oca::tools {
-namespace {
+namespace schema_table_test {
 
 using nlohmann::ordered_json;
 using testing::HasSubstr;
@@ -74,5 +74,5 @@ TEST(SchemaTableTest, OfNothingIsEmpty) {
   EXPECT_EQ(SchemaTable(ordered_json::parse(R"({"type": "string"})")), "");
 }
 
-}  // namespace
+}  // namespace schema_table_test
 }  // namespace oca::tools
