@@ -179,10 +179,17 @@ std::string DiagramSchema() {
   sections["systems"] = SystemsSchema();
   sections["connections"] = {{"type", "array"},
                              {"items", {{"type", "string"}, {"pattern", "^\\S+ *-> *\\S+$"}}}};
-  const ordered_json rate{{"type", "number"}, {"exclusiveMinimum", 0}};
-  sections["record"] = {{"type", "object"},
-                        {"additionalProperties", false},
-                        {"properties", {{"signals", MapOf(rate)}, {"scene", rate}}}};
+  const auto rate = [](const char* meaning) -> ordered_json {
+    return {
+        {"type", "number"}, {"exclusiveMinimum", 0}, {"description", meaning}, {"x-unit", "Hz"}};
+  };
+  ordered_json signals = MapOf(rate("of `system.port`, or of all that `system.*` names"));
+  signals["description"] = "signals and how often to keep them";
+  sections["record"] = {
+      {"type", "object"},
+      {"additionalProperties", false},
+      {"properties",
+       {{"signals", signals}, {"scene", rate("of the scene that report and view show")}}}};
   AllowExpressions(sections["record"]);
   sections["expect"] = MapOf(SchemaOf(ParamTypeOf<ExpectParams>()));
   AllowExpressions(sections["expect"]);

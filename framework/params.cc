@@ -103,6 +103,7 @@ std::string SchemaOfFields(const std::vector<Field>& fields, const void* default
     ordered_json schema = ordered_json::parse(field.type->Schema(field));
     schema["description"] =
         field.unit.empty() ? field.meaning : fmt::format("{} [{}]", field.meaning, field.unit);
+    if (!field.unit.empty()) schema["x-unit"] = field.unit;
     if (field.required) {
       required.push_back(field.key);
     } else {
@@ -112,8 +113,10 @@ std::string SchemaOfFields(const std::vector<Field>& fields, const void* default
     }
     properties[field.key] = std::move(schema);
     if (field.key == "period" && field.type == &ParamTypeOf<Period>()) {
-      properties["frequency"] = {
-          {"type", "number"}, {"exclusiveMinimum", 0}, {"description", "instead of period [Hz]"}};
+      properties["frequency"] = {{"type", "number"},
+                                 {"exclusiveMinimum", 0},
+                                 {"description", "instead of period [Hz]"},
+                                 {"x-unit", "Hz"}};
       if (field.required) required.erase(required.size() - 1);
     }
   }

@@ -67,8 +67,7 @@ struct Field : FieldInfo {
 /// The fields of a Params struct P; P::Describe fills it:
 ///
 ///     static void Describe(Fields<Params>& fields) {
-///       fields.Add("force_gain", &Params::force_gain, "N m^2", "gain eta of eq.
-///       (3.1)").AtLeast(0);
+///       fields.Add("force_gain", &Params::force_gain, "N m^3", "gain eta").AtLeast(0);
 ///     }
 template <class P>
 class Fields {

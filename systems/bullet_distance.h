@@ -48,11 +48,10 @@ namespace oca::systems {
 /// out   near          NearObstacles  of each movable link that has solids, in the model's order
 /// state -
 /// throws ConfigError if a model or a link of `ignore` does not exist, no movable link of the model
-///        has a collision shape, a pair is no pair,
-///        max_distance is not positive, calculate_link_forces has no `others`, or more than 8 of
-///        them move; while running if a link comes in that is not of the model, or links of
-///        `others` without velocities
-/// source report section 3.2, Algorithm 2; THEORY.md section 1
+///        has a collision shape, a pair is no pair, max_distance is not positive,
+///        calculate_link_forces has no `others`, or more than 8 of them move; while running if a
+///        link comes in that is not of the model, or links of `others` without velocities
+/// source report section 3.2, Algorithm 2; docs/theory.md, Distances
 class BulletDistance final : public System {
  public:
   static constexpr SystemDoc kDoc{

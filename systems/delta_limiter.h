@@ -23,7 +23,7 @@ namespace oca::systems {
 /// out   limited_delta  n  u      x, held since the last update
 /// state x              n  u
 /// throws ConfigError if max_joint_velocity or period is not positive
-/// source report section 3.4 end; THEORY.md section 1
+/// source report section 3.4 end; docs/theory.md, Limiter and overlay
 class DeltaLimiter final : public System {
  public:
   static constexpr SystemDoc kDoc{

@@ -25,7 +25,7 @@ namespace oca::systems {
 ///       applied_delta  n  u    what was added: delta, or 0 if not enabled
 /// state x         n  u     delta before the last tick, starting at 0
 /// throws ConfigError if period is negative
-/// source report section 3.4 (which adds to positions only); THEORY.md section 1
+/// source report section 3.4 (which adds to positions only); docs/theory.md
 class DeltaOverlay final : public System {
  public:
   static constexpr SystemDoc kDoc{

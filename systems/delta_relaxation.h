@@ -25,7 +25,8 @@ namespace oca::systems {
 /// out   relaxed_delta  n  u
 /// state x              n  u    the relaxed delta of the last tick
 /// throws ConfigError if relaxation_time is negative or period is not positive
-/// source THEORY.md section 2: stable for relaxation_time > period (1 + g) / 2, g the loop's gain
+/// source docs/theory.md, Loop gain and relaxation: stable for
+///        relaxation_time > period (1 + g) / 2, g the loop's gain
 class DeltaRelaxation final : public System {
  public:
   static constexpr SystemDoc kDoc{

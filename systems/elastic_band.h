@@ -56,7 +56,7 @@ namespace oca::systems {
 ///       plan          BandMemory
 /// throws ConfigError if there is no such model, a parameter is out of its bounds, or plan_period
 ///        is shorter than period; while running if the request has another number of joints
-/// source models/planning/band_planner.h; docs/recommended.md
+/// source models/planning/band_planner.h; docs/explanation/recommended.md
 class ElasticBand final : public System {
  public:
   static constexpr SystemDoc kDoc{

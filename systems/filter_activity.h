@@ -38,7 +38,7 @@ struct FilterActivity {
   int dropped{0};      ///< for want of room; those farthest away
   int yields{0};       ///< joints of which a position or velocity limit cannot be kept
   double slack{0.0};   ///< m/s; the largest of a distance row
-  double margin{0.0};  ///< m; how far below safe_distance ticks may lead, see docs/safety_filter.md
+  double margin{0.0};  ///< m; how far below safe_distance ticks may lead, see docs
   double kkt_residual{0.0};
   double gap{0.0};
   int num_bounds{0};

@@ -53,7 +53,7 @@ namespace oca::systems {
 /// throws ConfigError if there is no such model or link, it has more than 32 joints, or a parameter
 ///        is out of its bounds; while running if a proximity or a pose is of no link of the model
 /// source Flacco, Kroeger, De Luca, Khatib, A depth space approach to human-robot collision
-///        avoidance, ICRA 2012, eq. (4) to (9); THEORY.md section 3
+///        avoidance, ICRA 2012, eq. (4) to (9); docs/theory.md
 class FlaccoDeLuca final : public System {
  public:
   static constexpr SystemDoc kDoc{

@@ -45,7 +45,7 @@ struct MappingSolution {
 /// state -
 /// throws ConfigError if there is no such model, alpha is not finite, damping is negative or, in
 ///        method damped, 0; while running if a wrench or a pose is of no link of the model
-/// source report eq. (2.9), (2.12), (3.4); THEORY.md section 1
+/// source report eq. (2.9), (2.12), (3.4); docs/theory.md
 class JacobianMapping final : public System {
  public:
   static constexpr SystemDoc kDoc{

@@ -37,7 +37,7 @@ std::span<const char* const> EnumNames(ServoMode);
 ///                                   start before the first one
 /// throws ConfigError if deadbeat has no positive period, natural_frequency is not positive or
 ///        damping_ratio negative
-/// source DESIGN.md section 5 (deadbeat); Franklin, Powell, Emami-Naeini, Feedback Control of
+/// source docs/theory.md, Servo and plant; Franklin, Powell, Emami-Naeini, Feedback Control of
 ///        Dynamic Systems, section 3.3 (second order)
 class JointServo final : public System {
  public:

@@ -48,7 +48,7 @@ struct GainEstimate {
 /// throws ConfigError if there is no such model, alpha is not finite, damping is negative or, in
 ///        method damped, 0, safety < 1, period is not positive or relaxation_time negative; while
 ///        running if a slope is of no link of the model
-/// source THEORY.md section 2
+/// source docs/theory.md, Loop gain and relaxation
 class LoopGain final : public System {
  public:
   static constexpr SystemDoc kDoc{

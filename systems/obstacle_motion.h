@@ -63,10 +63,11 @@ struct Motion {
 /// A motion that starts from the pose X_0 = (p_0, R_0) in the frame:
 ///
 ///     static      X_0
-///     linear      p_0 + velocity s, exp(angular_velocity s) R_0;  s = clamp(t, start, stop) -
-///     start sinusoidal  p_0 + amplitude sin(2 pi frequency t + phase), R_0 circular    X_0 turned
-///     by angular_velocity t about the axis through center waypoints   linear between waypoints
-///     {time, xyz, rpy}, held before and after; rotations on
+///     linear      p_0 + velocity s, exp(angular_velocity s) R_0
+///                 with s = clamp(t, start, stop) - start
+///     sinusoidal  p_0 + amplitude sin(2 pi frequency t + phase), R_0
+///     circular    X_0 turned by angular_velocity t about the axis through center
+///     waypoints   linear between waypoints {time, xyz, rpy}, held before and after; rotations on
 ///                 the shortest arc; without rpy R_0
 ///     csv         waypoints from the columns time,x,y,z[,roll,pitch,yaw] of a file
 ///

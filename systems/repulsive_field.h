@@ -21,7 +21,7 @@ namespace oca::systems {
 /// out   slopes       ContactSlopes    how they answer to the distances, for a LoopGain
 /// state -
 /// throws ConfigError if force_gain is negative, or not 0 < min_distance < max_distance
-/// source Khatib 1986, section 3; report eq. (2.3), (2.5), (3.1); THEORY.md section 1
+/// source Khatib 1986, section 3; report eq. (2.3), (2.5), (3.1); docs/theory.md
 class RepulsiveField final : public System {
  public:
   static constexpr SystemDoc kDoc{

@@ -64,7 +64,7 @@ void SafetyFilter::Params::Describe(Fields<Params>& fields) {
   fields.Add("period", &Params::period, "s", "control period").Above(0.0).Required();
   fields
       .Add("safe_distance", &Params::safe_distance, "m",
-           "distance that is kept, but for the margin of docs/safety_filter.md")
+           "distance that is kept, but for the margin of docs/explanation/safety_filter.md")
       .AtLeast(0.0);
   fields.Add("form", &Params::form, "", "how fast the arm may approach: linear or braking");
   fields

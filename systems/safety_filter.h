@@ -55,8 +55,7 @@ struct FilterSolution {
 ///     u_j in the velocities from which joint j can stop within all its limits
 ///
 ///     r = velocity + acceleration period / 2 + position_gain (position - c), braked for arrival,
-///         within ten times the joint's velocity limit: slack has a price, so a wish must be
-///         bounded
+///         within ten times the joint's velocity limit, for slack has a price
 ///     w_j = weights_j (1 + progress_weight l_j / (max_k l_k + 0.05))
 ///     a_i = n_i^T (J at point_on_link), less that of the other link within one arm
 ///     h_i = distance_i - safe_distance,   v_i the obstacle's velocity at its point
@@ -104,8 +103,8 @@ struct FilterSolution {
 /// throws ConfigError if there is no such model, a gain or a penalty is out of its bounds, or
 ///        approach_gain or recovery_gain exceeds 1 / period; while running if a proximity or a pose
 ///        is of no link of the model
-/// source THEORY.md section 3; Ames et al., Control barrier functions: theory and applications,
-///        ECC 2019; docs/safety_filter.md
+/// source Ames et al., Control barrier functions: theory and applications, ECC 2019;
+///        docs/theory.md, Safety filter; docs/explanation/safety_filter.md
 class SafetyFilter final : public System {
  public:
   static constexpr SystemDoc kDoc{
@@ -144,7 +143,7 @@ class SafetyFilter final : public System {
   /// period, divided by the share of it that is won back in the next one. For joint speeds that add
   /// up to `turn` rad/s, a nearest point at most `reach` m from every joint and obstacles up to
   /// `obstacle_speed` m/s that do not turn. Holds between balls and convex bodies while no row
-  /// takes slack; derivation in docs/safety_filter.md.
+  /// takes slack; derivation in docs/explanation/safety_filter.md.
   double TickMargin(double turn, double reach, double obstacle_speed) const;
   /// No point of the arm is farther than this from a joint before it, m.
   double Reach() const;

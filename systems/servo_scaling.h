@@ -44,7 +44,7 @@ namespace oca::systems {
 /// throws ConfigError if there is no such model, it has more than 32 joints, or a parameter is out
 ///        of its bounds; while running if the motion ahead is of another length, or a
 ///        proximity or a pose is of no link of the model
-/// source MoveIt Servo, collision_monitor.cpp; THEORY.md section 3
+/// source MoveIt Servo, collision_monitor.cpp; docs/theory.md
 class ServoScaling final : public System {
  public:
   static constexpr SystemDoc kDoc{

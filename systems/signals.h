@@ -131,8 +131,9 @@ struct WrenchSet {
 
 namespace oca {
 
-// JSON of every signal is a list with an object an item: DESIGN.md, section 10. ReadJson refuses
-// unknown and missing keys, wrong lengths and numbers that are not finite, saying which item.
+// JSON of every signal is a list with an object an item: docs/reference/signals.md. ReadJson
+// refuses unknown and missing keys, wrong lengths and numbers that are not finite, saying which
+// item.
 
 template <>
 struct Signal<systems::ObstacleSet> {

@@ -50,7 +50,7 @@ namespace oca::systems {
 /// throws ConfigError if there is no such model or link, it has more than 32 joints, or a parameter
 ///        is out of its bounds; while running if a proximity or a pose is of no link of the model
 /// source Maciejewski, Klein 1985, eq. (15), Obstacle avoidance for kinematically redundant
-///        manipulators, IJRR 4(3); Chiaverini 1997; THEORY.md section 3
+///        manipulators, IJRR 4(3); Chiaverini 1997; docs/theory.md
 class TaskPriority final : public System {
  public:
   static constexpr SystemDoc kDoc{

@@ -25,12 +25,12 @@ namespace oca::systems {
 /// in    proximities  ProximitySet     with the obstacles' velocities
 /// in    links        LinkPoses        with velocities
 /// out   forces       LinkForceSet  N  one a proximity, same order, at point_on_link
-/// out   slopes       ContactSlopes    for a LoopGain; `damping` is that of the worst direction of
-/// v state - throws ConfigError if velocity_gain is negative, exponent < 2, or not 0 < min_distance
-/// <
-///        max_distance; while running if links come in without velocities, or a proximity is of no
-///        link that comes in
-/// source Park, Hoffmann, Pastor, Schaal, Humanoids 2008, eq. (14), (15); THEORY.md section 3
+/// out   slopes       ContactSlopes    for a LoopGain; `damping` for the worst direction of v
+/// state -
+/// throws ConfigError if velocity_gain is negative, exponent < 2, or not
+///        0 < min_distance < max_distance; while running if links come in without velocities, or a
+///        proximity is of no link that comes in
+/// source Park, Hoffmann, Pastor, Schaal, Humanoids 2008, eq. (14), (15); docs/theory.md
 class VelocityAwareField final : public System {
  public:
   static constexpr SystemDoc kDoc{

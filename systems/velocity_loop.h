@@ -28,8 +28,8 @@ namespace oca::systems {
 ///       velocity           n  u/s     requested; optional, absent counts as 0
 ///       acceleration       n  u/s^2   requested; optional, absent counts as 0
 ///       measured_position  n  u       where the command starts
-///       command            n  u       optional; what is really sent, if a later stage may change
-///       it chosen             n  u/s     the method's answer to `wish`
+///       command            n  u       optional; what is really sent, if a later stage changes it
+///       chosen             n  u/s     the method's answer to `wish`
 /// out   wish   n  u/s
 ///       delta  n  u
 /// state c      n  u

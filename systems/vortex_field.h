@@ -29,8 +29,8 @@ struct VortexAxes {
 /// A RepulsiveField whose force is turned towards the way around the obstacle, so that a link which
 /// is pushed back against its request slides along instead of standing still:
 ///
-///     F = |F_rep(rho)| (cos(phi) n + sin(phi) a x n),   phi = turn clamp(2 rho / max_distance, 0,
-///     1)
+///     F   = |F_rep(rho)| (cos(phi) n + sin(phi) a x n)
+///     phi = turn clamp(2 rho / max_distance, 0, 1)
 ///
 /// Each link has one unit axis a for all its obstacles, chosen when the first of them comes within
 /// max_distance, where F is 0, and kept until the last one is out again: so F does not flip, and is
@@ -38,8 +38,8 @@ struct VortexAxes {
 /// n of the nearest obstacle towards where the link's nearest point is going as seen from the
 /// obstacle:
 ///
-///     a ~ n x (d / |d| + 0.05 up),   d = J_p (velocity + (position - measured_position) / 1 s) -
-///     v_O
+///     a ~ n x (d / |d| + 0.05 up)
+///     d = J_p (velocity + (position - measured_position) / 1 s) - v_O
 ///
 /// `up` is the z axis of the robot's base; it decides when the request leads straight at the
 /// obstacle (and if the normal points up too, the base's x axis does). In contact phi is 0: F
@@ -55,8 +55,8 @@ struct VortexAxes {
 /// out   axes               VortexAxes       of this tick
 /// state held               3 num_links      the axes of the last tick
 /// throws ConfigError as RepulsiveField does, if turn is not within [0, 1.5], period is not
-/// positive
-///        or there is no such model; while running if a proximity is of no link of the model
+///        positive or there is no such model; while running if a proximity is of no link of the
+///        model
 /// source Singh, Stephanou, Wen, ICRA 1996 (circular fields); Haddadin et al., ICRA 2011
 class VortexField final : public System {
  public:

@@ -22,7 +22,7 @@ namespace oca::systems {
 /// out   wrenches_in_link  WrenchSet     N, Nm  the same in the frames of the links
 /// state -
 /// throws while running if a force acts on a link whose pose does not come in
-/// source report section 3.3; THEORY.md section 1
+/// source report section 3.3; docs/theory.md
 class WrenchTransform final : public System {
  public:
   static constexpr SystemDoc kDoc{"moves forces on links to the joints that carry the links",

@@ -6,41 +6,18 @@
 
 #include "diagrams/catalogue.h"
 #include "diagrams/diagram_file.h"
-#include "diagrams/package_paths.h"
-#include "models/robot/urdf.h"
+#include "tools/catalogue_text.h"
 #include "tools/commands.h"
 #include "tools/terminal.h"
 
 namespace oca::tools {
 namespace {
 
-std::string UnitText(const Unit& unit) {
-  if (unit.any()) return "any unit";
-  std::string text = unit.variable() >= 0 ? "u" : unit.text();
-  if (unit.rates() == 0) return text;
-  return unit.rates() == 1 ? text + "/s" : fmt::format("{}/s^{}", text, unit.rates());
-}
-
 template <class Info>
 void PrintPorts(const char* kind, const std::vector<Info>& ports) {
   for (const Info& port : ports) {
-    std::string text = port.type->name;
-    if (port.type == &kVectorType) text += ", " + UnitText(port.spec.unit);
-    if constexpr (requires { port.optional; }) {
-      if (port.optional) text += ", optional";
-    }
-    if constexpr (requires { port.state; }) {
-      if (port.state >= 0) text += ", held state";
-    }
-    Print("  {:<7} {:<22} {}\n", kind, port.name, text);
+    Print("  {:<7} {:<22} {}\n", kind, port.name, PortText(port));
   }
-}
-
-systems::ModelSet ExampleModels() {
-  systems::ModelSet models;
-  models.Add("arm", std::make_shared<const models::RobotModel>(models::LoadUrdf(
-                        diagrams::ResolvePath("package://planar2/planar2.urdf", {}, {}))));
-  return models;
 }
 
 }  // namespace

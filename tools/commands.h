@@ -66,7 +66,7 @@ struct PlanArguments {
   std::optional<double> duration;  ///< s; instead of the file's
 };
 /// Whether an optimiser that knows the whole script finds a clear motion: a JSON object a line,
-/// as docs/plan.md says. kExpectationNotMet if it finds none for any of the samples.
+/// as docs/how-to/plan.md says. kExpectationNotMet if it finds none for any of the samples.
 int PlanCommand(const PlanArguments& arguments);
 /// What it prints and how it ends, for its help.
 const char* PlanFooter();
@@ -93,6 +93,8 @@ int CheckCollisionsCommand(const CheckCollisionsArguments& arguments);
 int ListCommand();
 int DescribeCommand(const std::string& type);
 int SchemaCommand();
+/// A page of docs/reference in Markdown: `systems` or `diagram_file`.
+int DocsCommand(const std::string& page);
 
 struct EvalArguments {
   std::string type;

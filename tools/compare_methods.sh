@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Runs every method of avoidance on the same random scenarios and writes tables and plots of
-# docs/methods.md. Usage: tools/compare_methods.sh [--samples N] [--seed S] [FAMILY...]
-# Without options: the samples and the seed that docs/methods.md states, all families. What a sweep
-# has left in build/methods is not run again; other numbers need a folder of their own (OUT=...).
+# docs/explanation/methods.md. Usage: tools/compare_methods.sh [--samples N] [--seed S] [FAMILY...]
+# Without options: the samples and the seed that the page states, all families. What a sweep has
+# left in build/methods is not run again; other numbers need a folder of their own (OUT=...).
 # FORESIGHT=N: so many moving scenarios are also given to an optimiser that knows the whole script.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -20,7 +20,7 @@ while [ $# -gt 0 ]; do
 done
 [ ${#families[@]} -gt 0 ] || families=(random_static random_clutter random_moving)
 out=${OUT:-build/methods}
-page=docs/methods.md
+page=docs/explanation/methods.md
 simulator=build/release/tools/simulator
 [ -x "$simulator" ] || tools/setup.sh release simulator
 
@@ -74,7 +74,7 @@ for family in "${families[@]}"; do
   simulate sweep "$file" --samples "${samples[$family]}" --seed "$seed" -o "$out/$family" \
     --vary "parameters.avoidance=$methods" > /dev/null
   simulate merge "$out/$family" --markdown | splice "$family"
-  "$simulator" plot --figure method-comparison "$out/$family" -o "docs/methods-$family.svg"
+  "$simulator" plot --figure method-comparison "$out/$family" -o "docs/pictures/methods-$family.svg"
   [ "$family" != random_moving ] || foresight "$family" "${FORESIGHT:-200}" | splice foresight
   [ "$family" = random_static ] || continue
   simulate sweep "$file" --samples "${samples[$family]}" --seed "$seed" -o "$out/mapping" \

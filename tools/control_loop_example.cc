@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How to embed the avoidance of a diagram file in a robot's own control loop: docs/embedding.md.
+// How to embed the avoidance of a diagram file in a robot's own control loop:
+// docs/how-to/embedding.md.
 //
 //     control_loop_example [FILE [SECONDS]] [-s PATH=VALUE]...
 //

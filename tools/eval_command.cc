@@ -58,8 +58,8 @@ bool NestsTooDeep(const std::string& line) {
 
 /// One system on its own. A line's inputs are held; `time` moves the clock there first. If the
 /// system has discrete updates a line is one period, the tick after that of the line before:
-/// computed outputs are shown as the updates of
-/// the line's tick read them, held ones as the period leaves them.
+/// computed outputs are shown as the updates of the line's tick read them, held ones as the period
+/// leaves them.
 class Evaluator {
  public:
   Evaluator(const diagrams::CatalogueRow& row, const Value& params, systems::ModelSet models)

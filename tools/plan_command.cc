@@ -95,7 +95,7 @@ const char* PlanFooter() {
   seconds              of computing
 
 Exit status: 0 if all samples are clear, 3 if for one of them no clear motion was found, 2 if the
-file is bad or holds what nobody can know beforehand, 64 for wrong usage. docs/plan.md has more.)";
+file is bad or holds what nobody can know beforehand, 64 for wrong usage. More: docs/how-to/plan.md.)";
 }
 
 int PlanCommand(const PlanArguments& arguments) {

@@ -166,6 +166,12 @@ class CommandLine {
     app_.add_subcommand("schema", "JSON Schema of diagram files, for editors")->callback([this] {
       command_ = SchemaCommand;
     });
+    CLI::App* const docs =
+        app_.add_subcommand("docs", "a page of the reference in Markdown, from what is built in");
+    docs->add_option("PAGE", page_, "systems or diagram_file")
+        ->required()
+        ->check(CLI::IsMember({"systems", "diagram_file"}));
+    docs->callback([this] { command_ = [this] { return DocsCommand(page_); }; });
 
     CLI::App* const eval = app_.add_subcommand(
         "eval", "feed one system JSON lines of inputs, get JSON lines of outputs");
@@ -262,6 +268,7 @@ class CommandLine {
   PlanArguments plan_;
   GraphArguments graph_;
   std::string described_;
+  std::string page_;
   CheckCollisionsArguments collisions_;
   EvalArguments eval_;
 };

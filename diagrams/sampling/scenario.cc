@@ -265,16 +265,27 @@ Scenario DrawScenario(const std::vector<Override>& overrides, Value& document, P
 
 std::string SamplingSchema() {
   using nlohmann::ordered_json;
-  const auto schema = [](const ParamType& type) { return ordered_json::parse(type.Schema({})); };
+  const auto schema = [](const ParamType& type, const char* meaning) {
+    ordered_json result = ordered_json::parse(type.Schema({}));
+    result["description"] = meaning;
+    return result;
+  };
   const ordered_json draw{{"type", "object"},
-                          {"additionalProperties", schema(ParamTypeOf<DistributionParams>())}};
-  const ordered_json tries{{"type", "integer"}, {"minimum", 1}, {"default", kTries}};
+                          {"additionalProperties", schema(ParamTypeOf<DistributionParams>(),
+                                                          "what a parameter is drawn from")},
+                          {"description", "parameters of the file that the seed sets, by name"}};
+  const ordered_json tries{{"type", "integer"},
+                           {"minimum", 1},
+                           {"default", kTries},
+                           {"description", "draws until none that is accepted is an error"}};
   return ordered_json{{"type", "object"},
                       {"additionalProperties", false},
                       {"properties",
                        {{"draw", draw},
-                        {"obstacles", schema(ParamTypeOf<RandomObstacleParams>())},
-                        {"accept", schema(ParamTypeOf<AcceptParams>())},
+                        {"obstacles", schema(ParamTypeOf<RandomObstacleParams>(),
+                                             "added to those of systems.obstacles")},
+                        {"accept", schema(ParamTypeOf<AcceptParams>(),
+                                          "all must hold, else the scenario is drawn again")},
                         {"tries", tries}}}}
       .dump();
 }

@@ -13,8 +13,7 @@ namespace oca::models {
 /// Points of a file, in its frame, m:
 ///
 ///   .csv, .xyz  a table as CsvTable reads it: the columns named x, y and z, without names the
-///   first
-///               three; other columns are ignored
+///               first three; other columns are ignored
 ///   .ply        ascii or binary_little_endian; `element vertex` with x, y, z of any scalar type
 ///   .pcd        ascii or binary; FIELDS with x, y, z
 ///

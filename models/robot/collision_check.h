@@ -41,9 +41,10 @@ struct LinkPairCheck {
 /// A quarter of all draws of a joint lie on one of its limits, where arms fold; one that turns and
 /// has no limits, or too wide ones, is drawn from a whole turn (DrawnRange). The same seed gives
 /// the same answer on every machine that rounds alike. What was never seen may still happen: the
-/// margin, not the number of samples, is what makes "never" safe. throws ModelError if samples < 1,
-/// the margin is negative or not finite, a joint has no range that
-///        samples cover, a distance is not finite, or a solid cannot be prepared for distance
+/// margin, not the number of samples, is what makes "never" safe.
+///
+/// throws ModelError if samples < 1, the margin is negative or not finite, a joint has no range
+///        that samples cover, a distance is not finite, or a solid cannot be prepared for distance
 ///        queries
 std::vector<LinkPairCheck> CheckCollisions(const RobotModel& model,
                                            const CollisionSampling& sampling);

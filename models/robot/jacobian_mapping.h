@@ -12,14 +12,14 @@
 namespace oca::models {
 
 /// Force (N) and torque (Nm) on a body, world axes; the torque is about the origin of the body's
-/// link, which lies on the joint that leads to it. source report section 3.3; THEORY.md section 1
+/// link, which lies on the joint that leads to it. source report section 3.3; docs/theory.md
 struct BodyWrench {
   Eigen::Vector3d force{Eigen::Vector3d::Zero()};
   Eigen::Vector3d torque{Eigen::Vector3d::Zero()};
 };
 
-/// The wrench that `force` acting at p_W exerts about `origin_W`: torque = (p_W - origin_W) x
-/// force.
+/// The wrench that `force` acting at p_W exerts about `origin_W`:
+/// torque = (p_W - origin_W) x force.
 BodyWrench WrenchAbout(const Eigen::Vector3d& origin_W, const Eigen::Vector3d& p_W,
                        const Eigen::Vector3d& force);
 

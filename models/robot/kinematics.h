@@ -65,7 +65,7 @@ void LinkJacobian(const RobotModel& model, std::span<const Eigen::Isometry3d> X_
 ///
 /// n is the unit normal from B to A, p_A and p_B the nearest points. The joints that carry both
 /// links keep rho, so their entries are 0. With link_b = -1 B is something at rest; row has
-/// num_positions() entries. source THEORY.md section 3
+/// num_positions() entries. source docs/theory.md, Distance rate
 void DistanceRow(const RobotModel& model, std::span<const Eigen::Isometry3d> X_WL, int link_a,
                  const Eigen::Vector3d& p_A, int link_b, const Eigen::Vector3d& p_B,
                  const Eigen::Vector3d& n, Eigen::Ref<Eigen::VectorXd> row);

@@ -40,7 +40,7 @@ struct LoopGainWorkspace {
 /// for several of equal b, else at most n^(1/32) times too large: |L^16|^(1/16) with the Frobenius
 /// norm, which is never too small. A loop that takes the share `dt / tau` of the way to the raw
 /// delta each dt is stable if tau > dt (1 + g) / 2.
-/// source THEORY.md section 2
+/// source docs/theory.md, Loop gain and relaxation
 double LoopGain(const RobotModel& model, std::span<const Eigen::Isometry3d> X_WL,
                 std::span<const GainContact> contacts, const MappingSettings& settings,
                 LoopGainWorkspace& workspace);

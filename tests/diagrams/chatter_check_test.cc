@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The gains that THEORY.md section 2 states for the static test, and who is warned.
+// The gains that docs/theory.md states for the static test, and who is warned.
 #include "diagrams/chatter_check.h"
 
 #include <gmock/gmock.h>

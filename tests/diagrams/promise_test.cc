@@ -28,6 +28,7 @@ struct Unmet {
 constexpr Unmet kUnmet[] = {
     {"safety_filter", "ur5e_arm", "final_error",
      "stops in front of the box: the filter has no plan, and the task needs nearly all six joints"},
+    {"safety_filter", "first", "final_error", "the same arm and box"},
 };
 
 struct Case {

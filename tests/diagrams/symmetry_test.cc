@@ -55,9 +55,9 @@ struct Case {
 };
 
 /// To how many rad two worlds must show the same motion. Task priority inverts what is singular
-/// where the tip leaves no freedom, and so magnifies rounding. The band
-/// searches in dynamic_test, from random starts that know no mirror: relaxed they lead to the same
-/// way, but for what the last step leaves open.
+/// where the tip leaves no freedom, and so magnifies rounding. The band searches in dynamic_test,
+/// from random starts that know no mirror: relaxed they lead to the same way, but for what the last
+/// step leaves open.
 double Within(const Case& of) {
   if (of.method == "recommended" && of.file == "dynamic_test") return 1e-4;
   return of.method == "task_priority" && of.file == "dynamic_test" ? 1e-5 : 1e-9;

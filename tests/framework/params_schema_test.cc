@@ -30,6 +30,8 @@ TEST(ParamsSchemaTest, CarriesTypesBoundsAndUnits) {
   EXPECT_EQ(properties["gain"]["minimum"], 0.0);
   EXPECT_EQ(properties["gain"]["maximum"], 10.0);
   EXPECT_EQ(properties["gain"]["description"], "how strong [N m^2]");
+  EXPECT_EQ(properties["gain"]["x-unit"], "N m^2");
+  EXPECT_FALSE(properties["enabled"].contains("x-unit"));
   EXPECT_EQ(properties["enabled"]["description"], "whether");
   EXPECT_EQ(properties["count"]["type"], "integer");
   EXPECT_EQ(properties["count"]["minimum"], 1.0);

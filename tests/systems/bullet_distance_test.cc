@@ -510,8 +510,8 @@ TEST(BulletDistanceTest, LosesNoPairToItsCull) {
   EXPECT_GT(found, 100);
 }
 
-// Chapter 4 of the report: joints 1 and 3 swing the arm through the box. THEORY.md, section 2,
-// measured -0.122 m with an independent implementation and link radii of about 0.065 m.
+// Chapter 4 of the report: joints 1 and 3 swing the arm through the box. docs/theory.md
+// tells -0.122 m, measured with an independent implementation and link radii of about 0.065 m.
 TEST(BulletDistanceTest, FindsThatTheRequestedPathOfTheStaticTestGoesThroughTheBox) {
   ModelSet models;
   models.Add("arm", LoadTestModel("lwr4", At(0.0, 0.0, 0.85)));

@@ -23,7 +23,7 @@ Eigen::VectorXd After(SystemBench<DeltaLimiter>& bench, int tick, const Eigen::V
 }
 
 TEST(DeltaLimiterTest, GivesTheGoldenValuesOfTheFirstTick) {
-  // One joint at a time: raw, limited (THEORY.md section 1).
+  // One joint at a time: raw, limited (docs/theory.md, Limiter and overlay).
   const double golden[][2] = {{1, .006},    {-1, -.006},   {.003, .003}, {-.003, -.003},
                               {.006, .006}, {.0061, .006}, {0, 0}};
   for (const auto& [raw, limited] : golden) {

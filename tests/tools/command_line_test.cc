@@ -329,6 +329,30 @@ TEST_F(CommandLineTest, ListAndDescribeKnowTheSameTypes) {
   }
 }
 
+TEST_F(CommandLineTest, TheReferenceHasEveryTypeWithItsPortsAndParameters) {
+  const Ran page = run("$S docs systems");
+  EXPECT_EQ(page.status, 0);
+  const Ran list = run("$S list");
+  std::istringstream types(list.out);
+  for (std::string line; std::getline(types, line);) {
+    EXPECT_THAT(page.out, HasSubstr("\n## " + line.substr(0, line.find(' ')) + "\n")) << line;
+  }
+  EXPECT_THAT(page.out, HasSubstr("| input | `delta` | Vector, u |\n"));
+  EXPECT_THAT(page.out, HasSubstr("| `force_gain` | number | N m^3 | `1` | >= 0 | gain eta of eq. "
+                                  "(3.1) |\n"));
+}
+
+TEST_F(CommandLineTest, TheReferenceOfTheFileHasEverySection) {
+  const Ran page = run("$S docs diagram_file");
+  EXPECT_EQ(page.status, 0);
+  for (const char* key :
+       {"name", "include", "simulator", "models", "systems", "record", "expect"}) {
+    EXPECT_THAT(page.out, HasSubstr("\n## " + std::string(key) + "\n"));
+  }
+  EXPECT_THAT(page.out, HasSubstr("| `NAME.attached[].shape.radius` | number | m |  | > 0 |"));
+  EXPECT_EQ(run("$S docs nothing").status, 64);
+}
+
 TEST_F(CommandLineTest, TheSchemaIsJsonAndKnowsEveryTypeAndKey) {
   const Ran ran = run("$S schema");
   EXPECT_EQ(ran.status, 0);

@@ -4,8 +4,7 @@
 // it is but for N obstacles of its own, sensed up to 0.3 m as in the report. Each stands beside
 //
 //   .../fcl_kdl       the same chain written plainly on FCL, KDL and a singular value
-//   decomposition,
-//                     every pair measured, as in the report's program
+//                     decomposition, every pair measured, as in the report's program
 //   .../fcl_kdl_cull  with the pairs left out whose bounding balls are beyond 0.3 m
 //
 // and control/latency/N reports the distribution over 10^6 ticks.

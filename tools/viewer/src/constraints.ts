@@ -7,7 +7,7 @@ import type { Recording, Topic } from "./recording";
 /** One constraint: `holds(row)` says whether it was active at times[row]. */
 export interface Constraint { system: string; what: string; how: string; times: number[]; holds: (row: number) => boolean }
 
-/** An item of `limits` in metadata `oca.plots`, see docs/record_format.md. */
+/** An item of `limits` in metadata `oca.plots`, see docs/reference/record_format.md. */
 interface Declared { system: string; type?: string; signal: string; bound?: number | number[]; kind?: string }
 
 function declared(recording: Recording, specs: PlotSpec[]): Declared[] {

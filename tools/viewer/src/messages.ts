@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The messages of docs/record_format.md that the page reads; shapes are Foxglove's schemas.
+// The messages of docs/reference/record_format.md that the page reads; shapes are Foxglove's schemas.
 
 export interface Vector3 { x: number; y: number; z: number }
 export interface Quaternion extends Vector3 { w: number }

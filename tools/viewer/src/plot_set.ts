@@ -13,7 +13,7 @@ export interface PlotSpec {
   counts?: boolean;
 }
 
-/** An item of metadata `oca.plots`, see docs/record_format.md. */
+/** An item of metadata `oca.plots`, see docs/reference/record_format.md. */
 interface Hint { id?: string; title?: string; unit?: string; topics?: string[]; limit?: number }
 const kRoles: Record<string, Role> = {
   requested: "request", delta: "delta", final: "joints", distance: "distance", speed: "speed", constraints: "constraints",

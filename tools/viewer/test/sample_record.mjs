@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A record by docs/record_format.md without any simulator: an arm of seven joints passes a box.
+// A record by docs/reference/record_format.md without any simulator: an arm of seven joints passes a box.
 import { McapWriter } from "@mcap/core";
 
 const kEpoch = 1_700_000_000_000_000_000n;  // ns

@@ -1,0 +1,160 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Holds what the pages say: tests/docs/run.sh [CHECK...], all without names. Prints what is wrong, a
+# line each, and the count; exit status 1 if anything is. SIMULATOR names the executable (default:
+# that of the release build), OCA_SOURCE the source tree.
+set -uo pipefail
+root=${OCA_SOURCE:-$(cd "$(dirname "$0")/../.." && pwd)}
+simulator=${SIMULATOR:-$root/build/release/tools/simulator}
+[ -x "$simulator" ] || { echo "no simulator at $simulator; build it: tools/setup.sh release simulator" >&2; exit 2; }
+simulator=$(realpath "$simulator")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$root" || exit 2
+problems=0
+problem() { echo "$*"; problems=$((problems + 1)); }
+
+files() { # NAME... -> the tree's own files of such names
+  local names=() name
+  for name; do names+=(-o -name "$name"); done
+  find . \( -name .git -o -name build -o -name node_modules \) -prune -o -type f \( "${names[@]:1}" \) -print |
+    sed 's|^\./||' | sort
+}
+pages() { files '*.md'; }
+headings() { # PAGE -> anchors, as GitHub names them
+  awk '/^```/ { code = !code } !code && /^#/' "$1" |
+    sed -E 's/^#+ +//; s/`//g; s/\[([^]]*)\]\([^)]*\)/\1/g' | tr '[:upper:]' '[:lower:]' |
+    sed -E "s/[^a-z0-9 _-]//g; s/ /-/g"
+}
+links() { # PAGE -> targets of links and pictures, outside code
+  awk '/^ *```/ { code = !code } !code' "$1" | sed -E 's/`[^`]*`//g' | grep -oE '\]\([^) ]+\)' | sed -E 's/^\]\(//; s/\)$//'
+}
+blocks() { # PAGE LANGUAGE -> the fenced blocks of that language
+  awk -v open="^\`\`\`$2\$" '$0 ~ open { on = 1; next } /^```$/ { on = 0 } on' "$1"
+}
+
+check_readme_is_short() {
+  local lines
+  lines=$(wc -l < README.md)
+  [ "$lines" -le 150 ] || problem "README.md: $lines lines; expected at most 150"
+}
+
+check_links() {
+  local page target file anchor
+  while read -r page; do
+    while read -r target; do
+      case $target in
+        http://* | https://* | mailto:*) continue ;;
+      esac
+      file=${target%%#*} anchor=
+      [[ $target == *#* ]] && anchor=${target#*#}
+      if [ -z "$file" ]; then file=$page; else file=$(dirname "$page")/$file; fi
+      if [ ! -e "$file" ]; then
+        problem "$page: link to $target, which is not there"
+      elif [ -n "$anchor" ] && ! headings "$file" | grep -qxF -- "$anchor"; then
+        problem "$page: link to $target, a heading that is not there"
+      fi
+    done < <(links "$page")
+  done < <(pages)
+}
+
+check_every_page_and_picture_is_linked() {
+  local file
+  for page in $(pages); do
+    links "$page" | sed 's/#.*//' | while read -r target; do
+      [ -n "$target" ] && realpath -m --relative-to=. "$(dirname "$page")/$target"
+    done
+  done | sort -u > "$work/linked"
+  for file in $(find docs -name '*.md' -o -name '*.svg' -o -name '*.png'); do
+    [ "$file" = docs/index.md ] || grep -qxF "$file" "$work/linked" || problem "$file: no page links to it"
+  done
+}
+
+# A page that a source line cites is in the tree, by its path, beside that file or, for links that a
+# program writes, from the reference; and has the section that is named.
+check_cited_pages() {
+  local where cited section
+  files '*.h' '*.cc' '*.cmake' CMakeLists.txt '*.yaml' '*.sh' '*.ts' '*.mjs' '*.urdf' '*.srdf' | xargs grep -noE '[$A-Za-z0-9_./-]+\.md\b' |
+    while IFS=: read -r where line cited; do
+      [[ $where == tests/docs/* || $cited == *\$* || $cited == //* || $cited == .md ]] && continue
+      [ -e "$cited" ] || [ -e "$(dirname "$where")/$cited" ] || [ -e "docs/reference/$cited" ] ||
+        echo "$where:$line: cites $cited, which is not there"
+    done > "$work/cited"
+  files '*.h' '*.cc' | xargs grep -noE 'docs/theory\.md, [A-Z][A-Za-z ]+' | while IFS=: read -r where line cited; do
+    section=$(sed -E 's/^docs.theory.md, //; s/ +$//' <<< "$cited")
+    grep -qxF "## $section" docs/theory.md || echo "$where:$line: cites section '$section', which docs/theory.md does not have"
+  done >> "$work/cited"
+  while read -r line; do problem "$line"; done < "$work/cited"
+}
+
+check_named_files_are_there() {
+  local page file
+  for page in $(pages); do
+    [[ $page == CHANGELOG.md ]] && continue  # it names what was
+    for file in $(grep -oE '\b(framework|systems|models|diagrams|tools|tests|cmake|docs)/[A-Za-z0-9_/.-]+\.(h|cc|sh|yaml|md|urdf|csv)\b' "$page" | sort -u); do
+      [[ -e $file || $file == *NAME* ]] || problem "$page: names $file, which is not there"
+    done
+  done
+}
+
+check_smallest_diagram_runs() {
+  blocks README.md yaml > "$work/first.yaml"
+  diff -u diagrams/first.yaml "$work/first.yaml" > "$work/diff" ||
+    problem "README.md: its diagram is not diagrams/first.yaml: $(cat "$work/diff")"
+  [ "$(wc -l < "$work/first.yaml")" -le 15 ] || problem "README.md: its diagram has more than 15 lines"
+  "$simulator" run diagrams/first.yaml --no-progress > "$work/out" 2>&1 || problem "diagrams/first.yaml: $(cat "$work/out")"
+}
+
+check_generated_pages() {
+  local page
+  SIMULATOR=$simulator tools/write_reference.sh "$work/reference" 2> "$work/out" ||
+    problem "tools/write_reference.sh: $(cat "$work/out")"
+  for page in "$work"/reference/*.md; do
+    diff -u "docs/reference/$(basename "$page")" "$page" > "$work/diff" ||
+      problem "docs/reference/$(basename "$page"): not what tools/write_reference.sh writes:" "$(head -20 "$work/diff")"
+  done
+}
+
+# All commands of the tutorial, in one shell as a reader has it, in a tree with the diagrams alone.
+# Those of `sh page` need the viewer page.
+check_tutorial_runs() {
+  local page tree=$work/tree
+  mkdir -p "$tree/tools" "$tree/build/release/tools"
+  cp -r diagrams "$tree/"
+  ln -s "$simulator" "$tree/build/release/tools/simulator"
+  printf '#!/bin/sh\n' > "$tree/tools/setup.sh"
+  chmod +x "$tree/tools/setup.sh"
+  local kinds='^```sh$'
+  [ -f "$(dirname "$simulator")/viewer/viewer.html" ] && kinds='^```sh( page)?$'
+  for page in docs/tutorial/*.md; do
+    awk -v open="$kinds" '$0 ~ open { on = 1; next } /^```$/ { on = 0 } on' "$page" > "$work/tutorial.sh"
+    grep -q simulator "$work/tutorial.sh" || problem "$page: no command"
+    (cd "$tree" && bash -euo pipefail "$work/tutorial.sh" < /dev/null > "$work/out" 2>&1) ||
+      problem "$page: a command fails: $(tail -5 "$work/out")"
+  done
+}
+
+check_systems_are_told() {
+  local type
+  for type in $("$simulator" list | awk '{ print $1 }'); do
+    grep -q "\`$type\`" docs/architecture.md || problem "docs/architecture.md: does not name $type"
+  done
+}
+
+check_commands_are_there() {
+  local page command
+  "$simulator" --help | sed -n '/^Subcommands:/,$p' | awk 'NR > 1 && /^  [a-z]/ { print $1 }' > "$work/commands"
+  for page in $(pages); do
+    for command in $(awk '/^```/ { code = !code } code' "$page" | grep -oE '(^|[|]) *\$?simulator [a-z]+' | awk '{ print $NF }' | sort -u); do
+      grep -qxF "$command" "$work/commands" || problem "$page: simulator $command, which is no command"
+    done
+  done
+}
+
+all=$(declare -F | awk '{ print $3 }' | grep '^check_' | sed 's/^check_//')
+for name in ${*:-$all}; do
+  declare -F "check_$name" > /dev/null || { echo "no such check: $name; there are: $(tr '\n' ' ' <<< "$all")" >&2; exit 2; }
+  "check_$name"
+done
+echo "$problems problems"
+[ "$problems" -eq 0 ]

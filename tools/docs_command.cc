@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include "tools/commands.h"
+#include "tools/reference_pages.h"
+#include "tools/terminal.h"
+
+namespace oca::tools {
+
+int DocsCommand(const std::string& page) {
+  WriteOutput(page == "systems" ? SystemsPage() : DiagramFilePage());
+  return kFine;
+}
+
+}  // namespace oca::tools
