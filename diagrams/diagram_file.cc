@@ -3,7 +3,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "diagrams/catalogue.h"
 #include "diagrams/sampling/scenario.h"
 
 namespace oca::diagrams {
@@ -137,22 +136,22 @@ void AllowExpressions(ordered_json& schema) {
   if (!description.is_null()) schema["description"] = description;
 }
 
-ordered_json SystemsSchema() {
+ordered_json SystemsSchema(const Catalogue& catalogue) {
   ordered_json any = ordered_json::array();
-  for (const CatalogueRow& row : Catalogue()) {
-    ordered_json schema = ordered_json::parse(row.schema());
-    ordered_json properties{{"type", {{"const", row.type}, {"description", row.doc.summary}}}};
+  for (const Catalogue::Row& row : catalogue.rows()) {
+    ordered_json schema = ordered_json::parse(row->schema());
+    ordered_json properties{{"type", {{"const", row->type}, {"description", row->doc.summary}}}};
     for (auto& [key, property] : schema["properties"].items()) {
       AllowExpressions(property);
       properties[key] = property;
     }
     schema["properties"] = properties;
-    schema["description"] = row.doc.summary;
-    ordered_json condition{{"properties", {{"type", {{"const", row.type}}}}}};
+    schema["description"] = row->doc.summary;
+    ordered_json condition{{"properties", {{"type", {{"const", row->type}}}}}};
     any.push_back({{"if", condition}, {"then", schema}});
   }
   ordered_json types = ordered_json::array();
-  for (const CatalogueRow& row : Catalogue()) types.push_back(row.type);
+  for (const Catalogue::Row& row : catalogue.rows()) types.push_back(row->type);
   return MapOf({{"type", "object"},
                 {"required", {"type"}},
                 {"properties", {{"type", {{"enum", types}}}}},
@@ -161,7 +160,7 @@ ordered_json SystemsSchema() {
 
 }  // namespace
 
-std::string DiagramSchema() {
+std::string DiagramSchema(const Catalogue& catalogue) {
   ordered_json sections;
   const ordered_json text{{"type", "string"}};
   sections["name"] = text;
@@ -176,7 +175,7 @@ std::string DiagramSchema() {
   for (const char* key : {"simulator", "simulator_tolerances", "sampling", "models"}) {
     AllowExpressions(sections[key]);
   }
-  sections["systems"] = SystemsSchema();
+  sections["systems"] = SystemsSchema(catalogue);
   sections["connections"] = {{"type", "array"},
                              {"items", {{"type", "string"}, {"pattern", "^\\S+ *-> *\\S+$"}}}};
   const ordered_json rate{{"type", "number"}, {"exclusiveMinimum", 0}};

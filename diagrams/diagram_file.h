@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "diagrams/catalogue.h"
 #include "framework/integrator_options.h"
 #include "framework/params.h"
 #include "models/robot/urdf.h"
@@ -76,7 +77,7 @@ struct Section {
 };
 const std::vector<Section>& Sections();
 
-/// JSON Schema (draft 7) of diagram files, for editors.
-std::string DiagramSchema();
+/// JSON Schema (draft 7) of diagram files with systems of these types, for editors.
+std::string DiagramSchema(const Catalogue& catalogue = Catalogue::Standard());
 
 }  // namespace oca::diagrams

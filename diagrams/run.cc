@@ -20,7 +20,9 @@ namespace {
 using nlohmann::ordered_json;
 
 std::optional<double> MemberOf(const std::string& json, const std::string& member) {
-  const auto value = ordered_json::parse(json).value(member, ordered_json());
+  const auto object = ordered_json::parse(json, nullptr, false);
+  if (!object.is_object()) return std::nullopt;
+  const auto value = object.value(member, ordered_json());
   if (!value.is_number()) return std::nullopt;
   return value.get<double>();
 }

@@ -45,17 +45,17 @@ systems::ModelSet ExampleModels() {
 
 }  // namespace
 
-int ListCommand() {
+int ListCommand(const diagrams::Catalogue& catalogue) {
   std::size_t width = 0;
-  for (const auto& row : diagrams::Catalogue()) width = std::max(width, row.type.size());
-  for (const auto& row : diagrams::Catalogue()) {
-    Print("{:<{}}  {}\n", row.type, width, row.doc.summary);
+  for (const auto& row : catalogue.rows()) width = std::max(width, row->type.size());
+  for (const auto& row : catalogue.rows()) {
+    Print("{:<{}}  {}\n", row->type, width, row->doc.summary);
   }
   return kFine;
 }
 
-int DescribeCommand(const std::string& type) {
-  const diagrams::CatalogueRow& row = diagrams::FindRow(type);
+int DescribeCommand(const std::string& type, const diagrams::Catalogue& catalogue) {
+  const diagrams::CatalogueRow& row = *catalogue.Find(type);
   const auto example = row.make_example(ExampleModels());
   Print("{}: {}\n\n  {}\n", row.type, row.doc.summary, row.doc.equation);
   if (*row.doc.source != '\0') Print("  source: {}\n", row.doc.source);
@@ -77,8 +77,8 @@ int DescribeCommand(const std::string& type) {
   return kFine;
 }
 
-int SchemaCommand() {
-  std::cout << diagrams::DiagramSchema() << '\n';
+int SchemaCommand(const diagrams::Catalogue& catalogue) {
+  std::cout << diagrams::DiagramSchema(catalogue) << '\n';
   return kFine;
 }
 

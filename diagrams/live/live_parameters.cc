@@ -8,7 +8,6 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "diagrams/catalogue.h"
 #include "framework/error.h"
 
 namespace oca::live {
@@ -58,7 +57,7 @@ record::McapTexts RangesOf(const LoadedDiagram& loaded) {
   for (const LoadedDiagram::Block& block : loaded.systems) {
     const Value* const given = systems == nullptr ? nullptr : systems->Find(block.name);
     if (given == nullptr || given->map() == nullptr) continue;
-    const auto schema = nlohmann::json::parse(diagrams::FindRow(block.type).schema());
+    const auto schema = nlohmann::json::parse(block.row->schema());
     for (const Value::Entry& entry : *given->map()) {
       const std::string name = ParameterIn(entry.value);
       if (name.empty() || !schema["properties"].contains(entry.key)) continue;

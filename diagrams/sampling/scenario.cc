@@ -46,8 +46,9 @@ Value Only(const Value& map, const std::vector<std::string>& keys) {
 
 class Sampler {
  public:
-  Sampler(const std::vector<Override>& overrides, Value& document, Problems& problems)
-      : document_(document), problems_(problems) {
+  Sampler(const std::vector<Override>& overrides, const Catalogue& catalogue, Value& document,
+          Problems& problems)
+      : catalogue_(catalogue), document_(document), problems_(problems) {
     const Value* const written = document_.Find("sampling");
     if (written == nullptr || written->null()) return;
     const Value section = Resolved(*written);
@@ -205,7 +206,7 @@ class Sampler {
     if (!problems_.empty()) return false;
     try {
       const TaskNames names = acceptance_->names();
-      TaskGeometry task(root, names, cache_, problems_);
+      TaskGeometry task(root, names, catalogue_, cache_, problems_);
       if (!problems_.empty()) return false;
       Value::List drawn;
       if (const Value* const obstacles = root.Find("sampling")->Find("obstacles")) {
@@ -246,6 +247,7 @@ class Sampler {
     list->list()->insert(list->list()->end(), obstacles.begin(), obstacles.end());
   }
 
+  const Catalogue& catalogue_;
   Value& document_;
   Problems& problems_;
   std::vector<std::string> overridden_;  // paths
@@ -259,8 +261,9 @@ class Sampler {
 
 }  // namespace
 
-Scenario DrawScenario(const std::vector<Override>& overrides, Value& document, Problems& problems) {
-  return Sampler(overrides, document, problems).Draw();
+Scenario DrawScenario(const std::vector<Override>& overrides, const Catalogue& catalogue,
+                      Value& document, Problems& problems) {
+  return Sampler(overrides, catalogue, document, problems).Draw();
 }
 
 std::string SamplingSchema() {
