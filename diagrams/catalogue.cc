@@ -53,11 +53,16 @@ bool Before(const Catalogue::Row& row, const std::string& type) { return row->ty
 
 }  // namespace
 
-std::unique_ptr<System> Catalogue::Guarded(const Value& params, const std::string& where,
-                                           Problems& problems,
-                                           const std::function<std::unique_ptr<System>()>& make) {
+std::unique_ptr<System> CatalogueRow::Make(const Value& params, const std::string& where,
+                                           const systems::ModelSet& models,
+                                           Problems& problems) const {
+  const std::shared_ptr<void> read = new_params();
+  Problems own;
+  ReadFields(params, fields(), where, read.get(), own);
+  problems.Add(own);
+  if (!own.empty()) return nullptr;
   try {
-    return make();
+    return build(read.get(), models);
   } catch (const WiringError&) {
     throw;  // of the class, not of its parameters
   } catch (const std::exception& error) {
@@ -67,6 +72,10 @@ std::unique_ptr<System> Catalogue::Guarded(const Value& params, const std::strin
     }
   }
   return nullptr;
+}
+
+std::unique_ptr<System> CatalogueRow::MakeExample(const systems::ModelSet& models) const {
+  return build(example_params.get(), models);
 }
 
 Catalogue& Catalogue::AddRow(CatalogueRow row) {

@@ -15,22 +15,23 @@
 
 namespace oca::diagrams {
 
-/// A system type that diagram files can name.
+/// A system type that diagram files can name. Parameters travel as `const void*` to a struct of its
+/// own, which `fields` describe.
 struct CatalogueRow {
   std::string type;
   SystemDoc doc;
   const std::vector<Field>& (*fields)();
+  std::shared_ptr<void> (*new_params)();       ///< with their defaults
+  std::shared_ptr<const void> example_params;  ///< of a small valid instance
+  std::function<std::unique_ptr<System>(const void* params, const systems::ModelSet& models)> build;
+  bool needs_models;
+
   /// A new system; nullptr, with problems, if the parameters are wrong. `where` is the path of the
   /// parameters in the file.
-  std::function<std::unique_ptr<System>(const Value& params, const std::string& where,
-                                        const systems::ModelSet& models, Problems& problems)>
-      make;
-  /// A small valid instance; a model that it needs is the `planar2` arm.
-  std::function<std::unique_ptr<System>(const systems::ModelSet& models)> make_example;
-  std::function<std::string()> example;    ///< its parameters as JSON
-  std::string (*schema)();                 ///< of its parameters
-  std::vector<std::string> (*defaults)();  ///< one a field, as JSON
-  bool needs_models;
+  std::unique_ptr<System> Make(const Value& params, const std::string& where,
+                               const systems::ModelSet& models, Problems& problems) const;
+  /// The small valid instance; a model that it needs is the `planar2` arm.
+  std::unique_ptr<System> MakeExample(const systems::ModelSet& models) const;
 };
 
 /// What a class must have to be a row: parameters that describe themselves, what it says of itself,
@@ -108,51 +109,21 @@ class Catalogue {
     }
   }
 
-  /// What `make` makes; nullptr, with a problem at the place of the parameters, if it throws.
-  static std::unique_ptr<System> Guarded(const Value& params, const std::string& where,
-                                         Problems& problems,
-                                         const std::function<std::unique_ptr<System>()>& make);
-
   template <class P, class MakeOf>
   static CatalogueRow RowOf(const std::string& type, const SystemDoc& doc, const P& example,
-                            bool needs_models, MakeOf make);
+                            bool needs_models, MakeOf make) {
+    return {type,
+            doc,
+            &FieldsOf<P>,
+            []() -> std::shared_ptr<void> { return std::make_shared<P>(); },
+            std::make_shared<const P>(example),
+            [make = std::move(make)](const void* params, const systems::ModelSet& models) {
+              return make(*static_cast<const P*>(params), models);
+            },
+            needs_models};
+  }
 
   std::vector<Row> rows_;
 };
-
-template <class P, class MakeOf>
-CatalogueRow Catalogue::RowOf(const std::string& type, const SystemDoc& doc, const P& example,
-                              bool needs_models, MakeOf make) {
-  CatalogueRow row;
-  row.type = type;
-  row.doc = doc;
-  row.fields = &FieldsOf<P>;
-  row.make = [make](const Value& value, const std::string& where, const systems::ModelSet& models,
-                    Problems& problems) -> std::unique_ptr<System> {
-    P params{};
-    Problems own;
-    ReadFields(value, FieldsOf<P>(), where, &params, own);
-    problems.Add(own);
-    if (!own.empty()) return nullptr;
-    return Guarded(value, where, problems, [&] { return make(params, models); });
-  };
-  row.make_example = [make, example](const systems::ModelSet& models) {
-    return make(example, models);
-  };
-  row.example = [example] { return ShowFields(FieldsOf<P>(), &example); };
-  row.schema = [] {
-    const P defaults{};
-    return SchemaOfFields(FieldsOf<P>(), &defaults);
-  };
-  row.defaults = [] {
-    P params{};
-    std::vector<std::string> texts;
-    for (const Field& field : FieldsOf<P>())
-      texts.push_back(field.type->Show(field.member(&params)));
-    return texts;
-  };
-  row.needs_models = needs_models;
-  return row;
-}
 
 }  // namespace oca::diagrams

@@ -165,7 +165,7 @@ class Probe {
     for (const auto& block : loaded.systems) {
       const System* const original = loaded.diagram->FindSystem(block.name);
       if (!needed.contains(original)) continue;
-      auto copy = block.row->make(block.params, block.name, loaded.models, problems);
+      auto copy = block.row->Make(block.params, block.name, loaded.models, problems);
       problems.Throw();
       copies_[original] = &builder_.AddSystem(block.name, std::move(copy));
     }

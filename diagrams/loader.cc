@@ -188,19 +188,9 @@ class Loader {
     if (const Value* const value = root_.Find("simulator")) {
       ReadFields(*value, FieldsOf<SimulatorParams>(), "simulator", &loaded_.simulator, problems_);
     }
-    const SimulatorParams& read = loaded_.simulator;
-    IntegratorOptions& options = loaded_.integrator;
-    options.integrator = read.integrator;
-    options.relative_tolerance = read.relative_tolerance;
-    options.absolute_tolerance = read.absolute_tolerance;
-    if (read.max_step) options.max_step = *read.max_step;
-    options.fixed_step = read.fixed_step;
-    options.max_steps = read.max_steps;
     for (const Value::Entry& entry : Map("simulator_tolerances")) {
-      ToleranceParams params;
-      ReadFields(entry.value, FieldsOf<ToleranceParams>(), "simulator_tolerances." + entry.key,
-                 &params, problems_);
-      options.tolerances[entry.key] = {params.relative, params.absolute};
+      ReadFields(entry.value, FieldsOf<Tolerances>(), "simulator_tolerances." + entry.key,
+                 &loaded_.simulator.integration.tolerances[entry.key], problems_);
     }
   }
 
@@ -250,7 +240,7 @@ class Loader {
       const Value params = models_->ResolveFiles(Value(std::move(rest), entry.value.location()));
       // A model that did not load has been reported; its users would only repeat it.
       if (models_->failed() && row->needs_models) return;
-      auto system = row->make(params, where, loaded_.models, problems_);
+      auto system = row->Make(params, where, loaded_.models, problems_);
       if (!system) return;
       locations_[entry.key] = entry.location;
       KeepWarnings(*system, where, entry.location);

@@ -37,7 +37,6 @@ struct LoadedDiagram {
   std::string name;
   std::string description;
   SimulatorParams simulator;
-  IntegratorOptions integrator;
   systems::ModelSet models;
   std::vector<Block> systems;
   std::unique_ptr<Diagram> diagram;

@@ -108,7 +108,7 @@ class Runner {
  public:
   Runner(const LoadedDiagram& loaded, const RunOptions& options)
       : loaded_(loaded),
-        simulator_(*loaded.diagram, loaded.integrator),
+        simulator_(*loaded.diagram, loaded.simulator.integration),
         duration_(options.duration.value_or(loaded.simulator.duration)) {
     simulator_.SetLog(options.log);
     const double factor = options.realtime_factor.value_or(loaded.simulator.realtime_factor);

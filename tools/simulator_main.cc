@@ -12,7 +12,6 @@
 
 #include "framework/error.h"
 #include "framework/nearest.h"
-#include "models/error.h"
 #include "tools/commands.h"
 #include "tools/record_commands.h"
 #include "tools/sweep_commands.h"
@@ -62,8 +61,6 @@ class CommandLine {
       Tell("error: {}\n", error.what());
       return kRunFailed;
     } catch (const Error& error) {
-      Tell("{}\n", error.what());
-    } catch (const models::ModelError& error) {
       Tell("{}\n", error.what());
     }
     return kBadInput;

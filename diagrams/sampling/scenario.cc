@@ -15,7 +15,6 @@
 #include "diagrams/sampling/random_obstacles.h"
 #include "framework/error.h"
 #include "framework/nearest.h"
-#include "models/error.h"
 
 namespace oca::diagrams {
 namespace {
@@ -221,9 +220,7 @@ class Sampler {
       if (!drawn.empty()) Append(document_, names.obstacles, drawn);
       scenario.obstacles = static_cast<int>(drawn.size());
       return true;
-    } catch (const ConfigError& error) {
-      problems_.Add(accept_location_, fmt::format("sampling: {}", error.what()));
-    } catch (const models::ModelError& error) {
+    } catch (const Error& error) {
       problems_.Add(accept_location_, fmt::format("sampling: {}", error.what()));
     }
     return false;
@@ -266,9 +263,9 @@ Scenario DrawScenario(const std::vector<Override>& overrides, const Catalogue& c
   return Sampler(overrides, catalogue, document, problems).Draw();
 }
 
-std::string SamplingSchema() {
+nlohmann::ordered_json SamplingSchema() {
   using nlohmann::ordered_json;
-  const auto schema = [](const ParamType& type) { return ordered_json::parse(type.Schema({})); };
+  const auto schema = [](const ParamType& type) { return type.Schema({}); };
   const ordered_json draw{{"type", "object"},
                           {"additionalProperties", schema(ParamTypeOf<DistributionParams>())}};
   const ordered_json tries{{"type", "integer"}, {"minimum", 1}, {"default", kTries}};
@@ -278,8 +275,7 @@ std::string SamplingSchema() {
                        {{"draw", draw},
                         {"obstacles", schema(ParamTypeOf<RandomObstacleParams>())},
                         {"accept", schema(ParamTypeOf<AcceptParams>())},
-                        {"tries", tries}}}}
-      .dump();
+                        {"tries", tries}}}};
 }
 
 }  // namespace oca::diagrams

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -38,7 +39,7 @@ struct Scenario {
 Scenario DrawScenario(const std::vector<Override>& overrides, const Catalogue& catalogue,
                       Value& document, Problems& problems);
 
-/// JSON Schema of the section, as text.
-std::string SamplingSchema();
+/// JSON Schema of the section.
+nlohmann::ordered_json SamplingSchema();
 
 }  // namespace oca::diagrams

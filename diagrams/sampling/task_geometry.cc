@@ -135,7 +135,7 @@ std::unique_ptr<Diagram> TaskGeometry::Source(const Value& root, const std::stri
     }
     ModelSection files(Value(std::move(packages), root.location()), problems);
     const Value resolved = files.ResolveFiles(Value(std::move(params), entry->location()));
-    auto system = catalogue_.Find(*type->string())->make(resolved, where, models, problems);
+    auto system = catalogue_.Find(*type->string())->Make(resolved, where, models, problems);
     if (!system) return nullptr;
     DiagramBuilder builder;
     const System& added = builder.AddSystem(name, std::move(system));

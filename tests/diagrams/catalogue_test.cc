@@ -127,10 +127,9 @@ TEST(CatalogueTest, ARowOfACallableHasParametersTooIfItWants) {
         [factor = params.factor](VectorView in, MutableVectorView out) { out = factor * in; });
   });
   const CatalogueRow& row = *catalogue.Find("Scale");
-  EXPECT_EQ(row.example(), R"({"factor":4})");
-  EXPECT_EQ(row.defaults(), std::vector<std::string>{"2"});
-  EXPECT_TRUE(nlohmann::json::parse(row.schema())["properties"].contains("factor"));
-  EXPECT_EQ(row.make_example({})->outputs().front().name, "out");
+  EXPECT_EQ(JsonOfFields(row.fields(), row.example_params.get()).dump(), R"({"factor":4})");
+  EXPECT_EQ(JsonOfFields(row.fields(), row.new_params().get()).dump(), R"({"factor":2})");
+  EXPECT_EQ(row.MakeExample({})->outputs().front().name, "out");
 }
 
 class ForeignFileTest : public testing::Test {
