@@ -142,7 +142,7 @@ class Evaluator {
 
   std::unique_ptr<System> Make() const {
     Problems problems;
-    auto system = row_.make(params_, "", models_, problems);
+    auto system = row_.Make(params_, "", models_, problems);
     problems.Throw();
     return system;
   }

@@ -10,7 +10,7 @@
 #include "tests/framework/example_params.h"
 
 namespace oca {
-namespace {
+namespace validated_test {
 
 using testing::HasSubstr;
 using testing::ThrowsMessage;
@@ -120,5 +120,5 @@ TEST(IncludedFieldsTest, AreThoseOfTheStructAround) {
               ThrowsMessage<ConfigError>(HasSubstr("depth: got -3 m; expected > 0")));
 }
 
-}  // namespace
+}  // namespace validated_test
 }  // namespace oca
