@@ -2,9 +2,8 @@
 #include <cstdio>
 #include <exception>
 
-#include "battery_monitor.h"
+#include "catalogue.h"
 #include "diagrams/run.h"
-#include "framework/function.h"
 #include "framework/port_access.h"
 #include "framework/simulator.h"
 
@@ -26,9 +25,7 @@ double ChargeLeft() {
 /// Loads and runs the diagram named on the command line; succeeds if it keeps its expectations.
 int main(int argc, char** argv) {
   try {
-    auto catalogue = oca::diagrams::Catalogue::Standard();
-    catalogue.Add<acme::BatteryMonitor>("BatteryMonitor");
-    const auto loaded = oca::diagrams::LoadDiagram(argc > 1 ? argv[1] : "", {}, catalogue);
+    const auto loaded = oca::diagrams::LoadDiagram(argc > 1 ? argv[1] : "", {}, acme::Catalogue());
     const bool kept = oca::diagrams::Run(loaded, {}).ExpectationsMet();
     std::printf("charge left: %.3f\n", ChargeLeft());
     return kept ? 0 : 1;

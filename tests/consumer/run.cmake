@@ -88,7 +88,7 @@ endif()
 
 # The page that explains it quotes these very files.
 file(READ ${SOURCE}/docs/own_block.md page)
-foreach(name battery_monitor.h simulator.cc battery.yaml CMakeLists.txt embedded.cc)
+foreach(name battery_monitor.h catalogue.h simulator.cc battery.yaml CMakeLists.txt embedded.cc)
   file(READ ${files}/${name} text)
   string(REGEX REPLACE "^[^\n]*SPDX[^\n]*\n" "" text "${text}")
   string(FIND "${page}" "\n${text}```" at)
