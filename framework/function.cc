@@ -5,7 +5,6 @@
 
 #include <exception>
 #include <map>
-#include <stdexcept>
 
 #include "framework/error.h"
 
@@ -73,7 +72,7 @@ void Function::Call(const System& system, std::byte* arena, const Slot* slots) {
   } catch (const std::exception&) {
     throw;
   } catch (...) {
-    throw std::runtime_error("threw something that is no std::exception");
+    throw Error("threw something that is no std::exception");
   }
 }
 
