@@ -4,64 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <concepts>
+#include <cctype>
+#include <exception>
 
 #include "framework/error.h"
 #include "framework/nearest.h"
-#include "models/error.h"
-#include "systems/attractive_field.h"
-#include "systems/avoidance_log.h"
-#include "systems/bullet_distance.h"
-#include "systems/constant.h"
-#include "systems/delay.h"
-#include "systems/delta_limiter.h"
-#include "systems/delta_overlay.h"
-#include "systems/delta_relaxation.h"
-#include "systems/elastic_band.h"
-#include "systems/first_order_lag.h"
-#include "systems/flacco_de_luca.h"
-#include "systems/force_sum.h"
-#include "systems/gain.h"
-#include "systems/integrator.h"
-#include "systems/integrator_plant.h"
-#include "systems/jacobian_mapping.h"
-#include "systems/joint_servo.h"
-#include "systems/linear_interpolator.h"
-#include "systems/loop_gain.h"
-#include "systems/motion_limiter.h"
-#include "systems/motion_metrics.h"
-#include "systems/obstacle_sensor.h"
-#include "systems/obstacle_source.h"
-#include "systems/ramp_source.h"
-#include "systems/repulsive_field.h"
-#include "systems/robot_kinematics.h"
-#include "systems/safety_filter.h"
-#include "systems/saturation.h"
-#include "systems/servo_scaling.h"
-#include "systems/sine_source.h"
-#include "systems/spline_generator.h"
-#include "systems/step_source.h"
-#include "systems/sum.h"
-#include "systems/task_priority.h"
-#include "systems/tip_error.h"
-#include "systems/tip_trajectory.h"
-#include "systems/velocity_aware_field.h"
-#include "systems/velocity_loop.h"
-#include "systems/vortex_field.h"
-#include "systems/wrench_transform.h"
-#include "systems/zero_order_hold.h"
 
 namespace oca::diagrams {
 namespace {
-
-template <class S>
-std::unique_ptr<System> Make(const typename S::Params& params, const systems::ModelSet& models) {
-  if constexpr (std::constructible_from<S, const typename S::Params&, const systems::ModelSet&>) {
-    return std::make_unique<S>(params, models);
-  } else {
-    return std::make_unique<S>(params);
-  }
-}
 
 /// A value is missing, as that of an expression which could not be worked out.
 bool HasGap(const Value& value) {
@@ -76,109 +26,80 @@ bool HasGap(const Value& value) {
   return false;
 }
 
-template <class S>
-CatalogueRow Row(const char* type) {
-  using Params = typename S::Params;
-  CatalogueRow row;
-  row.type = type;
-  row.doc = S::kDoc;
-  row.fields = &FieldsOf<Params>;
-  row.make = [](const Value& value, const std::string& where, const systems::ModelSet& models,
-                Problems& problems) -> std::unique_ptr<System> {
-    Params params;
-    Problems own;
-    ReadFields(value, FieldsOf<Params>(), where, &params, own);
-    problems.Add(own);
-    if (!own.empty()) return nullptr;
-    const auto refuse = [&](const std::exception& error) {
-      if (!problems.empty() && HasGap(value)) return;  // which has been reported
-      problems.Add(value.location(), (where.empty() ? "" : where + ": ") + error.what());
-    };
-    try {
-      return Make<S>(params, models);
-    } catch (const ConfigError& error) {
-      refuse(error);
-    } catch (const models::ModelError& error) {
-      refuse(error);
-    }
-    return nullptr;
+bool IsCamelCase(const std::string& name) {
+  const auto is = [](int (*kind)(int)) {
+    return [kind](char c) { return kind(static_cast<unsigned char>(c)) != 0; };
   };
-  row.make_example = [](const systems::ModelSet& models) { return Make<S>(S::Example(), models); };
-  row.example = [] {
-    const Params params = S::Example();
-    return ShowFields(FieldsOf<Params>(), &params);
-  };
-  row.schema = [] {
-    const Params defaults;
-    return SchemaOfFields(FieldsOf<Params>(), &defaults);
-  };
-  row.defaults = [] {
-    Params params;
-    std::vector<std::string> texts;
-    for (const Field& field : FieldsOf<Params>())
-      texts.push_back(field.type->Show(field.member(&params)));
-    return texts;
-  };
-  row.needs_models = std::constructible_from<S, const Params&, const systems::ModelSet&>;
-  return row;
+  return !name.empty() && is(std::isupper)(name.front()) &&
+         std::all_of(name.begin(), name.end(), is(std::isalnum)) &&
+         (name.size() == 1 || std::any_of(name.begin(), name.end(), is(std::islower)));
 }
+
+/// What a file could not name, or twice.
+void CheckKeys(const CatalogueRow& row) {
+  std::vector<std::string> keys{"type"};
+  for (const Field& field : row.fields()) {
+    if (std::find(keys.begin(), keys.end(), field.key) != keys.end()) {
+      throw ConfigError(
+          fmt::format("catalogue: type '{}': parameter; got '{}', which is taken; "
+                      "expected a key of its own",
+                      row.type, field.key));
+    }
+    keys.push_back(field.key);
+  }
+}
+
+bool Before(const Catalogue::Row& row, const std::string& type) { return row->type < type; }
 
 }  // namespace
 
-const std::vector<CatalogueRow>& Catalogue() {
-  using namespace systems;  // NOLINT: a table of their names
-  static const std::vector<CatalogueRow> rows = {
-      Row<AttractiveField>("AttractiveField"),
-      Row<AvoidanceLog>("AvoidanceLog"),
-      Row<BulletDistance>("BulletDistance"),
-      Row<Constant>("Constant"),
-      Row<Delay>("Delay"),
-      Row<DeltaLimiter>("DeltaLimiter"),
-      Row<DeltaOverlay>("DeltaOverlay"),
-      Row<DeltaRelaxation>("DeltaRelaxation"),
-      Row<ElasticBand>("ElasticBand"),
-      Row<FirstOrderLag>("FirstOrderLag"),
-      Row<FlaccoDeLuca>("FlaccoDeLuca"),
-      Row<ForceSum>("ForceSum"),
-      Row<Gain>("Gain"),
-      Row<systems::Integrator>("Integrator"),
-      Row<IntegratorPlant>("IntegratorPlant"),
-      Row<JacobianMapping>("JacobianMapping"),
-      Row<JointServo>("JointServo"),
-      Row<LinearInterpolator>("LinearInterpolator"),
-      Row<LoopGain>("LoopGain"),
-      Row<MotionLimiter>("MotionLimiter"),
-      Row<MotionMetrics>("MotionMetrics"),
-      Row<ObstacleSensor>("ObstacleSensor"),
-      Row<ObstacleSource>("ObstacleSource"),
-      Row<RampSource>("RampSource"),
-      Row<RepulsiveField>("RepulsiveField"),
-      Row<RobotKinematics>("RobotKinematics"),
-      Row<SafetyFilter>("SafetyFilter"),
-      Row<Saturation>("Saturation"),
-      Row<ServoScaling>("ServoScaling"),
-      Row<SineSource>("SineSource"),
-      Row<SplineGenerator>("SplineGenerator"),
-      Row<StepSource>("StepSource"),
-      Row<Sum>("Sum"),
-      Row<TaskPriority>("TaskPriority"),
-      Row<TipError>("TipError"),
-      Row<TipTrajectory>("TipTrajectory"),
-      Row<VelocityAwareField>("VelocityAwareField"),
-      Row<VelocityLoop>("VelocityLoop"),
-      Row<VortexField>("VortexField"),
-      Row<WrenchTransform>("WrenchTransform"),
-      Row<ZeroOrderHold>("ZeroOrderHold"),
-  };
-  return rows;
+std::unique_ptr<System> CatalogueRow::Make(const Value& params, const std::string& where,
+                                           const systems::ModelSet& models,
+                                           Problems& problems) const {
+  const std::shared_ptr<void> read = new_params();
+  Problems own;
+  ReadFields(params, fields(), where, read.get(), own);
+  problems.Add(own);
+  if (!own.empty()) return nullptr;
+  try {
+    return build(read.get(), models);
+  } catch (const WiringError&) {
+    throw;  // of the class, not of its parameters
+  } catch (const std::exception& error) {
+    // One that follows from what has been reported says nothing new.
+    if (problems.empty() || !HasGap(params)) {
+      problems.Add(params.location(), (where.empty() ? "" : where + ": ") + error.what());
+    }
+  }
+  return nullptr;
 }
 
-const CatalogueRow& FindRow(const std::string& type) {
-  std::vector<std::string> types;
-  for (const CatalogueRow& row : Catalogue()) {
-    if (row.type == type) return row;
-    types.push_back(row.type);
+std::unique_ptr<System> CatalogueRow::MakeExample(const systems::ModelSet& models) const {
+  return build(example_params.get(), models);
+}
+
+Catalogue& Catalogue::AddRow(CatalogueRow row) {
+  if (!IsCamelCase(row.type)) {
+    throw ConfigError(
+        fmt::format("catalogue: type; got '{}'; expected a name such as MyBlock: "
+                    "letters and digits, first a capital",
+                    row.type));
   }
+  CheckKeys(row);
+  const auto place = std::lower_bound(rows_.begin(), rows_.end(), row.type, Before);
+  if (place != rows_.end() && (*place)->type == row.type) {
+    throw ConfigError(
+        fmt::format("catalogue: type; got '{}', which is taken; expected a new one", row.type));
+  }
+  rows_.insert(place, std::make_shared<const CatalogueRow>(std::move(row)));
+  return *this;
+}
+
+const Catalogue::Row& Catalogue::Find(const std::string& type) const {
+  const auto place = std::lower_bound(rows_.begin(), rows_.end(), type, Before);
+  if (place != rows_.end() && (*place)->type == type) return *place;
+  std::vector<std::string> types;
+  for (const Row& row : rows_) types.push_back(row->type);
   throw ConfigError(fmt::format("no system type '{}'{} (`simulator list` shows all)", type,
                                 DidYouMean(type, types)));
 }

@@ -9,7 +9,6 @@
 #include <optional>
 #include <set>
 
-#include "diagrams/catalogue.h"
 #include "framework/dynamic_port.h"
 #include "framework/port_access.h"
 #include "framework/simulator.h"
@@ -166,7 +165,7 @@ class Probe {
     for (const auto& block : loaded.systems) {
       const System* const original = loaded.diagram->FindSystem(block.name);
       if (!needed.contains(original)) continue;
-      auto copy = FindRow(block.type).make(block.params, block.name, loaded.models, problems);
+      auto copy = block.row->Make(block.params, block.name, loaded.models, problems);
       problems.Throw();
       copies_[original] = &builder_.AddSystem(block.name, std::move(copy));
     }

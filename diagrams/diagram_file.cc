@@ -3,7 +3,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "diagrams/catalogue.h"
 #include "diagrams/sampling/scenario.h"
 
 namespace oca::diagrams {
@@ -14,36 +13,12 @@ void SimulatorParams::Describe(Fields<SimulatorParams>& fields) {
   fields.Add("duration", &SimulatorParams::duration, "s", "how long to run")
       .AtLeast(0.0)
       .AtMost(1e7);
-  fields.Add("integrator", &SimulatorParams::integrator, "", "method for continuous state");
-  fields
-      .Add("relative_tolerance", &SimulatorParams::relative_tolerance, "",
-           "error a step, relative to the state")
-      .Above(0.0)
-      .AtMost(1.0);
-  fields
-      .Add("absolute_tolerance", &SimulatorParams::absolute_tolerance, "",
-           "error a step, in the unit of the state")
-      .Above(0.0);
-  fields.Add("max_step", &SimulatorParams::max_step, "s", "longest step of an adaptive integrator")
-      .Above(0.0);
-  fields
-      .Add("fixed_step", &SimulatorParams::fixed_step, "s",
-           "longest step of a fixed-step integrator")
-      .Above(0.0);
-  fields.Add("max_steps", &SimulatorParams::max_steps, "", "steps allowed between two events")
-      .AtLeast(1.0);
+  fields.Include(&SimulatorParams::integration);
   fields
       .Add("realtime_factor", &SimulatorParams::realtime_factor, "",
            "simulated seconds to a second of the wall clock; 0 runs as fast as possible")
       .AtLeast(0.0);
   fields.Add("seed", &SimulatorParams::seed, "", "of everything random in the run").AtLeast(0.0);
-}
-
-void ToleranceParams::Describe(Fields<ToleranceParams>& fields) {
-  fields.Add("relative", &ToleranceParams::relative, "", "error a step, relative to the state")
-      .Above(0.0);
-  fields.Add("absolute", &ToleranceParams::absolute, "", "error a step, in the unit of the state")
-      .Above(0.0);
 }
 
 void AttachedParams::Describe(Fields<AttachedParams>& fields) {
@@ -110,7 +85,7 @@ const std::vector<Section>& Sections() {
 
 namespace {
 
-ordered_json SchemaOf(const ParamType& type) { return ordered_json::parse(type.Schema({})); }
+ordered_json SchemaOf(const ParamType& type) { return type.Schema({}); }
 
 ordered_json MapOf(const ordered_json& items) {
   return {{"type", "object"}, {"additionalProperties", items}};
@@ -137,22 +112,22 @@ void AllowExpressions(ordered_json& schema) {
   if (!description.is_null()) schema["description"] = description;
 }
 
-ordered_json SystemsSchema() {
+ordered_json SystemsSchema(const Catalogue& catalogue) {
   ordered_json any = ordered_json::array();
-  for (const CatalogueRow& row : Catalogue()) {
-    ordered_json schema = ordered_json::parse(row.schema());
-    ordered_json properties{{"type", {{"const", row.type}, {"description", row.doc.summary}}}};
+  for (const Catalogue::Row& row : catalogue.rows()) {
+    ordered_json schema = SchemaOfFields(row->fields(), row->new_params().get());
+    ordered_json properties{{"type", {{"const", row->type}, {"description", row->doc.summary}}}};
     for (auto& [key, property] : schema["properties"].items()) {
       AllowExpressions(property);
       properties[key] = property;
     }
     schema["properties"] = properties;
-    schema["description"] = row.doc.summary;
-    ordered_json condition{{"properties", {{"type", {{"const", row.type}}}}}};
+    schema["description"] = row->doc.summary;
+    ordered_json condition{{"properties", {{"type", {{"const", row->type}}}}}};
     any.push_back({{"if", condition}, {"then", schema}});
   }
   ordered_json types = ordered_json::array();
-  for (const CatalogueRow& row : Catalogue()) types.push_back(row.type);
+  for (const Catalogue::Row& row : catalogue.rows()) types.push_back(row->type);
   return MapOf({{"type", "object"},
                 {"required", {"type"}},
                 {"properties", {{"type", {{"enum", types}}}}},
@@ -161,7 +136,7 @@ ordered_json SystemsSchema() {
 
 }  // namespace
 
-std::string DiagramSchema() {
+std::string DiagramSchema(const Catalogue& catalogue) {
   ordered_json sections;
   const ordered_json text{{"type", "string"}};
   sections["name"] = text;
@@ -169,14 +144,14 @@ std::string DiagramSchema() {
   sections["include"] = {{"type", "array"}, {"items", text}};
   sections["parameters"] = {{"type", "object"}};
   sections["simulator"] = SchemaOf(ParamTypeOf<SimulatorParams>());
-  sections["simulator_tolerances"] = MapOf(SchemaOf(ParamTypeOf<ToleranceParams>()));
-  sections["sampling"] = ordered_json::parse(SamplingSchema());
+  sections["simulator_tolerances"] = MapOf(SchemaOf(ParamTypeOf<Tolerances>()));
+  sections["sampling"] = SamplingSchema();
   sections["packages"] = MapOf(text);
   sections["models"] = MapOf(SchemaOf(ParamTypeOf<ModelParams>()));
   for (const char* key : {"simulator", "simulator_tolerances", "sampling", "models"}) {
     AllowExpressions(sections[key]);
   }
-  sections["systems"] = SystemsSchema();
+  sections["systems"] = SystemsSchema(catalogue);
   sections["connections"] = {{"type", "array"},
                              {"items", {{"type", "string"}, {"pattern", "^\\S+ *-> *\\S+$"}}}};
   const auto rate = [](const char* meaning) -> ordered_json {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "diagrams/catalogue.h"
 #include "framework/integrator_options.h"
 #include "framework/params.h"
 #include "models/robot/urdf.h"
@@ -18,22 +19,10 @@ namespace oca::diagrams {
 /// Section `simulator`.
 struct SimulatorParams {
   double duration{10.0};
-  IntegratorKind integrator{IntegratorKind::kErkDp5};
-  double relative_tolerance{1e-6};
-  double absolute_tolerance{1e-9};
-  std::optional<double> max_step;
-  double fixed_step{1e-3};
-  int max_steps{100000};
+  IntegratorOptions integration{};
   int seed{0};
   double realtime_factor{0.0};
   static void Describe(Fields<SimulatorParams>& fields);
-};
-
-/// Tolerances of one system: an entry of `simulator_tolerances`.
-struct ToleranceParams {
-  double relative{1e-6};
-  double absolute{1e-9};
-  static void Describe(Fields<ToleranceParams>& fields);
 };
 
 /// An entry of `attached` of a model: a tool or a grasped object.
@@ -76,7 +65,7 @@ struct Section {
 };
 const std::vector<Section>& Sections();
 
-/// JSON Schema (draft 7) of diagram files, for editors.
-std::string DiagramSchema();
+/// JSON Schema (draft 7) of diagram files with systems of these types, for editors.
+std::string DiagramSchema(const Catalogue& catalogue = Catalogue::Standard());
 
 }  // namespace oca::diagrams

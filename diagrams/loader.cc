@@ -10,7 +10,6 @@
 #include <set>
 #include <utility>
 
-#include "diagrams/catalogue.h"
 #include "diagrams/expression.h"
 #include "diagrams/model_section.h"
 #include "diagrams/section.h"
@@ -39,8 +38,9 @@ namespace fs = std::filesystem;
 /// Walks the resolved tree section by section and collects every problem on the way.
 class Loader {
  public:
-  explicit Loader(const fs::path& file, std::vector<std::string> part = {}, bool movable = false)
-      : part_(std::move(part)), movable_(movable) {
+  Loader(const fs::path& file, const Catalogue& catalogue, std::vector<std::string> part = {},
+         bool movable = false)
+      : catalogue_(catalogue), part_(std::move(part)), movable_(movable) {
     loaded_.file = file.string();
   }
 
@@ -96,7 +96,7 @@ class Loader {
     });
     Problems said_later;
     ApplyOverrides(before, document, said_later);
-    loaded_.scenario = DrawScenario(overrides, document, problems_);
+    loaded_.scenario = DrawScenario(overrides, catalogue_, document, problems_);
     problems_.Throw();
   }
 
@@ -188,19 +188,9 @@ class Loader {
     if (const Value* const value = root_.Find("simulator")) {
       ReadFields(*value, FieldsOf<SimulatorParams>(), "simulator", &loaded_.simulator, problems_);
     }
-    const SimulatorParams& read = loaded_.simulator;
-    IntegratorOptions& options = loaded_.integrator;
-    options.integrator = read.integrator;
-    options.relative_tolerance = read.relative_tolerance;
-    options.absolute_tolerance = read.absolute_tolerance;
-    if (read.max_step) options.max_step = *read.max_step;
-    options.fixed_step = read.fixed_step;
-    options.max_steps = read.max_steps;
     for (const Value::Entry& entry : Map("simulator_tolerances")) {
-      ToleranceParams params;
-      ReadFields(entry.value, FieldsOf<ToleranceParams>(), "simulator_tolerances." + entry.key,
-                 &params, problems_);
-      options.tolerances[entry.key] = {params.relative, params.absolute};
+      ReadFields(entry.value, FieldsOf<Tolerances>(), "simulator_tolerances." + entry.key,
+                 &loaded_.simulator.integration.tolerances[entry.key], problems_);
     }
   }
 
@@ -246,11 +236,11 @@ class Loader {
     }
     TellObstacles(rest);
     try {
-      const CatalogueRow& row = FindRow(*type->string());
+      const Catalogue::Row& row = catalogue_.Find(*type->string());
       const Value params = models_->ResolveFiles(Value(std::move(rest), entry.value.location()));
       // A model that did not load has been reported; its users would only repeat it.
-      if (models_->failed() && row.needs_models) return;
-      auto system = row.make(params, where, loaded_.models, problems_);
+      if (models_->failed() && row->needs_models) return;
+      auto system = row->Make(params, where, loaded_.models, problems_);
       if (!system) return;
       locations_[entry.key] = entry.location;
       KeepWarnings(*system, where, entry.location);
@@ -259,7 +249,7 @@ class Loader {
         return;
       }
       systems_[entry.key] = &builder_.AddSystem(entry.key, std::move(system));
-      loaded_.systems.push_back({entry.key, row.type, params});
+      loaded_.systems.push_back({entry.key, row->type, params, row});
     } catch (const WiringError& error) {
       problems_.Add(entry.location, fmt::format("{}: {}", where, error.what()));
     } catch (const ConfigError& error) {
@@ -471,6 +461,7 @@ class Loader {
     return outputs;
   }
 
+  const Catalogue& catalogue_;
   const std::vector<std::string> part_;  // systems to build; empty: all
   const bool movable_;
   models::OpenedFiles opened_;
@@ -490,18 +481,20 @@ class Loader {
 
 }  // namespace
 
-LoadedDiagram LoadDiagram(const fs::path& file, const std::vector<Override>& overrides) {
-  return Loader(file).Load(file, overrides);
+LoadedDiagram LoadDiagram(const fs::path& file, const std::vector<Override>& overrides,
+                          const Catalogue& catalogue) {
+  return Loader(file, catalogue).Load(file, overrides);
 }
 
-LoadedDiagram LoadMovable(const fs::path& file, const std::vector<Override>& overrides) {
-  return Loader(file, {}, true).Load(file, overrides);
+LoadedDiagram LoadMovable(const fs::path& file, const std::vector<Override>& overrides,
+                          const Catalogue& catalogue) {
+  return Loader(file, catalogue, {}, true).Load(file, overrides);
 }
 
 LoadedDiagram LoadPart(const fs::path& file, const std::vector<std::string>& systems,
-                       const std::vector<Override>& overrides) {
+                       const std::vector<Override>& overrides, const Catalogue& catalogue) {
   if (systems.empty()) throw ConfigError("part: got no system; expected at least one");
-  return Loader(file, systems).Load(file, overrides);
+  return Loader(file, catalogue, systems).Load(file, overrides);
 }
 
 }  // namespace oca::diagrams

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "diagrams/catalogue.h"
 #include "diagrams/diagram_file.h"
 #include "diagrams/document.h"
 #include "diagrams/output_sections.h"
@@ -21,6 +22,7 @@ struct LoadedDiagram {
     std::string name;
     std::string type;
     Value params;  ///< as given, with ${...} worked out and paths of files resolved
+    Catalogue::Row row;
   };
 
   std::string file;
@@ -35,7 +37,6 @@ struct LoadedDiagram {
   std::string name;
   std::string description;
   SimulatorParams simulator;
-  IntegratorOptions integrator;
   systems::ModelSet models;
   std::vector<Block> systems;
   std::unique_ptr<Diagram> diagram;
@@ -50,14 +51,17 @@ struct LoadedDiagram {
 ///
 /// Files are looked up relative to the file that names them; `package://NAME/` in the file's
 /// `packages`, then in OCA_PACKAGE_PATH, then among the models that come with OCA.
+/// `catalogue` has the types of its systems.
 /// throws ConfigError with all problems of the file, a line each, `file:line:column: error: ...`.
 LoadedDiagram LoadDiagram(const std::filesystem::path& file,
-                          const std::vector<Override>& overrides = {});
+                          const std::vector<Override>& overrides = {},
+                          const Catalogue& catalogue = Catalogue::Standard());
 
 /// As LoadDiagram; obstacles can be moved: each ObstacleSource whose `offsets` nothing drives has
 /// them exported as `NAME_offsets`, which must be fixed before a run.
 LoadedDiagram LoadMovable(const std::filesystem::path& file,
-                          const std::vector<Override>& overrides = {});
+                          const std::vector<Override>& overrides = {},
+                          const Catalogue& catalogue = Catalogue::Standard());
 
 /// The named systems of a diagram file alone, for a program that takes the place of the others, as
 /// a robot's control loop does with the plant; the whole file is checked all the same.
@@ -67,6 +71,7 @@ LoadedDiagram LoadMovable(const std::filesystem::path& file,
 /// What the file records and expects is left out.
 /// throws ConfigError as LoadDiagram does, and if there is no system of a name.
 LoadedDiagram LoadPart(const std::filesystem::path& file, const std::vector<std::string>& systems,
-                       const std::vector<Override>& overrides = {});
+                       const std::vector<Override>& overrides = {},
+                       const Catalogue& catalogue = Catalogue::Standard());
 
 }  // namespace oca::diagrams

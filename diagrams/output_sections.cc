@@ -6,8 +6,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstddef>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -70,16 +68,8 @@ void ReadSignal(const Value::Entry& entry, const NamedOutputs& outputs,
 
 /// The members of a signal type's JSON object, from a value made by default.
 std::vector<std::string> MembersOf(const SignalType& type) {
-  std::size_t space = type.size + type.align;
-  const auto memory = std::make_unique<std::byte[]>(space);
-  void* at = memory.get();
-  std::align(type.align, type.size, at, space);
-  type.construct(at);
-  std::string text;
-  type.write_json(at, text);
-  type.destroy(at);
   std::vector<std::string> names;
-  const auto json = nlohmann::ordered_json::parse(text);
+  const auto json = nlohmann::ordered_json::parse(DefaultJson(type));
   if (json.is_object()) {
     for (const auto& item : json.items()) names.push_back(item.key());
   }

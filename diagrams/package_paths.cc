@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -10,6 +11,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "diagrams/data_folders.h"
 #include "framework/error.h"
 
 namespace oca::diagrams {
@@ -24,13 +26,11 @@ std::vector<fs::path> PackageFolders() {
       if (!folder.empty()) folders.emplace_back(folder);
     }
   }
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  const fs::path installed = program.parent_path().parent_path() / OCA_INSTALLED_MODELS;
-  const fs::path built{OCA_SOURCE_MODELS};
-  for (const fs::path& models : {installed, built}) {
+  for (const fs::path& data : DataFolders()) {
     for (const char* const kind : {"robots", "worlds"}) {
-      if (fs::is_directory(models / kind, error)) folders.push_back(models / kind);
+      std::error_code error;
+      const fs::path models = data / "models" / kind;
+      if (fs::is_directory(models, error)) folders.push_back(models);
     }
   }
   return folders;
@@ -65,12 +65,11 @@ bool IsPartOfOca(const fs::path& file) {
     if (!stream) return std::nullopt;
     return std::string{std::istreambuf_iterator<char>(stream), {}};
   };
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  const fs::path installed = program.parent_path().parent_path() / OCA_INSTALLED_PARTS;
   const auto own = content(file);
-  return own && (own == content(installed / file.filename()) ||
-                 own == content(fs::path(OCA_SOURCE_PARTS) / file.filename()));
+  const auto folders = DataFolders();
+  return own && std::any_of(folders.begin(), folders.end(), [&](const fs::path& data) {
+           return own == content(data / "diagrams/parts" / file.filename());
+         });
 }
 
 }  // namespace oca::diagrams

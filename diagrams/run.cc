@@ -20,7 +20,9 @@ namespace {
 using nlohmann::ordered_json;
 
 std::optional<double> MemberOf(const std::string& json, const std::string& member) {
-  const auto value = ordered_json::parse(json).value(member, ordered_json());
+  const auto object = ordered_json::parse(json, nullptr, false);
+  if (!object.is_object()) return std::nullopt;
+  const auto value = object.value(member, ordered_json());
   if (!value.is_number()) return std::nullopt;
   return value.get<double>();
 }
@@ -106,7 +108,7 @@ class Runner {
  public:
   Runner(const LoadedDiagram& loaded, const RunOptions& options)
       : loaded_(loaded),
-        simulator_(*loaded.diagram, loaded.integrator),
+        simulator_(*loaded.diagram, loaded.simulator.integration),
         duration_(options.duration.value_or(loaded.simulator.duration)) {
     simulator_.SetLog(options.log);
     const double factor = options.realtime_factor.value_or(loaded.simulator.realtime_factor);

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-namespace oca {
+#include "framework/error_base.h"
 
-/// Base of every exception that OCA throws on purpose.
-/// The text reads `where: what; got X; expected Y`.
-struct Error : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
+namespace oca {
 
 /// A file or a parameter is wrong.
 struct ConfigError : Error {

@@ -34,12 +34,21 @@ class EnumType final : public ParamType {
     }
     set_(target, static_cast<int>(found - names_.begin()));
   }
-  std::string Show(const void* value) const override { return '"' + names_.at(get_(value)) + '"'; }
-  std::string Schema(const FieldInfo& /*field*/) const override {
-    return ordered_json{{"enum", names_}}.dump();
+  void Check(const void* value, const FieldInfo& /*field*/, const std::string& where,
+             std::vector<std::string>& problems) const override {
+    if (Has(get_(value))) return;
+    problems.push_back(
+        fmt::format("{}: got {}; expected one of {}", where, get_(value), fmt::join(names_, ", ")));
   }
+  ordered_json ToJson(const void* value) const override {
+    const int index = get_(value);
+    return Has(index) ? ordered_json(names_[static_cast<std::size_t>(index)]) : ordered_json();
+  }
+  ordered_json Schema(const FieldInfo& /*field*/) const override { return {{"enum", names_}}; }
 
  private:
+  bool Has(int index) const { return index >= 0 && index < static_cast<int>(names_.size()); }
+
   std::vector<std::string> names_;
   std::function<int(const void*)> get_;
   std::function<void(void*, int)> set_;
@@ -65,16 +74,19 @@ class ListType final : public ParamType {
                  problems);
     }
   }
-  std::string Show(const void* value) const override {
-    std::string text = "[";
+  void Check(const void* value, const FieldInfo& field, const std::string& where,
+             std::vector<std::string>& problems) const override {
     for (std::size_t i = 0; i < size_(value); ++i) {
-      text += (i == 0 ? "" : ",") + item_.Show(at_(value, i));
+      item_.Check(at_(value, i), field, fmt::format("{}[{}]", where, i), problems);
     }
-    return text + "]";
   }
-  std::string Schema(const FieldInfo& field) const override {
-    return ordered_json{{"type", "array"}, {"items", ordered_json::parse(item_.Schema(field))}}
-        .dump();
+  ordered_json ToJson(const void* value) const override {
+    ordered_json list = ordered_json::array();
+    for (std::size_t i = 0; i < size_(value); ++i) list.push_back(item_.ToJson(at_(value, i)));
+    return list;
+  }
+  ordered_json Schema(const FieldInfo& field) const override {
+    return {{"type", "array"}, {"items", item_.Schema(field)}};
   }
 
  private:
@@ -95,11 +107,20 @@ class OptionalType final : public ParamType {
             Problems& problems) const override {
     item_.Read(value, field, where, engage_(target), problems);
   }
-  std::string Show(const void* value) const override {
-    const void* item = get_(value);
-    return item == nullptr ? "null" : item_.Show(item);
+  void Check(const void* value, const FieldInfo& field, const std::string& where,
+             std::vector<std::string>& problems) const override {
+    if (const void* const item = get_(value)) item_.Check(item, field, where, problems);
   }
-  std::string Schema(const FieldInfo& field) const override { return item_.Schema(field); }
+  bool Same(const void* a, const void* b) const override {
+    const void* const one = get_(a);
+    const void* const other = get_(b);
+    return one == nullptr || other == nullptr ? one == other : item_.Same(one, other);
+  }
+  ordered_json ToJson(const void* value) const override {
+    const void* const item = get_(value);
+    return item == nullptr ? ordered_json() : item_.ToJson(item);
+  }
+  ordered_json Schema(const FieldInfo& field) const override { return item_.Schema(field); }
 
  private:
   const ParamType& item_;
@@ -109,8 +130,8 @@ class OptionalType final : public ParamType {
 
 class StructType final : public ParamType {
  public:
-  StructType(const std::vector<Field>& (*fields)(), std::function<std::shared_ptr<void>()> make)
-      : fields_(fields), make_(std::move(make)) {}
+  StructType(const std::vector<Field>& (*fields)(), std::shared_ptr<const void> defaults)
+      : fields_(fields), defaults_(std::move(defaults)) {}
   std::string Name() const override {
     std::vector<std::string> keys;
     for (const Field& field : fields_()) keys.push_back(field.key);
@@ -120,14 +141,18 @@ class StructType final : public ParamType {
             Problems& problems) const override {
     ReadFields(value, fields_(), where, target, problems);
   }
-  std::string Show(const void* value) const override { return ShowFields(fields_(), value); }
-  std::string Schema(const FieldInfo& /*field*/) const override {
-    return SchemaOfFields(fields_(), make_().get());
+  void Check(const void* value, const FieldInfo& /*field*/, const std::string& where,
+             std::vector<std::string>& problems) const override {
+    CheckFields(fields_(), value, defaults_.get(), where, problems);
+  }
+  ordered_json ToJson(const void* value) const override { return JsonOfFields(fields_(), value); }
+  ordered_json Schema(const FieldInfo& /*field*/) const override {
+    return SchemaOfFields(fields_(), defaults_.get());
   }
 
  private:
   const std::vector<Field>& (*fields_)();
-  std::function<std::shared_ptr<void>()> make_;
+  const std::shared_ptr<const void> defaults_;
 };
 
 }  // namespace
@@ -155,8 +180,8 @@ std::unique_ptr<ParamType> MakeOptionalType(const ParamType& item,
 }
 
 std::unique_ptr<ParamType> MakeStructType(const std::vector<Field>& (*fields)(),
-                                          std::function<std::shared_ptr<void>()> make) {
-  return std::make_unique<StructType>(fields, std::move(make));
+                                          std::shared_ptr<const void> defaults) {
+  return std::make_unique<StructType>(fields, std::move(defaults));
 }
 
 }  // namespace internal

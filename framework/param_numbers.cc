@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
 
 namespace oca::internal {
 namespace {
@@ -19,12 +20,26 @@ void AddBounds(const Bounds& bounds, ordered_json& schema) {
   if (std::isfinite(bounds.upper)) schema["maximum"] = bounds.upper;
 }
 
+std::string BeyondBounds(double number, const FieldInfo& field, const std::string& where) {
+  return fmt::format("{}: got {}{}; expected {}", where, number, WithUnit(field),
+                     field.bounds.ToString());
+}
+
 }  // namespace
 
 void AddMismatch(const Value& value, const std::string& where, const std::string& expected,
                  Problems& problems) {
   problems.Add(value.location(),
                fmt::format("{}: got {}; expected {}", where, value.Show(), expected));
+}
+
+void CheckNumber(double number, const FieldInfo& field, const std::string& where,
+                 std::vector<std::string>& problems) {
+  if (!std::isfinite(number)) {
+    problems.push_back(fmt::format("{}: got {}; expected a finite number", where, number));
+  } else if (!field.bounds.Contains(number)) {
+    problems.push_back(BeyondBounds(number, field, where));
+  }
 }
 
 bool ReadNumber(const Value& value, const FieldInfo& field, const std::string& where, double& out,
@@ -40,8 +55,7 @@ bool ReadNumber(const Value& value, const FieldInfo& field, const std::string& w
     return false;
   }
   if (!field.bounds.Contains(number)) {
-    problems.Add(value.location(), fmt::format("{}: got {}{}; expected {}", where, number,
-                                               WithUnit(field), field.bounds.ToString()));
+    problems.Add(value.location(), BeyondBounds(number, field, where));
     return false;
   }
   out = number;
@@ -54,8 +68,13 @@ ordered_json NumberSchema(const FieldInfo& field, const char* type) {
   return schema;
 }
 
-std::string ShowNumber(double number) {
-  return std::isfinite(number) ? fmt::format("{}", number) : "null";
+ordered_json NumberJson(double number) {
+  constexpr double kExact = 9007199254740992.0;  // whole numbers up to it are exact
+  if (!std::isfinite(number)) return {};
+  if (number == std::floor(number) && std::fabs(number) < kExact) {
+    return static_cast<std::int64_t>(number);
+  }
+  return number;
 }
 
 }  // namespace oca::internal

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "framework/params.h"
 
@@ -18,10 +19,15 @@ void AddMismatch(const Value& value, const std::string& where, const std::string
 bool ReadNumber(const Value& value, const FieldInfo& field, const std::string& where, double& out,
                 Problems& problems);
 
+/// Adds to `problems` if the number is not finite, or not within the field's bounds.
+void CheckNumber(double number, const FieldInfo& field, const std::string& where,
+                 std::vector<std::string>& problems);
+
 /// JSON Schema of a number within the field's bounds.
 nlohmann::ordered_json NumberSchema(const FieldInfo& field, const char* type = "number");
 
-/// Infinity and NaN, which mean none and unset, are null: JSON has no word for them.
-std::string ShowNumber(double number);
+/// Whole numbers without a point. Infinity and NaN, which mean none and unset, are null: JSON has
+/// no word for them.
+nlohmann::ordered_json NumberJson(double number);
 
 }  // namespace oca::internal

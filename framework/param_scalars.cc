@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -8,16 +9,18 @@
 #include "framework/error.h"
 #include "framework/param_numbers.h"
 #include "framework/params.h"
-#include "framework/signal.h"
 
 namespace oca {
 namespace {
 
 using internal::AddMismatch;
+using internal::CheckNumber;
+using internal::NumberJson;
 using internal::NumberSchema;
 using internal::ReadNumber;
-using internal::ShowNumber;
 using nlohmann::ordered_json;
+
+bool SameNumber(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
 class NumberType final : public ParamType {
  public:
@@ -26,10 +29,17 @@ class NumberType final : public ParamType {
             Problems& problems) const override {
     ReadNumber(value, field, where, *static_cast<double*>(target), problems);
   }
-  std::string Show(const void* value) const override {
-    return ShowNumber(*static_cast<const double*>(value));
+  void Check(const void* value, const FieldInfo& field, const std::string& where,
+             std::vector<std::string>& problems) const override {
+    CheckNumber(*static_cast<const double*>(value), field, where, problems);
   }
-  std::string Schema(const FieldInfo& field) const override { return NumberSchema(field).dump(); }
+  bool Same(const void* a, const void* b) const override {
+    return SameNumber(*static_cast<const double*>(a), *static_cast<const double*>(b));
+  }
+  ordered_json ToJson(const void* value) const override {
+    return NumberJson(*static_cast<const double*>(value));
+  }
+  ordered_json Schema(const FieldInfo& field) const override { return NumberSchema(field); }
 };
 
 class IntegerType final : public ParamType {
@@ -44,11 +54,13 @@ class IntegerType final : public ParamType {
     }
     *static_cast<int*>(target) = static_cast<int>(number);
   }
-  std::string Show(const void* value) const override {
-    return fmt::format("{}", *static_cast<const int*>(value));
+  void Check(const void* value, const FieldInfo& field, const std::string& where,
+             std::vector<std::string>& problems) const override {
+    CheckNumber(*static_cast<const int*>(value), field, where, problems);
   }
-  std::string Schema(const FieldInfo& field) const override {
-    return NumberSchema(field, "integer").dump();
+  ordered_json ToJson(const void* value) const override { return *static_cast<const int*>(value); }
+  ordered_json Schema(const FieldInfo& field) const override {
+    return NumberSchema(field, "integer");
   }
 };
 
@@ -60,10 +72,10 @@ class BooleanType final : public ParamType {
     if (value.boolean() == nullptr) return AddMismatch(value, where, "true or false", problems);
     *static_cast<bool*>(target) = *value.boolean();
   }
-  std::string Show(const void* value) const override {
-    return *static_cast<const bool*>(value) ? "true" : "false";
-  }
-  std::string Schema(const FieldInfo& /*field*/) const override { return R"({"type":"boolean"})"; }
+  void Check(const void* /*value*/, const FieldInfo& /*field*/, const std::string& /*where*/,
+             std::vector<std::string>& /*problems*/) const override {}
+  ordered_json ToJson(const void* value) const override { return *static_cast<const bool*>(value); }
+  ordered_json Schema(const FieldInfo& /*field*/) const override { return {{"type", "boolean"}}; }
 };
 
 class StringType final : public ParamType {
@@ -74,10 +86,12 @@ class StringType final : public ParamType {
     if (value.string() == nullptr) return AddMismatch(value, where, "text", problems);
     *static_cast<std::string*>(target) = *value.string();
   }
-  std::string Show(const void* value) const override {
-    return ordered_json(*static_cast<const std::string*>(value)).dump();
+  void Check(const void* /*value*/, const FieldInfo& /*field*/, const std::string& /*where*/,
+             std::vector<std::string>& /*problems*/) const override {}
+  ordered_json ToJson(const void* value) const override {
+    return *static_cast<const std::string*>(value);
   }
-  std::string Schema(const FieldInfo& /*field*/) const override { return R"({"type":"string"})"; }
+  ordered_json Schema(const FieldInfo& /*field*/) const override { return {{"type", "string"}}; }
 };
 
 class PeriodType final : public ParamType {
@@ -93,10 +107,14 @@ class PeriodType final : public ParamType {
       problems.Add(value.location(), fmt::format("{}: {}", where, error.what()));
     }
   }
-  std::string Show(const void* value) const override {
-    return fmt::format("{}", static_cast<const Period*>(value)->seconds());
+  void Check(const void* value, const FieldInfo& field, const std::string& where,
+             std::vector<std::string>& problems) const override {
+    CheckNumber(static_cast<const Period*>(value)->seconds(), field, where, problems);
   }
-  std::string Schema(const FieldInfo& field) const override { return NumberSchema(field).dump(); }
+  ordered_json ToJson(const void* value) const override {
+    return NumberJson(static_cast<const Period*>(value)->seconds());
+  }
+  ordered_json Schema(const FieldInfo& field) const override { return NumberSchema(field); }
 };
 
 /// A list of numbers of any length, or of a fixed one; optionally a lone number.
@@ -125,10 +143,20 @@ bool ReadNumbers(const Value& value, const FieldInfo& field, const std::string& 
   return good;
 }
 
-std::string ShowNumbers(const double* values, Eigen::Index size) {
-  std::string text;
-  WriteVectorJson(values, static_cast<std::size_t>(size), text);
-  return text;
+void CheckNumbers(const Eigen::VectorXd& values, const FieldInfo& field, const std::string& where,
+                  std::vector<std::string>& problems) {
+  if (values.size() == 0) {
+    problems.push_back(fmt::format("{}: got a list of 0; expected at least one number", where));
+  }
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    CheckNumber(values[i], field, fmt::format("{}[{}]", where, i), problems);
+  }
+}
+
+ordered_json NumbersJson(const double* values, Eigen::Index size) {
+  ordered_json list = ordered_json::array();
+  for (Eigen::Index i = 0; i < size; ++i) list.push_back(NumberJson(values[i]));
+  return list;
 }
 
 class PerComponentType final : public ParamType {
@@ -149,15 +177,27 @@ class PerComponentType final : public ParamType {
       *static_cast<PerComponent*>(target) = PerComponent(numbers);
     }
   }
-  std::string Show(const void* value) const override {
+  void Check(const void* value, const FieldInfo& field, const std::string& where,
+             std::vector<std::string>& problems) const override {
     const auto& values = *static_cast<const PerComponent*>(value);
-    return values.scalar() ? ShowNumber(values[0])
-                           : ShowNumbers(values.values().data(), values.values().size());
+    if (values.scalar()) return CheckNumber(values[0], field, where, problems);
+    CheckNumbers(values.values(), field, where, problems);
   }
-  std::string Schema(const FieldInfo& field) const override {
+  bool Same(const void* a, const void* b) const override {
+    const auto& one = *static_cast<const PerComponent*>(a);
+    const auto& other = *static_cast<const PerComponent*>(b);
+    return one.scalar() == other.scalar() && one.values().size() == other.values().size() &&
+           std::equal(one.values().begin(), one.values().end(), other.values().begin(), SameNumber);
+  }
+  ordered_json ToJson(const void* value) const override {
+    const auto& values = *static_cast<const PerComponent*>(value);
+    return values.scalar() ? NumberJson(values[0])
+                           : NumbersJson(values.values().data(), values.values().size());
+  }
+  ordered_json Schema(const FieldInfo& field) const override {
     const ordered_json number = NumberSchema(field);
     const ordered_json list{{"type", "array"}, {"items", number}, {"minItems", 1}};
-    return ordered_json{{"oneOf", ordered_json::array({number, list})}}.dump();
+    return {{"oneOf", ordered_json::array({number, list})}};
   }
 };
 
@@ -171,12 +211,16 @@ class VectorType final : public ParamType {
       *static_cast<Eigen::VectorXd*>(target) = numbers;
     }
   }
-  std::string Show(const void* value) const override {
-    const auto& values = *static_cast<const Eigen::VectorXd*>(value);
-    return ShowNumbers(values.data(), values.size());
+  void Check(const void* value, const FieldInfo& field, const std::string& where,
+             std::vector<std::string>& problems) const override {
+    CheckNumbers(*static_cast<const Eigen::VectorXd*>(value), field, where, problems);
   }
-  std::string Schema(const FieldInfo& field) const override {
-    return ordered_json{{"type", "array"}, {"items", NumberSchema(field)}, {"minItems", 1}}.dump();
+  ordered_json ToJson(const void* value) const override {
+    const auto& values = *static_cast<const Eigen::VectorXd*>(value);
+    return NumbersJson(values.data(), values.size());
+  }
+  ordered_json Schema(const FieldInfo& field) const override {
+    return {{"type", "array"}, {"items", NumberSchema(field)}, {"minItems", 1}};
   }
 };
 
@@ -190,13 +234,15 @@ class Vector3Type final : public ParamType {
       *static_cast<Eigen::Vector3d*>(target) = numbers;
     }
   }
-  std::string Show(const void* value) const override {
-    return ShowNumbers(static_cast<const Eigen::Vector3d*>(value)->data(), 3);
+  void Check(const void* value, const FieldInfo& field, const std::string& where,
+             std::vector<std::string>& problems) const override {
+    CheckNumbers(*static_cast<const Eigen::Vector3d*>(value), field, where, problems);
   }
-  std::string Schema(const FieldInfo& field) const override {
-    return ordered_json{
-        {"type", "array"}, {"items", NumberSchema(field)}, {"minItems", 3}, {"maxItems", 3}}
-        .dump();
+  ordered_json ToJson(const void* value) const override {
+    return NumbersJson(static_cast<const Eigen::Vector3d*>(value)->data(), 3);
+  }
+  ordered_json Schema(const FieldInfo& field) const override {
+    return {{"type", "array"}, {"items", NumberSchema(field)}, {"minItems", 3}, {"maxItems", 3}};
   }
 };
 

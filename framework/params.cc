@@ -19,6 +19,11 @@ using internal::AddMismatch;
 using internal::ReadNumber;
 using nlohmann::ordered_json;
 
+/// Looking does not write; the accessor serves reading too.
+const void* MemberOf(const Field& field, const void* params) {
+  return field.member(const_cast<void*>(params));
+}
+
 /// `frequency` (Hz) instead of `period`. Returns whether it stood there.
 bool ReadFrequency(const Value& map, const Field& field, const std::string& prefix, void* params,
                    Problems& problems) {
@@ -44,6 +49,8 @@ bool ReadFrequency(const Value& map, const Field& field, const std::string& pref
 }
 
 }  // namespace
+
+bool ParamType::Same(const void* a, const void* b) const { return ToJson(a) == ToJson(b); }
 
 std::string Bounds::ToString() const {
   const bool below = std::isfinite(upper);
@@ -85,30 +92,47 @@ void ReadFields(const Value& value, const std::vector<Field>& fields, const std:
   }
 }
 
-std::string ShowFields(const std::vector<Field>& fields, const void* params) {
-  std::string text = "{";
+void CheckFields(const std::vector<Field>& fields, const void* params, const void* defaults,
+                 const std::string& where, std::vector<std::string>& problems) {
   for (const Field& field : fields) {
-    // Showing does not write; the accessor serves reading too.
-    const std::string value = field.type->Show(field.member(const_cast<void*>(params)));
-    if (value == "null") continue;
-    text += fmt::format("{}\"{}\":{}", text.size() > 1 ? "," : "", field.key, value);
+    const void* const value = MemberOf(field, params);
+    std::vector<std::string> own;
+    field.type->Check(value, field, where.empty() ? field.key : where + "." + field.key, own);
+    if (own.empty()) continue;
+    const bool usual = !field.required && field.type->Same(value, MemberOf(field, defaults));
+    if (!usual) problems.insert(problems.end(), own.begin(), own.end());
   }
-  return text + "}";
 }
 
-std::string SchemaOfFields(const std::vector<Field>& fields, const void* defaults) {
+namespace internal {
+
+void ThrowProblems(const std::vector<std::string>& problems) {
+  if (!problems.empty()) throw ConfigError(fmt::format("{}", fmt::join(problems, "\n")));
+}
+
+}  // namespace internal
+
+ordered_json JsonOfFields(const std::vector<Field>& fields, const void* params) {
+  ordered_json json = ordered_json::object();
+  for (const Field& field : fields) {
+    ordered_json value = field.type->ToJson(MemberOf(field, params));
+    if (!value.is_null()) json[field.key] = std::move(value);
+  }
+  return json;
+}
+
+ordered_json SchemaOfFields(const std::vector<Field>& fields, const void* defaults) {
   ordered_json properties = ordered_json::object();
   ordered_json required = ordered_json::array();
   for (const Field& field : fields) {
-    ordered_json schema = ordered_json::parse(field.type->Schema(field));
+    ordered_json schema = field.type->Schema(field);
     schema["description"] =
         field.unit.empty() ? field.meaning : fmt::format("{} [{}]", field.meaning, field.unit);
     if (!field.unit.empty()) schema["x-unit"] = field.unit;
     if (field.required) {
       required.push_back(field.key);
     } else {
-      const auto shown =
-          ordered_json::parse(field.type->Show(field.member(const_cast<void*>(defaults))));
+      const ordered_json shown = field.type->ToJson(MemberOf(field, defaults));
       if (!shown.is_null()) schema["default"] = shown;
     }
     properties[field.key] = std::move(schema);
@@ -123,7 +147,7 @@ std::string SchemaOfFields(const std::vector<Field>& fields, const void* default
   ordered_json schema{
       {"type", "object"}, {"additionalProperties", false}, {"properties", properties}};
   if (!required.empty()) schema["required"] = required;
-  return schema.dump();
+  return schema;
 }
 
 }  // namespace oca

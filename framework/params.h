@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -49,10 +50,15 @@ class ParamType {
   /// Reads `value` into `*target`, adding to `problems` what is wrong, `where` saying which field.
   virtual void Read(const Value& value, const FieldInfo& field, const std::string& where,
                     void* target, Problems& problems) const = 0;
-  /// The value as JSON text; null if JSON cannot say it.
-  virtual std::string Show(const void* value) const = 0;
+  /// Adds to `problems` what Read would have refused of a value that was set in C++.
+  virtual void Check(const void* value, const FieldInfo& field, const std::string& where,
+                     std::vector<std::string>& problems) const = 0;
+  /// Whether two values are one, NaN equal to itself.
+  virtual bool Same(const void* a, const void* b) const;
+  /// The value as JSON; null if JSON cannot say it.
+  virtual nlohmann::ordered_json ToJson(const void* value) const = 0;
   /// JSON Schema, without the description.
-  virtual std::string Schema(const FieldInfo& field) const = 0;
+  virtual nlohmann::ordered_json Schema(const FieldInfo& field) const = 0;
 };
 
 template <class T>
@@ -95,6 +101,9 @@ class Fields {
     all_.push_back(std::move(field));
     return Refine(all_.back());
   }
+  /// The fields of a member, a Params struct itself, as if they were its own.
+  template <class Part>
+  void Include(Part P::*part);
   const std::vector<Field>& all() const { return all_; }
 
  private:
@@ -116,13 +125,29 @@ const std::vector<Field>& FieldsOf() {
   return fields.all();
 }
 
+template <class P>
+template <class Part>
+void Fields<P>::Include(Part P::*part) {
+  for (Field field : FieldsOf<Part>()) {
+    field.member = [part, inner = field.member](void* params) {
+      return inner(&(static_cast<P*>(params)->*part));
+    };
+    all_.push_back(std::move(field));
+  }
+}
+
 /// Reads a map into `*params`: unknown keys, missing required ones, wrong types and numbers out of
 /// bounds or not finite are added to `problems`. `where` is empty or the path of the map. For a
 /// Period field named `period` the key `frequency` (Hz) may stand instead.
 void ReadFields(const Value& value, const std::vector<Field>& fields, const std::string& where,
                 void* params, Problems& problems);
-std::string ShowFields(const std::vector<Field>& fields, const void* params);
-std::string SchemaOfFields(const std::vector<Field>& fields, const void* defaults);
+/// Adds to `problems` what ReadFields would have refused of a struct that was filled in C++. A
+/// value that may be left out may be the default, even one that no file could say.
+void CheckFields(const std::vector<Field>& fields, const void* params, const void* defaults,
+                 const std::string& where, std::vector<std::string>& problems);
+/// Without the values that JSON cannot say.
+nlohmann::ordered_json JsonOfFields(const std::vector<Field>& fields, const void* params);
+nlohmann::ordered_json SchemaOfFields(const std::vector<Field>& fields, const void* defaults);
 
 /// throws ConfigError with all problems.
 template <ParamsStruct P>
@@ -131,6 +156,23 @@ P ReadParams(const Value& value, const std::string& where = "") {
   P params;
   ReadFields(value, FieldsOf<P>(), where, &params, problems);
   problems.Throw();
+  return params;
+}
+
+namespace internal {
+/// throws ConfigError with all problems, if there are any.
+void ThrowProblems(const std::vector<std::string>& problems);
+}  // namespace internal
+
+/// The parameters, if they are what their Describe says: constructors ask it, since a struct filled
+/// in C++ has passed no reader. What Describe cannot say, how fields go together, is theirs to
+/// check. throws ConfigError with all problems, a line each
+template <ParamsStruct P>
+const P& Validated(const P& params) {
+  std::vector<std::string> problems;
+  const P defaults{};
+  CheckFields(FieldsOf<P>(), &params, &defaults, "", problems);
+  internal::ThrowProblems(problems);
   return params;
 }
 
@@ -162,7 +204,7 @@ std::unique_ptr<ParamType> MakeOptionalType(const ParamType& item,
                                             std::function<void*(void*)> engage,
                                             std::function<const void*(const void*)> get);
 std::unique_ptr<ParamType> MakeStructType(const std::vector<Field>& (*fields)(),
-                                          std::function<std::shared_ptr<void>()> make);
+                                          std::shared_ptr<const void> defaults);
 
 template <class T>
 std::unique_ptr<ParamType> MakeType() {
@@ -188,7 +230,7 @@ std::unique_ptr<ParamType> MakeType() {
         [](void* e, int index) { *static_cast<T*>(e) = static_cast<T>(index); });
   } else {
     static_assert(ParamsStruct<T>, "this type cannot be a parameter");
-    return MakeStructType(&FieldsOf<T>, [] { return std::make_shared<T>(); });
+    return MakeStructType(&FieldsOf<T>, std::make_shared<const T>());
   }
 }
 

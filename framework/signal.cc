@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "framework/error.h"
@@ -24,6 +25,20 @@ void ThrowIf(const Fault& fault) {
 }
 
 }  // namespace internal
+
+std::string DefaultJson(const SignalType& type) {
+  std::size_t space = type.size + type.align;
+  const auto memory = std::make_unique<std::byte[]>(space);
+  void* at = memory.get();
+  std::align(type.align, type.size, at, space);
+  type.construct(at);
+  std::string text;
+  type.write_json(at, text);
+  type.destroy(at);
+  if (nlohmann::json::accept(text)) return text;
+  throw ConfigError(
+      fmt::format("signal type {}: WriteJson; got '{:.60}'; expected JSON", type.name, text));
+}
 
 void WriteVectorJson(const double* values, std::size_t n, std::string& out) {
   out += '[';

@@ -84,6 +84,10 @@ const SignalType& TypeOf() {
   }
 }
 
+/// The JSON of a value made by default, which tells the members of a type that is no Vector.
+/// throws ConfigError if the type's WriteJson writes none.
+std::string DefaultJson(const SignalType& type);
+
 /// Where a value lies in a Context.
 struct Slot {
   static constexpr std::uint32_t kNone = 0xffffffff;

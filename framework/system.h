@@ -198,6 +198,16 @@ class System {
     DeclareEvent<kMethod>(Stage::kPublish, every, Writes<>(), reads...);
   }
 
+  // What the templates above are made of, for systems whose ports and calculations are known only
+  // at run time. Those that read what another system declared throw WiringError.
+  InputHandle AddInput(InputInfo info);
+  OutputHandle AddOutput(OutputInfo info);
+  OutputHandle AddStateOutput(std::string name, const StateHandle& state);
+  StateHandle AddState(StateInfo info);
+  void SetDerivative(const StateHandle& state, Calculation calculation);
+  Witness AddWitness(WitnessInfo info);
+  void AddEvent(EventInfo info);
+
  private:
   friend class DiagramBuilder;
   friend class PlanCompiler;
@@ -225,14 +235,6 @@ class System {
   /// throws WiringError if the calculation of `what` reads a port or a state that this system has
   /// not declared: its index would lead to another one.
   void CheckReads(const std::string& what, const Calculation& calculation) const;
-
-  InputHandle AddInput(InputInfo info);
-  OutputHandle AddOutput(OutputInfo info);
-  OutputHandle AddStateOutput(std::string name, const StateHandle& state);
-  StateHandle AddState(StateInfo info);
-  void SetDerivative(const StateHandle& state, Calculation calculation);
-  Witness AddWitness(WitnessInfo info);
-  void AddEvent(EventInfo info);
 
   std::vector<InputInfo> inputs_;
   std::vector<OutputInfo> outputs_;

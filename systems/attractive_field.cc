@@ -4,17 +4,13 @@
 #include <fmt/format.h>
 
 #include "framework/error.h"
-#include "systems/require.h"
 
 namespace oca::systems {
 namespace {
 
 AttractiveField::Params Checked(const AttractiveField::Params& params) {
+  Validated(params);
   if (params.link.empty()) throw ConfigError("link: got an empty text; expected a link's name");
-  RequireFinite("point", Eigen::VectorXd(params.point));
-  RequireFinite("target", Eigen::VectorXd(params.target));
-  RequireAtLeast("gain", params.gain, 0.0);
-  RequireAbove("saturation_distance", params.saturation_distance, 0.0);
   return params;
 }
 

@@ -7,7 +7,6 @@
 #include <iterator>
 
 #include "framework/log.h"
-#include "systems/require.h"
 
 namespace oca::systems {
 
@@ -20,7 +19,7 @@ AvoidanceLog::AvoidanceLog(const Params& params)
     : proximities(DeclareOptionalInput<ProximitySet>("proximities")),
       forces(DeclareOptionalInput<LinkForceSet>("forces")),
       delta(DeclareOptionalInput<Vector>("delta", {DeclareSize(), Unit::Any()})) {
-  RequirePositive("period", params.period);
+  Validated(params);
   if (!params.enabled) return;
   DeclarePublish<&AvoidanceLog::WriteLine>(Every{params.period}, kTime, kLog, proximities, forces,
                                            delta);

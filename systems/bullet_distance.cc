@@ -11,7 +11,6 @@
 #include "models/error.h"
 #include "models/robot/kinematics.h"
 #include "systems/model_links.h"
-#include "systems/require.h"
 
 namespace oca::systems {
 namespace {
@@ -20,11 +19,6 @@ constexpr std::size_t kMostMoving = 8;
 
 template <std::size_t>
 using PosesOfOne = LinkPoses;  // as many as there are indices
-
-double CheckedMaxDistance(double max_distance) {
-  RequireAbove("max_distance", max_distance, 0.0);
-  return max_distance;
-}
 
 // An empty name stands for the only model there is.
 std::string NameOfModel(const ModelSet& models, const std::string& name) {
@@ -83,9 +77,9 @@ void BulletDistance::Params::Describe(Fields<Params>& fields) {
 }
 
 BulletDistance::BulletDistance(const Params& params, const ModelSet& models)
-    : name_(NameOfModel(models, params.model)),
+    : name_(NameOfModel(models, Validated(params).model)),
       model_(MovableModel(models, params.model)),
-      max_distance_(CheckedMaxDistance(params.max_distance)),
+      max_distance_(params.max_distance),
       self_collision_(params.self_collision),
       link_forces_(params.calculate_link_forces),
       movable_(MakeMovable()),

@@ -1,18 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "systems/constant.h"
 
-#include "systems/require.h"
-
 namespace oca::systems {
-namespace {
-
-Constant::Params Checked(const Constant::Params& params) {
-  RequireFinite("value", params.value);
-  return params;
-}
-
-}  // namespace
-
 void Constant::Params::Describe(Fields<Params>& fields) {
   fields.Add("value", &Params::value, "", "the vector, or one number for every component")
       .Required();
@@ -20,7 +9,7 @@ void Constant::Params::Describe(Fields<Params>& fields) {
 }
 
 Constant::Constant(const Params& params)
-    : params_(Checked(params)),
+    : params_(Validated(params)),
       value(DeclareOutput<Vector, &Constant::CalcValue>(
           "value", {DeclareSize({{"value", &params_.value}}), Unit(params_.unit)})) {}
 

@@ -8,15 +8,12 @@
 #include <limits>
 
 #include "framework/error.h"
-#include "systems/require.h"
 
 namespace oca::systems {
 namespace {
 
 Delay::Params Checked(const Delay::Params& params) {
-  RequirePositive("period", params.period);
-  RequireNotNegative("delay", params.delay);
-  RequireFinite("initial", params.initial);
+  Validated(params);
   if (params.delay.positive() && params.steps != 0) {
     throw ConfigError("steps: given twice; got delay too; expected one of the two");
   }

@@ -3,19 +3,7 @@
 
 #include <cmath>
 
-#include "systems/require.h"
-
 namespace oca::systems {
-namespace {
-
-DeltaLimiter::Params Checked(const DeltaLimiter::Params& params) {
-  RequireAbove("max_joint_velocity", params.max_joint_velocity, 0.0);
-  RequirePositive("period", params.period);
-  return params;
-}
-
-}  // namespace
-
 void DeltaLimiter::Params::Describe(Fields<Params>& fields) {
   fields
       .Add("max_joint_velocity", &Params::max_joint_velocity, "rad/s",
@@ -27,7 +15,7 @@ void DeltaLimiter::Params::Describe(Fields<Params>& fields) {
 }
 
 DeltaLimiter::DeltaLimiter(const Params& params)
-    : params_(Checked(params)),
+    : params_(Validated(params)),
       size_(DeclareSize({{"max_joint_velocity", &params_.max_joint_velocity}})),
       unit_(DeclareUnit()),
       x_(DeclareDiscreteState("x", {size_, unit_}, 0.0)),

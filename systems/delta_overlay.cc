@@ -1,18 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "systems/delta_overlay.h"
 
-#include "systems/require.h"
-
 namespace oca::systems {
-namespace {
-
-DeltaOverlay::Params Checked(const DeltaOverlay::Params& params) {
-  RequireNotNegative("period", params.period);
-  return params;
-}
-
-}  // namespace
-
 void DeltaOverlay::Params::Describe(Fields<Params>& fields) {
   fields
       .Add("period", &Params::period, "s",
@@ -22,7 +11,7 @@ void DeltaOverlay::Params::Describe(Fields<Params>& fields) {
 }
 
 DeltaOverlay::DeltaOverlay(const Params& params)
-    : params_(Checked(params)),
+    : params_(Validated(params)),
       size_(DeclareSize()),
       unit_(DeclareUnit()),
       x_(DeclareDiscreteState("x", {size_, unit_}, 0.0)),

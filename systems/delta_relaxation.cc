@@ -3,19 +3,7 @@
 
 #include <algorithm>
 
-#include "systems/require.h"
-
 namespace oca::systems {
-namespace {
-
-DeltaRelaxation::Params Checked(const DeltaRelaxation::Params& params) {
-  RequireAtLeast("relaxation_time", params.relaxation_time, 0.0);
-  RequirePositive("period", params.period);
-  return params;
-}
-
-}  // namespace
-
 void DeltaRelaxation::Params::Describe(Fields<Params>& fields) {
   fields
       .Add("relaxation_time", &Params::relaxation_time, "s",
@@ -25,7 +13,7 @@ void DeltaRelaxation::Params::Describe(Fields<Params>& fields) {
 }
 
 DeltaRelaxation::DeltaRelaxation(const Params& params)
-    : params_(Checked(params)),
+    : params_(Validated(params)),
       size_(DeclareSize()),
       unit_(DeclareUnit()),
       x_(DeclareDiscreteState("x", {size_, unit_}, 0.0)),

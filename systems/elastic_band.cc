@@ -29,47 +29,22 @@ constexpr double kLongestHorizon = 600.0;  // s; a plan looks at 2.5 to 20 place
 constexpr int kMostPause = 20;             // plans between two searches that fail
 
 ElasticBand::Params Checked(const ElasticBand::Params& params) {
-  RequirePositive("period", params.period);
-  RequirePositive("plan_period", params.plan_period);
+  Validated(params);
   if (params.plan_period.seconds() < params.period.seconds()) {
     throw ConfigError(fmt::format("plan_period: got {} s; expected at least period, {} s",
                                   params.plan_period.seconds(), params.period.seconds()));
   }
-  RequireAbove("margin", params.margin, 0.0);
-  RequireAbove("clear_distance", params.clear_distance, 0.0);
   if (params.clear_distance > params.margin) {
     throw ConfigError(fmt::format("clear_distance: got {} m; expected at most margin, {} m",
                                   params.clear_distance, params.margin));
   }
-  RequireAtLeast("trust_distance", params.trust_distance, 0.0);
-  RequireAtLeast("flying_distance", params.flying_distance, 0.0);
   for (const double distance : {params.trust_distance, params.flying_distance}) {
     if (distance <= params.clear_distance) continue;
     throw ConfigError(fmt::format(
         "trust_distance, flying_distance: got {} m; expected at most clear_distance, {} m",
         distance, params.clear_distance));
   }
-  RequireAbove("clearance", params.clearance, 0.0);
-  RequireAbove("smoothness", params.smoothness, 0.0);
-  RequireAbove("nearness", params.nearness, 0.0);
-  RequireAtLeast("calm", params.calm, 0.0);
-  RequireAbove("limit_share", params.limit_share, 0.0);
-  if (params.limit_share > 1.0) {
-    throw ConfigError(fmt::format("limit_share: got {}; expected at most 1", params.limit_share));
-  }
-  RequireAtLeast("most_evaluations", params.most_evaluations, 0.0);
-  RequireAtLeast("moving_horizon", params.moving_horizon, 0.5);
-  RequireAtLeast("prediction", params.prediction, 0.0);
-  RequireAtLeast("least_horizon", params.least_horizon, 0.5);
   RequireAtLeast("most_horizon", params.most_horizon, params.least_horizon);
-  for (const double horizon : {params.moving_horizon, params.most_horizon}) {
-    if (horizon <= kLongestHorizon) continue;
-    throw ConfigError(fmt::format("moving_horizon, most_horizon: got {} s; expected at most {} s",
-                                  horizon, kLongestHorizon));
-  }
-  RequireAbove("restart_distance", params.restart_distance, 0.0);
-  RequireAbove("stuck_time", params.stuck_time, 0.0);
-  RequireAbove("stuck_motion", params.stuck_motion, 0.0);
   return params;
 }
 
@@ -131,7 +106,8 @@ void ElasticBand::Params::Describe(Fields<Params>& fields) {
   fields
       .Add("limit_share", &Params::limit_share, "",
            "share of the velocity and acceleration limits that plans may use")
-      .Above(0.0);
+      .Above(0.0)
+      .AtMost(1.0);
   fields.Add("prediction", &Params::prediction, "s", "how long obstacles are taken to go on as now")
       .AtLeast(0.0);
   fields

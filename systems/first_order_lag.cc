@@ -1,19 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "systems/first_order_lag.h"
 
-#include "systems/require.h"
-
 namespace oca::systems {
-namespace {
-
-FirstOrderLag::Params Checked(const FirstOrderLag::Params& params) {
-  RequireAbove("time_constant", params.time_constant, 0.0);
-  RequireFinite("initial", params.initial);
-  return params;
-}
-
-}  // namespace
-
 void FirstOrderLag::Params::Describe(Fields<Params>& fields) {
   fields.Add("time_constant", &Params::time_constant, "s", "time to cover 63 % of a step")
       .Above(0.0)
@@ -22,7 +10,7 @@ void FirstOrderLag::Params::Describe(Fields<Params>& fields) {
 }
 
 FirstOrderLag::FirstOrderLag(const Params& params)
-    : params_(Checked(params)),
+    : params_(Validated(params)),
       size_(
           DeclareSize({{"time_constant", &params_.time_constant}, {"initial", &params_.initial}})),
       unit_(DeclareUnit()),

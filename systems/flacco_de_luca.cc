@@ -19,11 +19,7 @@ namespace {
 constexpr double kNoLever = 1e-9;
 
 FlaccoDeLuca::Params Checked(const FlaccoDeLuca::Params& params) {
-  RequireAtLeast("repulsion_speed", params.repulsion_speed, 0.0);
-  RequireAbove("influence_distance", params.influence_distance, 0.0);
-  RequireAbove("alpha", params.alpha, 0.0);
-  RequireAbove("max_joint_velocity", params.max_joint_velocity, 0.0);
-  RequireAbove("most_damping", params.most_damping, 0.0);
+  Validated(params);
   RequireAtLeast("damping_threshold", params.damping_threshold, params.most_damping);
   return params;
 }

@@ -1,24 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "systems/gain.h"
 
-#include "systems/require.h"
-
 namespace oca::systems {
-namespace {
-
-Gain::Params Checked(const Gain::Params& params) {
-  RequireFinite("gain", params.gain);
-  return params;
-}
-
-}  // namespace
-
 void Gain::Params::Describe(Fields<Params>& fields) {
   fields.Add("gain", &Params::gain, "", "factor of each component").Required();
 }
 
 Gain::Gain(const Params& params)
-    : params_(Checked(params)),
+    : params_(Validated(params)),
       size_(DeclareSize({{"gain", &params_.gain}})),
       in(DeclareInput<Vector>("in", {size_})),
       out(DeclareOutput<Vector, &Gain::CalcOut>("out", {size_}, in)) {}

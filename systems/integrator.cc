@@ -1,25 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "systems/integrator.h"
 
-#include "systems/require.h"
-
 namespace oca::systems {
-namespace {
-
-Integrator::Params Checked(const Integrator::Params& params) {
-  RequireFinite("initial", params.initial);
-  return params;
-}
-
-}  // namespace
-
 void Integrator::Params::Describe(Fields<Params>& fields) {
   fields.Add("initial", &Params::initial, "", "output at the start");
   fields.Add("unit", &Params::unit, "", "unit of the output; absent: from the connections");
 }
 
 Integrator::Integrator(const Params& params)
-    : params_(Checked(params)),
+    : params_(Validated(params)),
       size_(DeclareSize({{"initial", &params_.initial}})),
       unit_(params_.unit.empty() ? DeclareUnit() : Unit(params_.unit)),
       x_(DeclareContinuousState("x", {size_, unit_}, params_.initial)),

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "systems/integrator_plant.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
 
@@ -15,17 +13,11 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 IntegratorPlant::Params Checked(const IntegratorPlant::Params& params) {
-  if (params.order != 1 && params.order != 2) {
-    throw ConfigError(fmt::format("order: got {}; expected 1 or 2", params.order));
-  }
-  RequireFinite("initial_position", params.initial_position);
-  RequireFinite("initial_velocity", params.initial_velocity);
+  Validated(params);
   if (params.order == 1 && !params.initial_velocity.values().isZero(0.0)) {
     throw ConfigError(
         "initial_velocity: order 1 has no velocity state; got a value; expected none, or order 2");
   }
-  if (params.lower) RequireFinite("lower", *params.lower);
-  if (params.upper) RequireFinite("upper", *params.upper);
   if (params.lower && params.upper) {
     RequireOrdered("lower", *params.lower, "upper", *params.upper);
   }

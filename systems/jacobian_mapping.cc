@@ -18,8 +18,7 @@ constexpr std::array kStatusNames{"ok", "regularised", "not_finite"};
 }  // namespace
 
 models::MappingSettings MappingSettingsOf(const JacobianMapping::Params& params) {
-  RequireFinite("alpha", params.alpha);
-  RequireAtLeast("damping", params.damping, 0.0);
+  Validated(params);
   using Method = JacobianMapping::Method;
   switch (params.method) {
     case Method::kTranspose:

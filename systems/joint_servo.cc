@@ -7,9 +7,8 @@ namespace oca::systems {
 namespace {
 
 JointServo::Params Checked(const JointServo::Params& params) {
+  Validated(params);
   if (params.mode == ServoMode::kDeadbeat) RequirePositive("period", params.period);
-  RequireAbove("natural_frequency", params.natural_frequency, 0.0);
-  RequireAtLeast("damping_ratio", params.damping_ratio, 0.0);
   return params;
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "systems/linear_interpolator.h"
 
-#include "systems/require.h"
-
 namespace oca::systems {
 
 void LinearRequest::Params::Describe(Fields<Params>& fields) {
@@ -24,7 +22,7 @@ LinearRequest::Params LinearRequest::Example() {
 }
 
 LinearRequest::Params LinearRequest::Checked(Params params) {
-  RequireNotNegative("period", params.period);
+  Validated(params);
   params.key_points = KeyPointsFrom(params.key_points, params.file, params.joints);
   return params;
 }

@@ -1,27 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "systems/loop_gain.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "systems/json_fields.h"
 #include "systems/model_links.h"
-#include "systems/require.h"
 
 namespace oca::systems {
-namespace {
-
-LoopGain::Params Checked(const LoopGain::Params& params) {
-  RequireAtLeast("relaxation_time", params.relaxation_time, 0.0);
-  RequireAtLeast("safety", params.safety, 1.0);
-  RequirePositive("period", params.period);
-  return params;
-}
-
-}  // namespace
-
 void LoopGain::Params::Describe(Fields<Params>& fields) {
   fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
   fields.Add("alpha", &Params::alpha, "", "of the mapping");
@@ -40,7 +26,7 @@ void LoopGain::Params::Describe(Fields<Params>& fields) {
 }
 
 LoopGain::LoopGain(const Params& params, const ModelSet& models)
-    : params_(Checked(params)),
+    : params_(Validated(params)),
       model_(MovableModel(models, params.model)),
       settings_(MappingSettingsOf(
           {.alpha = params.alpha, .method = params.method, .damping = params.damping})),

@@ -11,7 +11,6 @@
 #include "models/robot/robot_model.h"
 #include "systems/json_fields.h"
 #include "systems/model_links.h"
-#include "systems/require.h"
 
 namespace oca::systems {
 namespace {
@@ -21,11 +20,6 @@ constexpr std::array kLimitNames{"none", "position", "velocity", "acceleration",
 constexpr double kUnchanged = 1e-12;
 // Share of the acceleration limit that catching up brakes with; the rest is the request's own.
 constexpr double kCatchUpShare = 0.5;
-
-MotionLimiter::Params Checked(const MotionLimiter::Params& params) {
-  RequirePositive("period", params.period);
-  return params;
-}
 
 }  // namespace
 
@@ -59,7 +53,7 @@ void MotionLimiter::Params::Describe(Fields<Params>& fields) {
 }
 
 MotionLimiter::MotionLimiter(const Params& params, const ModelSet& models)
-    : params_(Checked(params)),
+    : params_(Validated(params)),
       model_(MovableModel(models, params.model)),
       c_(DeclareDiscreteState("c", PositionSpec(*model_), 0.0)),
       r_(DeclareDiscreteState("r", PositionSpec(*model_), 0.0)),

@@ -2,7 +2,6 @@
 #include "systems/motion_metrics.h"
 
 #include "systems/model_links.h"
-#include "systems/require.h"
 
 namespace oca::systems {
 
@@ -15,7 +14,7 @@ void MotionMetrics::Params::Describe(Fields<Params>& fields) {
 }
 
 MotionMetrics::MotionMetrics(const Params& params, const ModelSet& models)
-    : period_(params.period.seconds()),
+    : period_(Validated(params).period.seconds()),
       model_(params.model.empty() ? nullptr : MovableModel(models, params.model)),
       travel_(model_ ? std::optional<models::TravelBound>(*model_) : std::nullopt),
       spec_(MakeSpec()),
@@ -29,7 +28,6 @@ MotionMetrics::MotionMetrics(const Params& params, const ModelSet& models)
           "tally", {}, kTime, position, request, goal, delta, proximities, x_)),
       metrics(DeclareOutput<MotionMetricsValue, &MotionMetrics::CalcMetrics>(
           "metrics", {}, kTime, position, request, goal, delta, proximities, tally)) {
-  RequirePositive("period", params.period);
   DeclareUpdate<&MotionMetrics::Update>(Every{params.period}, Writes(x_), kTime, position, request,
                                         goal, delta, proximities);
 }

@@ -8,14 +8,12 @@
 
 #include "framework/error.h"
 #include "models/random.h"
-#include "systems/require.h"
 
 namespace oca::systems {
 namespace {
 
 ObstacleSensor::Params Checked(const ObstacleSensor::Params& params) {
-  RequirePositive("period", params.period);
-  RequireNotNegative("latency", params.latency);
+  Validated(params);
   if (!(params.stale_until >= params.stale_from)) {
     throw ConfigError(fmt::format("stale_until: got {} s; expected at least stale_from, {} s",
                                   params.stale_until, params.stale_from));

@@ -11,7 +11,6 @@
 #include <set>
 
 #include "framework/error.h"
-#include "systems/require.h"
 #include "systems/signal_limits.h"
 
 namespace oca::systems {
@@ -142,7 +141,7 @@ ObstacleSource::ObstacleSource(const Params& params)
       obstacles(DeclareObstacles(params)) {}
 
 std::vector<ObstacleSource::Entry> ObstacleSource::MakeEntries(const Params& params) {
-  RequireNotNegative("period", params.period);
+  Validated(params);
   const FramePoses frames = MakeFrames(params.frames);
   std::set<std::string> ids;
   std::vector<Entry> entries;

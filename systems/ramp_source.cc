@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "systems/ramp_source.h"
 
-#include "systems/require.h"
-
 namespace oca::systems {
 namespace {
 
 /// Events repeat; that this one does after eleven days changes nothing.
 const Period kRarely(1000000, 1);
-
-RampSource::Params Checked(const RampSource::Params& params) {
-  RequireFinite("slope", params.slope);
-  RequireFinite("initial", params.initial);
-  RequireNotNegative("start", params.start);
-  return params;
-}
 
 }  // namespace
 
@@ -26,7 +17,7 @@ void RampSource::Params::Describe(Fields<Params>& fields) {
 }
 
 RampSource::RampSource(const Params& params)
-    : params_(Checked(params)),
+    : params_(Validated(params)),
       started_(DeclareDiscreteState("started", {1, ""}, 0.0)),
       value(DeclareOutput<Vector, &RampSource::CalcValue>(
           "value",

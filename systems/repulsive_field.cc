@@ -6,15 +6,12 @@
 #include <algorithm>
 
 #include "framework/error.h"
-#include "systems/require.h"
 
 namespace oca::systems {
 namespace {
 
 RepulsiveField::Params Checked(const RepulsiveField::Params& params) {
-  RequireAtLeast("force_gain", params.force_gain, 0.0);
-  RequireAbove("max_distance", params.max_distance, 0.0);
-  RequireAbove("min_distance", params.min_distance, 0.0);
+  Validated(params);
   if (params.min_distance >= params.max_distance) {
     throw ConfigError(fmt::format("min_distance: got {} m; expected less than max_distance, {} m",
                                   params.min_distance, params.max_distance));

@@ -6,22 +6,17 @@
 
 namespace oca::systems {
 
-// Refusals that constructors share. A Params struct filled in C++ has not passed the bounds that
-// the reader checks, so a constructor checks what it would crash or compute nonsense with.
-// `where` is the key of the parameter. All throw ConfigError.
+// How the fields of a Params struct go together, which its Describe cannot say and Validated cannot
+// check; ask them of fields that are Validated. `where` is the key of the parameter. All throw
+// ConfigError.
 
-/// Refuses an empty list, a NaN and an infinity.
-void RequireFinite(const char* where, const PerComponent& value);
-/// Refuses that, and a number that is not above `bound`.
-void RequireAbove(const char* where, const PerComponent& value, double bound);
-/// Refuses that, and a number below `bound`.
-void RequireAtLeast(const char* where, const PerComponent& value, double bound);
+/// Refuses a number that is not above `bound`, or below it.
+void RequireAbove(const char* where, double value, double bound);
+void RequireAtLeast(const char* where, double value, double bound);
 /// Refuses lists of different length and a lower number above its upper one.
 void RequireOrdered(const char* lower_key, const PerComponent& lower, const char* upper_key,
                     const PerComponent& upper);
-/// Refuses a period that is zero or negative.
+/// Refuses a period of zero, which may be left out elsewhere.
 void RequirePositive(const char* where, const Period& value);
-/// Refuses a period that is negative; zero stands for "none".
-void RequireNotNegative(const char* where, const Period& value);
 
 }  // namespace oca::systems

@@ -13,7 +13,7 @@ void RobotKinematics::Params::Describe(Fields<Params>& fields) {
 }
 
 RobotKinematics::RobotKinematics(const Params& params, const ModelSet& models)
-    : model_(MovableModel(models, params.model)),
+    : model_(MovableModel(models, Validated(params).model)),
       position(DeclareInput<Vector>("position", PositionSpec(*model_))),
       velocity(DeclareOptionalInput<Vector>("velocity", RateSpec(*model_))),
       links(

@@ -11,7 +11,6 @@
 #include "models/robot/robot_model.h"
 #include "systems/json_fields.h"
 #include "systems/model_links.h"
-#include "systems/require.h"
 
 namespace oca::systems {
 namespace {
@@ -21,28 +20,16 @@ constexpr double kLeastLever = 1e-12;  // of the reach; a slider's: of 1
 
 /// A gain above 1 / period would ask for more than all of h within one period.
 void RequireGain(const char* where, double gain, const Period& period) {
-  RequireAbove(where, gain, 0.0);
   if (gain * period.seconds() <= 1.0 + std::numeric_limits<double>::epsilon()) return;
   throw ConfigError(fmt::format("{}: got {} 1/s; expected at most 1 / period, {} 1/s", where, gain,
                                 1.0 / period.seconds()));
 }
 
 SafetyFilter::Params Checked(const SafetyFilter::Params& params) {
-  RequirePositive("period", params.period);
-  RequireAtLeast("safe_distance", params.safe_distance, 0.0);
+  Validated(params);
   RequireGain("approach_gain", params.approach_gain, params.period);
-  RequireAbove("deceleration", params.deceleration, 0.0);
   RequireGain("position_gain", params.position_gain, params.period);
-  RequireAbove("weights", params.weights, 0.0);
-  RequireAtLeast("progress_weight", params.progress_weight, 0.0);
-  RequireAtLeast("trust_time", params.trust_time, 0.0);
-  RequireAbove("slack_penalty", params.slack_penalty, 0.0);
   RequireGain("recovery_gain", params.recovery_gain, params.period);
-  RequireAtLeast("recovery_speed", params.recovery_speed, 0.0);
-  RequireAtLeast("recovery_penalty", params.recovery_penalty, 0.0);
-  if (params.most_rows < 1) {
-    throw ConfigError(fmt::format("most_rows: got {}; expected at least 1", params.most_rows));
-  }
   return params;
 }
 

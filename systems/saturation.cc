@@ -12,8 +12,7 @@ namespace {
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 const Saturation::Params& Checked(const Saturation::Params& params) {
-  if (params.lower) RequireFinite("lower", *params.lower);
-  if (params.upper) RequireFinite("upper", *params.upper);
+  Validated(params);
   if (params.lower && params.upper) {
     RequireOrdered("lower", *params.lower, "upper", *params.upper);
   }

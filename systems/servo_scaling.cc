@@ -9,7 +9,6 @@
 #include "framework/error.h"
 #include "models/robot/robot_model.h"
 #include "systems/model_links.h"
-#include "systems/require.h"
 #include "systems/velocity_methods.h"
 
 namespace oca::systems {
@@ -18,13 +17,6 @@ namespace {
 const double kFallOff = std::log(1000.0);  // the law at contact is 1/1000
 // An approach that is slowed in full, m/s.
 constexpr double kFullApproach = 0.02;
-
-ServoScaling::Params Checked(const ServoScaling::Params& params) {
-  RequirePositive("period", params.period);
-  RequireAbove("slow_distance", params.slow_distance, 0.0);
-  RequireAbove("own_slow_distance", params.own_slow_distance, 0.0);
-  return params;
-}
 
 }  // namespace
 
@@ -44,7 +36,7 @@ void ServoScaling::Params::Describe(Fields<Params>& fields) {
 }
 
 ServoScaling::ServoScaling(const Params& params, const ModelSet& models)
-    : params_(Checked(params)),
+    : params_(Validated(params)),
       model_(FilteredModel(models, params.model)),
       s_(DeclareDiscreteState("s", {1, "s"}, 0.0)),
       proximities(DeclareInput<ProximitySet>("proximities")),

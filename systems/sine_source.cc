@@ -4,21 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "systems/require.h"
-
 namespace oca::systems {
-namespace {
-
-SineSource::Params Checked(const SineSource::Params& params) {
-  RequireFinite("amplitude", params.amplitude);
-  RequireFinite("frequency", params.frequency);
-  RequireFinite("phase", params.phase);
-  RequireFinite("offset", params.offset);
-  return params;
-}
-
-}  // namespace
-
 void SineSource::Params::Describe(Fields<Params>& fields) {
   fields.Add("amplitude", &Params::amplitude, "", "largest deviation from the offset");
   fields.Add("frequency", &Params::frequency, "Hz", "oscillations a second");
@@ -28,7 +14,7 @@ void SineSource::Params::Describe(Fields<Params>& fields) {
 }
 
 SineSource::SineSource(const Params& params)
-    : params_(Checked(params)),
+    : params_(Validated(params)),
       value(DeclareOutput<Vector, &SineSource::CalcValue>(
           "value",
           {DeclareSize({{"amplitude", &params_.amplitude},

@@ -5,7 +5,6 @@
 
 #include "framework/error.h"
 #include "systems/model_links.h"
-#include "systems/require.h"
 
 namespace oca::systems {
 namespace {
@@ -82,10 +81,10 @@ SplineRequest::Params SplineRequest::Resolved(Params params, const ModelSet& mod
 }
 
 SplineRequest::Params SplineRequest::Checked(Params params) {
+  Validated(params);
   if (params.goal) {
     throw ConfigError("goal: a pose of a link; got no models; expected the model it is of");
   }
-  RequireNotNegative("period", params.period);
   params.key_points = KeyPointsFrom(params.key_points, params.file, params.joints);
   CheckUsed(params);
   return params;

@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "systems/step_source.h"
 
-#include "systems/require.h"
-
 namespace oca::systems {
 namespace {
 
 /// Events repeat; that this one does after eleven days changes nothing.
 const Period kRarely(1000000, 1);
-
-StepSource::Params Checked(const StepSource::Params& params) {
-  RequireNotNegative("time", params.time);
-  RequireFinite("initial", params.initial);
-  RequireFinite("final", params.final);
-  return params;
-}
 
 void Fill(const PerComponent& values, MutableVectorView out) {
   for (Eigen::Index i = 0; i < out.size(); ++i) out[i] = values[i];
@@ -30,7 +21,7 @@ void StepSource::Params::Describe(Fields<Params>& fields) {
 }
 
 StepSource::StepSource(const Params& params)
-    : params_(Checked(params)),
+    : params_(Validated(params)),
       value_(DeclareDiscreteState(
           "value",
           {DeclareSize({{"initial", &params_.initial}, {"final", &params_.final}}),

@@ -14,6 +14,7 @@ template <std::size_t>
 using ViewAt = VectorView;
 
 Eigen::VectorXd SignsOf(const Sum::Params& params) {
+  Validated(params);
   // Neither given: two inputs, the common case.
   const Eigen::Index unsigned_count = params.inputs == 0 ? 2 : params.inputs;
   const Eigen::Index count = params.signs.size() > 0 ? params.signs.size() : unsigned_count;

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "systems/task_priority.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
-#include "framework/error.h"
 #include "models/robot/kinematics.h"
 #include "models/robot/robot_model.h"
 #include "systems/model_links.h"
@@ -24,13 +21,8 @@ constexpr double kClose = 0.05;
 constexpr double kContact = 0.01;
 
 TaskPriority::Params Checked(const TaskPriority::Params& params) {
-  RequireAtLeast("safe_distance", params.safe_distance, 0.0);
-  RequireAbove("approach_gain", params.approach_gain, 0.0);
-  RequireAtLeast("retreat_speed", params.retreat_speed, 0.0);
-  RequireAbove("activation_distance", params.activation_distance, 0.0);
-  RequireAtLeast("contact_distance", params.contact_distance, 0.0);
+  Validated(params);
   RequireAbove("swap_distance", params.swap_distance, params.contact_distance);
-  RequireAbove("most_damping", params.most_damping, 0.0);
   RequireAtLeast("damping_threshold", params.damping_threshold, params.most_damping);
   return params;
 }

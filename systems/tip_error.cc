@@ -29,7 +29,7 @@ TipError::Params TipError::Example() {
 }
 
 TipError::TipError(const Params& params)
-    : link_(Checked(params.link)),
+    : link_(Checked(Validated(params).link)),
       X_WG_(params.pose.Pose("pose")),
       links(DeclareInput<LinkPoses>("links")),
       position(DeclareOutput<Vector, &TipError::CalcPosition>("position", {3, Unit("m")}, links)),

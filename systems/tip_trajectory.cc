@@ -10,7 +10,6 @@
 #include "models/error.h"
 #include "models/robot/kinematics.h"
 #include "systems/model_links.h"
-#include "systems/require.h"
 
 namespace oca::systems {
 namespace {
@@ -146,6 +145,7 @@ TipRequest::Params TipRequest::Example() {
 }
 
 TipRequest::Params TipRequest::Resolved(Params params, const ModelSet& models) {
+  Validated(params);
   const bool line = params.path == TipPath::kLine;
   const char* const kind = EnumNames(params.path)[static_cast<std::size_t>(params.path)];
   CheckGiven(params.from.has_value(), line, "from", kind);
@@ -187,7 +187,7 @@ TipRequest::Params TipRequest::Resolved(Params params, const ModelSet& models) {
 }
 
 TipRequest::Params TipRequest::Checked(Params params) {
-  RequireNotNegative("period", params.period);
+  Validated(params);
   if (params.points.empty()) {
     throw ConfigError("path: no robot to draw it; expected a model");
   }

@@ -7,16 +7,12 @@
 #include <cmath>
 
 #include "framework/error.h"
-#include "systems/require.h"
 
 namespace oca::systems {
 namespace {
 
 VelocityAwareField::Params Checked(const VelocityAwareField::Params& params) {
-  RequireAtLeast("velocity_gain", params.velocity_gain, 0.0);
-  RequireAtLeast("exponent", params.exponent, 2.0);
-  RequireAbove("min_distance", params.min_distance, 0.0);
-  RequireAbove("max_distance", params.max_distance, 0.0);
+  Validated(params);
   if (params.min_distance >= params.max_distance) {
     throw ConfigError(fmt::format("min_distance: got {} m; expected less than max_distance, {} m",
                                   params.min_distance, params.max_distance));

@@ -9,14 +9,12 @@
 #include "models/motion/following.h"
 #include "models/robot/robot_model.h"
 #include "systems/model_links.h"
-#include "systems/require.h"
 
 namespace oca::systems {
 namespace {
 
 VelocityLoop::Params Checked(const VelocityLoop::Params& params) {
-  RequirePositive("period", params.period);
-  RequireAbove("position_gain", params.position_gain, 0.0);
+  Validated(params);
   if (params.position_gain * params.period.seconds() <=
       1.0 + std::numeric_limits<double>::epsilon()) {
     return params;

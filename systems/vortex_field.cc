@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "systems/vortex_field.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "framework/error.h"
 #include "models/robot/kinematics.h"
 #include "systems/json_fields.h"
 #include "systems/model_links.h"
-#include "systems/require.h"
 
 namespace oca::systems {
 namespace {
@@ -21,15 +17,6 @@ constexpr double kUpShare = 0.05;
 constexpr double kCatchUp = 1.0;
 // Less than this is no direction.
 constexpr double kNothing = 1e-9;
-
-VortexField::Params Checked(const VortexField::Params& params) {
-  RequireAtLeast("turn", params.turn, 0.0);
-  RequirePositive("period", params.period);
-  if (params.turn > 1.5) {
-    throw ConfigError(fmt::format("turn: got {} rad; expected at most 1.5", params.turn));
-  }
-  return params;
-}
 
 RepulsiveField::Params RepulsionOf(const VortexField::Params& params) {
   return {params.force_gain, params.max_distance, params.min_distance};
@@ -51,7 +38,7 @@ void VortexField::Params::Describe(Fields<Params>& fields) {
 }
 
 VortexField::VortexField(const Params& params, const ModelSet& models)
-    : params_(Checked(params)),
+    : params_(Validated(params)),
       model_(MovableModel(models, params.model)),
       field_(RepulsionOf(params)),
       held_(DeclareDiscreteState("held", {3 * model_->num_links(), Unit::Any()}, 0.0)),

@@ -1,26 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "systems/zero_order_hold.h"
 
-#include "systems/require.h"
-
 namespace oca::systems {
-namespace {
-
-ZeroOrderHold::Params Checked(const ZeroOrderHold::Params& params) {
-  RequirePositive("period", params.period);
-  RequireFinite("initial", params.initial);
-  return params;
-}
-
-}  // namespace
-
 void ZeroOrderHold::Params::Describe(Fields<Params>& fields) {
   fields.Add("period", &Params::period, "s", "time between samples").Above(0.0).Required();
   fields.Add("initial", &Params::initial, "", "output before the first sample");
 }
 
 ZeroOrderHold::ZeroOrderHold(const Params& params)
-    : params_(Checked(params)),
+    : params_(Validated(params)),
       size_(DeclareSize({{"initial", &params_.initial}})),
       unit_(DeclareUnit()),
       x_(DeclareDiscreteState("x", {size_, unit_}, params_.initial)),

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "diagrams/catalogue.h"
 #include "diagrams/diagram_file.h"
@@ -22,40 +23,41 @@ void PrintPorts(const char* kind, const std::vector<Info>& ports) {
 
 }  // namespace
 
-int ListCommand() {
+int ListCommand(const diagrams::Catalogue& catalogue) {
   std::size_t width = 0;
-  for (const auto& row : diagrams::Catalogue()) width = std::max(width, row.type.size());
-  for (const auto& row : diagrams::Catalogue()) {
-    Print("{:<{}}  {}\n", row.type, width, row.doc.summary);
+  for (const auto& row : catalogue.rows()) width = std::max(width, row->type.size());
+  for (const auto& row : catalogue.rows()) {
+    Print("{:<{}}  {}\n", row->type, width, row->doc.summary);
   }
   return kFine;
 }
 
-int DescribeCommand(const std::string& type) {
-  const diagrams::CatalogueRow& row = diagrams::FindRow(type);
-  const auto example = row.make_example(ExampleModels());
+int DescribeCommand(const std::string& type, const diagrams::Catalogue& catalogue) {
+  const diagrams::CatalogueRow& row = *catalogue.Find(type);
+  const auto example = row.MakeExample(ExampleModels());
   Print("{}: {}\n\n  {}\n", row.type, row.doc.summary, row.doc.equation);
   if (*row.doc.source != '\0') Print("  source: {}\n", row.doc.source);
   Print("\nports\n");
   PrintPorts("input", example->inputs());
   PrintPorts("output", example->outputs());
   Print("\nparameters\n");
-  const auto defaults = row.defaults();
-  for (std::size_t i = 0; i < row.fields().size(); ++i) {
-    const Field& field = row.fields()[i];
+  const auto defaults = row.new_params();
+  for (const Field& field : row.fields()) {
+    const std::string usual = field.type->ToJson(field.member(defaults.get())).dump();
     const std::string bounds = field.bounds.ToString();
     Print("  {:<22} {}{}{}; {}\n", field.key, field.type->Name(),
           field.unit.empty() ? "" : " " + field.unit, bounds.empty() ? "" : " " + bounds,
-          field.required ? "required" : "default " + defaults[i]);
+          field.required ? "required" : "default " + usual);
     Print("  {:<22} {}\n", "", field.meaning);
   }
   if (row.fields().empty()) Print("  none\n");
-  Print("\nexample parameters\n  {}\n", row.example());
+  Print("\nexample parameters\n  {}\n",
+        JsonOfFields(row.fields(), row.example_params.get()).dump());
   return kFine;
 }
 
-int SchemaCommand() {
-  std::cout << diagrams::DiagramSchema() << '\n';
+int SchemaCommand(const diagrams::Catalogue& catalogue) {
+  std::cout << diagrams::DiagramSchema(catalogue) << '\n';
   return kFine;
 }
 

@@ -32,13 +32,14 @@ void PrintMargins(const std::string& name, const systems::SafetyFilter& filter) 
 
 }  // namespace
 
-int CheckCommand(const std::vector<std::string>& files, const std::vector<std::string>& texts) {
+int CheckCommand(const std::vector<std::string>& files, const std::vector<std::string>& texts,
+                 const diagrams::Catalogue& catalogue) {
   int status = kFine;
   for (const std::string& file : files) {
     try {
       std::vector<diagrams::Override> overrides;
       for (const std::string& text : texts) overrides.push_back(diagrams::Override::Parse(text));
-      auto loaded = diagrams::LoadDiagram(file, overrides);
+      auto loaded = diagrams::LoadDiagram(file, overrides, catalogue);
       diagrams::AddChatterWarnings(loaded);
       for (const std::string& warning : loaded.warnings) std::cerr << warning << '\n';
       std::cout << file << ": fine, " << loaded.systems.size() << " systems, "

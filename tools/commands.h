@@ -7,21 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "tools/simulator_main.h"
+
 namespace oca::diagrams {
 struct LoadedDiagram;
 }
 
 namespace oca::tools {
-
-/// Exit statuses of `simulator`.
-enum ExitStatus {
-  kFine = 0,
-  kRunFailed = 1,
-  kBadInput = 2,
-  kExpectationNotMet = 3,
-  kUsage = 64,
-  kInterrupted = 130,
-};
 
 struct RunArguments {
   std::string file;
@@ -41,7 +33,8 @@ struct RunArguments {
   bool no_progress{false};
   std::string log_level{"debug"};
 };
-int RunCommand(const RunArguments& arguments);
+/// `catalogue` has the types of the systems, here and below.
+int RunCommand(const RunArguments& arguments, const diagrams::Catalogue& catalogue);
 /// Before anything is written: that no file of the run is one that it is made from, or two of them
 /// are one. throws ConfigError
 void CheckRunOutputs(const RunArguments& arguments, const diagrams::LoadedDiagram& loaded);
@@ -54,7 +47,8 @@ struct ViewArguments {
 /// Serves the page on a record until it is interrupted.
 int ViewCommand(const ViewArguments& arguments);
 
-int CheckCommand(const std::vector<std::string>& files, const std::vector<std::string>& overrides);
+int CheckCommand(const std::vector<std::string>& files, const std::vector<std::string>& overrides,
+                 const diagrams::Catalogue& catalogue);
 
 struct PlanArguments {
   std::string file;
@@ -67,7 +61,7 @@ struct PlanArguments {
 };
 /// Whether an optimiser that knows the whole script finds a clear motion: a JSON object a line,
 /// as docs/how-to/plan.md says. kExpectationNotMet if it finds none for any of the samples.
-int PlanCommand(const PlanArguments& arguments);
+int PlanCommand(const PlanArguments& arguments, const diagrams::Catalogue& catalogue);
 /// What it prints and how it ends, for its help.
 const char* PlanFooter();
 
@@ -76,7 +70,7 @@ struct GraphArguments {
   std::string format{"dot"};
   std::vector<std::string> overrides;
 };
-int GraphCommand(const GraphArguments& arguments);
+int GraphCommand(const GraphArguments& arguments, const diagrams::Catalogue& catalogue);
 
 struct CheckCollisionsArguments {
   std::string urdf;
@@ -90,11 +84,11 @@ struct CheckCollisionsArguments {
 /// Which pairs of links of a robot need no check for collision, for its SRDF.
 int CheckCollisionsCommand(const CheckCollisionsArguments& arguments);
 
-int ListCommand();
-int DescribeCommand(const std::string& type);
-int SchemaCommand();
+int ListCommand(const diagrams::Catalogue& catalogue);
+int DescribeCommand(const std::string& type, const diagrams::Catalogue& catalogue);
+int SchemaCommand(const diagrams::Catalogue& catalogue);
 /// A page of docs/reference in Markdown: `systems` or `diagram_file`.
-int DocsCommand(const std::string& page);
+int DocsCommand(const std::string& page, const diagrams::Catalogue& catalogue);
 
 struct EvalArguments {
   std::string type;
@@ -102,6 +96,7 @@ struct EvalArguments {
   std::vector<std::string> models;  ///< NAME=URDF
 };
 /// Serves one JSON object a line from `in` until it ends.
-int EvalCommand(const EvalArguments& arguments, std::istream& in, std::ostream& out);
+int EvalCommand(const EvalArguments& arguments, const diagrams::Catalogue& catalogue,
+                std::istream& in, std::ostream& out);
 
 }  // namespace oca::tools

@@ -7,8 +7,8 @@
 
 namespace oca::tools {
 
-int DocsCommand(const std::string& page) {
-  WriteOutput(page == "systems" ? SystemsPage() : DiagramFilePage());
+int DocsCommand(const std::string& page, const diagrams::Catalogue& catalogue) {
+  WriteOutput(page == "systems" ? SystemsPage(catalogue) : DiagramFilePage(catalogue));
   return kFine;
 }
 

@@ -142,7 +142,7 @@ class Evaluator {
 
   std::unique_ptr<System> Make() const {
     Problems problems;
-    auto system = row_.make(params_, "", models_, problems);
+    auto system = row_.Make(params_, "", models_, problems);
     problems.Throw();
     return system;
   }
@@ -225,8 +225,9 @@ class Evaluator {
 
 }  // namespace
 
-int EvalCommand(const EvalArguments& arguments, std::istream& in, std::ostream& out) {
-  const diagrams::CatalogueRow& row = diagrams::FindRow(arguments.type);
+int EvalCommand(const EvalArguments& arguments, const diagrams::Catalogue& catalogue,
+                std::istream& in, std::ostream& out) {
+  const diagrams::CatalogueRow& row = *catalogue.Find(arguments.type);
   Evaluator evaluator(row, diagrams::ReadJson(arguments.params, "--params"),
                       LoadModels(arguments.models));
   for (std::string line; std::getline(in, line);) {

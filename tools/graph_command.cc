@@ -94,12 +94,13 @@ bool HasGraphviz() { return std::system("command -v dot > /dev/null 2>&1") == 0;
 
 }  // namespace
 
-int GraphCommand(const GraphArguments& arguments) {
+int GraphCommand(const GraphArguments& arguments, const diagrams::Catalogue& catalogue) {
   std::vector<diagrams::Override> overrides;
   for (const std::string& text : arguments.overrides) {
     overrides.push_back(diagrams::Override::Parse(text));
   }
-  const diagrams::LoadedDiagram loaded = diagrams::LoadDiagram(arguments.file, overrides);
+  const diagrams::LoadedDiagram loaded =
+      diagrams::LoadDiagram(arguments.file, overrides, catalogue);
   if (arguments.format == "mermaid") {
     std::cout << Mermaid(loaded);
   } else if (arguments.format == "dot") {

@@ -120,7 +120,8 @@ void End(int) { ended = true; }
 }  // namespace
 
 int RunLiveCommand(const RunArguments& arguments, const std::vector<diagrams::Override>& overrides,
-                   Log* log, const std::function<bool()>& interrupted) {
+                   const diagrams::Catalogue& catalogue, Log* log,
+                   const std::function<bool()>& interrupted) {
   live::LiveOptions server_options;
   server_options.address = arguments.live_address;
   server_options.port = arguments.live.value_or(server_options.port);
@@ -133,12 +134,13 @@ int RunLiveCommand(const RunArguments& arguments, const std::vector<diagrams::Ov
   server_options.origins = arguments.live_origins;
   server_options.forbidden = SayForbidden;
   if (!(arguments.record + arguments.report + arguments.csv_folder).empty()) {
-    CheckRunOutputs(arguments, diagrams::LoadDiagram(arguments.file, overrides));
+    CheckRunOutputs(arguments, diagrams::LoadDiagram(arguments.file, overrides, catalogue));
   }
   live::LiveServer server(server_options);
   LiveFiles files(arguments);
   live::LiveRunOptions options;
   options.file = arguments.file;
+  options.catalogue = catalogue;
   options.overrides = overrides;
   options.duration = arguments.duration;
   options.realtime_factor = arguments.realtime.value_or(1.0);

@@ -13,6 +13,7 @@ namespace oca::tools {
 
 /// `run --live`: runs in step with the clock for whoever looks on, until `interrupted`.
 int RunLiveCommand(const RunArguments& arguments, const std::vector<diagrams::Override>& overrides,
-                   Log* log, const std::function<bool()>& interrupted);
+                   const diagrams::Catalogue& catalogue, Log* log,
+                   const std::function<bool()>& interrupted);
 
 }  // namespace oca::tools

@@ -44,14 +44,15 @@ ordered_json Describe(const models::RobotModel& model, const models::Clairvoyant
 }
 
 /// `first`: of several, which all have the same warnings to tell.
-ordered_json Plan(const PlanArguments& arguments, int seed, bool first) {
+ordered_json Plan(const PlanArguments& arguments, const diagrams::Catalogue& catalogue, int seed,
+                  bool first) {
   const auto start = std::chrono::steady_clock::now();
   std::vector<diagrams::Override> overrides;
   for (const std::string& text : arguments.overrides) {
     overrides.push_back(diagrams::Override::Parse(text));
   }
   if (seed >= 0) overrides.push_back({"simulator.seed", std::to_string(seed)});
-  const auto loaded = diagrams::LoadDiagram(arguments.file, overrides);
+  const auto loaded = diagrams::LoadDiagram(arguments.file, overrides, catalogue);
   if (first) {
     for (const std::string& warning : loaded.warnings) std::cerr << warning << '\n';
   }
@@ -98,12 +99,12 @@ Exit status: 0 if all samples are clear, 3 if for one of them no clear motion wa
 file is bad or holds what nobody can know beforehand, 64 for wrong usage. More: docs/how-to/plan.md.)";
 }
 
-int PlanCommand(const PlanArguments& arguments) {
+int PlanCommand(const PlanArguments& arguments, const diagrams::Catalogue& catalogue) {
   bool all_clear = true;
   try {
     const int first = arguments.seed.value_or(-1);
     for (int i = 0; i < arguments.samples; ++i) {
-      const auto plan = Plan(arguments, first < 0 ? first : first + i, i == 0);
+      const auto plan = Plan(arguments, catalogue, first < 0 ? first : first + i, i == 0);
       std::cout << plan.dump(-1, ' ', false, ordered_json::error_handler_t::replace) << std::endl;
       all_clear = all_clear && plan.at("clear").get<bool>();
     }

@@ -38,21 +38,21 @@ void AddPortRows(const char* kind, const std::vector<Info>& ports, std::string& 
 
 void AddSystemSection(const diagrams::CatalogueRow& row, const systems::ModelSet& models,
                       std::string& page) {
-  const auto example = row.make_example(models);
+  const auto example = row.MakeExample(models);
   page += fmt::format("\n## {}\n\n{}\n\n    {}\n", row.type, Sentence(row.doc.summary),
                       row.doc.equation);
   if (*row.doc.source != '\0') page += fmt::format("\nSource: {}.\n", row.doc.source);
   page += "\n| | port | carries |\n|---|---|---|\n";
   AddPortRows("input", example->inputs(), page);
   AddPortRows("output", example->outputs(), page);
-  const std::string table = SchemaTable(ordered_json::parse(row.schema()));
+  const std::string table = SchemaTable(SchemaOfFields(row.fields(), row.new_params().get()));
   page += table.empty() ? "\nNo parameters.\n" : "\n" + table;
-  page += fmt::format("\nExample parameters: `{}`\n", row.example());
+  page += fmt::format("\nExample parameters: `{}`\n", JsonOfFields(row.fields(), row.example_params.get()).dump());
 }
 
 }  // namespace
 
-std::string SystemsPage() {
+std::string SystemsPage(const diagrams::Catalogue& catalogue) {
   std::string page =
       "# Systems\n\n"
       "<!-- Made by `simulator docs systems`; do not edit. -->\n\n"
@@ -62,14 +62,14 @@ std::string SystemsPage() {
       "given as `\"${...}\"`. The class comment in `systems/` is the whole specification.\n\n"
       "| type | what it does |\n|---|---|\n";
   const systems::ModelSet models = ExampleModels();
-  for (const auto& row : diagrams::Catalogue()) {
-    page += fmt::format("| [{}](#{}) | {} |\n", row.type, Anchor(row.type), Cell(row.doc.summary));
+  for (const auto& row : catalogue.rows()) {
+    page += fmt::format("| [{}](#{}) | {} |\n", row->type, Anchor(row->type), Cell(row->doc.summary));
   }
-  for (const auto& row : diagrams::Catalogue()) AddSystemSection(row, models, page);
+  for (const auto& row : catalogue.rows()) AddSystemSection(*row, models, page);
   return page;
 }
 
-std::string DiagramFilePage() {
+std::string DiagramFilePage(const diagrams::Catalogue& catalogue) {
   std::string page =
       "# The keys of a diagram file\n\n"
       "<!-- Made by `simulator docs diagram_file`; do not edit. -->\n\n"
@@ -78,7 +78,7 @@ std::string DiagramFilePage() {
       "an item of a list; a number may be given as `\"${...}\"`. How sections are merged, and "
       "what\n"
       "expressions know: [write a diagram](../how-to/write_a_diagram.md).\n";
-  const ordered_json schema = ordered_json::parse(diagrams::DiagramSchema());
+  const ordered_json schema = ordered_json::parse(diagrams::DiagramSchema(catalogue));
   for (const diagrams::Section& section : diagrams::Sections()) {
     page += fmt::format("\n## {}\n\n{}\n", section.key, Sentence(section.meaning));
     const ordered_json& keys = schema["properties"][section.key];

@@ -3,13 +3,15 @@
 
 #include <string>
 
+#include "diagrams/catalogue.h"
+
 namespace oca::tools {
 
 /// Every system of the catalogue in Markdown: a table of all, then of each its equation, source,
 /// ports with units, and parameters with units, defaults and bounds.
-std::string SystemsPage();
+std::string SystemsPage(const diagrams::Catalogue& catalogue);
 
-/// The keys of a diagram file in Markdown, as DiagramSchema() has them.
-std::string DiagramFilePage();
+/// The keys of a diagram file in Markdown, as DiagramSchema has them.
+std::string DiagramFilePage(const diagrams::Catalogue& catalogue);
 
 }  // namespace oca::tools

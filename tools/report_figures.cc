@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "diagrams/data_folders.h"
 #include "diagrams/record/run_recorder.h"
 #include "diagrams/record/series.h"
 #include "framework/diagram.h"
@@ -22,10 +23,11 @@ using record::PlotPanel;
 
 /// A diagram file that comes with OCA.
 fs::path OwnDiagram(const std::string& name) {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  const fs::path installed = program.parent_path().parent_path() / OCA_INSTALLED_DIAGRAMS / name;
-  return fs::exists(installed, error) ? installed : fs::path(OCA_SOURCE_DIAGRAMS) / name;
+  for (const fs::path& data : diagrams::DataFolders()) {
+    std::error_code error;
+    if (fs::exists(data / "diagrams" / name, error)) return data / "diagrams" / name;
+  }
+  return name;  // which is then said to be missing
 }
 
 record::McapFile RunInMemory(const std::string& diagram,

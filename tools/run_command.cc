@@ -89,15 +89,16 @@ void GatherWarnings(const record::McapFile& record, const std::string& file,
 /// A record's own diagram if `file` is a record; with all warnings.
 diagrams::LoadedDiagram Load(const std::string& file,
                              const std::vector<diagrams::Override>& overrides,
+                             const diagrams::Catalogue& catalogue,
                              std::optional<record::ExtractedRecord>& extracted) {
   if (!record::IsRecord(file)) {
-    diagrams::LoadedDiagram loaded = diagrams::LoadDiagram(file, overrides);
+    diagrams::LoadedDiagram loaded = diagrams::LoadDiagram(file, overrides, catalogue);
     diagrams::AddChatterWarnings(loaded);
     return loaded;
   }
   const auto record = record::McapFile::Read(file);
   extracted.emplace(record);
-  diagrams::LoadedDiagram loaded = extracted->Load(overrides);
+  diagrams::LoadedDiagram loaded = extracted->Load(overrides, catalogue);
   GatherWarnings(record, file, extracted->diagram().parent_path().string(), !overrides.empty(),
                  loaded);
   return loaded;
@@ -216,7 +217,7 @@ void CheckRunOutputs(const RunArguments& arguments, const diagrams::LoadedDiagra
   CheckOutputs(outputs, inputs);
 }
 
-int RunCommand(const RunArguments& arguments) {
+int RunCommand(const RunArguments& arguments, const diagrams::Catalogue& catalogue) {
   std::vector<diagrams::Override> overrides;
   for (const std::string& text : arguments.overrides) {
     overrides.push_back(diagrams::Override::Parse(text));
@@ -231,10 +232,10 @@ int RunCommand(const RunArguments& arguments) {
     }
     StderrLog live_log(arguments.log_level);
     CatchInterrupts();
-    return RunLiveCommand(arguments, overrides, &live_log, Interrupted);
+    return RunLiveCommand(arguments, overrides, catalogue, &live_log, Interrupted);
   }
   std::optional<record::ExtractedRecord> extracted;
-  const diagrams::LoadedDiagram loaded = Load(arguments.file, overrides, extracted);
+  const diagrams::LoadedDiagram loaded = Load(arguments.file, overrides, catalogue, extracted);
   CheckRunOutputs(arguments, loaded);
 
   for (const std::string& warning : loaded.warnings) Tell("{}\n", warning);

@@ -137,7 +137,7 @@ int Report(const Results& results, Form form, bool colour) {
   return summary.unmet > 0 ? kExpectationNotMet : kFine;
 }
 
-int SweepCommand(const SweepArguments& arguments) {
+int SweepCommand(const SweepArguments& arguments, const diagrams::Catalogue& catalogue) {
   Campaign campaign = arguments.campaign;
   campaign.version = OCA_VERSION;
   for (const std::string& text : arguments.variations) {
@@ -151,7 +151,7 @@ int SweepCommand(const SweepArguments& arguments) {
       arguments.shard.empty() ? ShardOfSurroundings() : Shard::Parse(arguments.shard);
   const fs::path folder(arguments.folder);
   models::OpenedFiles opened;
-  for (const std::string& warning : Inspect(campaign)) Tell("{}\n", warning);
+  for (const std::string& warning : Inspect(campaign, catalogue)) Tell("{}\n", warning);
   std::vector<OutputFile> outputs{{"-o", folder}, {"-o", folder / "results.db"}};
   for (const char* const end : {".jsonl", ".jsonl.part", ".timings.jsonl"}) {
     outputs.push_back({"-o", folder / (shard.Stem() + end)});
@@ -167,6 +167,7 @@ int SweepCommand(const SweepArguments& arguments) {
   CatchInterrupts();
   sweep::SweepOptions options;
   options.jobs = arguments.jobs;
+  options.catalogue = catalogue;
   options.timeout = arguments.timeout;
   options.interrupted = Interrupted;
   std::optional<SweepBar> bar(std::in_place, WantsBar(arguments.no_progress));
@@ -235,7 +236,7 @@ CLI::Validator Digits(std::size_t most) {
       "");
 }
 
-void AddSweep(CLI::App& app, std::function<int()>& command) {
+void AddSweep(CLI::App& app, std::function<int()>& command, const diagrams::Catalogue& catalogue) {
   CLI::App* const sub =
       app.add_subcommand("sweep", "run many random samples of a diagram file and sum them up");
   const auto arguments = std::make_shared<SweepArguments>();
@@ -266,14 +267,16 @@ void AddSweep(CLI::App& app, std::function<int()>& command) {
       ->check(CLI::Range(1e-3, 1e9));
   sub->add_flag("--json", arguments->json, "print one JSON object instead of the table");
   sub->add_flag("--no-progress", arguments->no_progress, "no progress bar");
-  sub->callback(
-      [&command, arguments] { command = [arguments] { return SweepCommand(*arguments); }; });
+  sub->callback([&command, &catalogue, arguments] {
+    command = [arguments, &catalogue] { return SweepCommand(*arguments, catalogue); };
+  });
 }
 
 }  // namespace
 
-void AddSweepCommands(CLI::App& app, std::function<int()>& command) {
-  AddSweep(app, command);
+void AddSweepCommands(CLI::App& app, std::function<int()>& command,
+                      const diagrams::Catalogue& catalogue) {
+  AddSweep(app, command, catalogue);
   CLI::App* const merge =
       app.add_subcommand("merge", "put the shards of a sweep together and sum them up");
   const auto arguments = std::make_shared<MergeArguments>();

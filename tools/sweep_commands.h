@@ -7,9 +7,15 @@ namespace CLI {
 class App;
 }
 
+namespace oca::diagrams {
+class Catalogue;
+}
+
 namespace oca::tools {
 
-/// Adds `sweep` and `merge`. A chosen one puts what it does into `command`.
-void AddSweepCommands(CLI::App& app, std::function<int()>& command);
+/// Adds `sweep` and `merge`. A chosen one puts what it does into `command`. `catalogue`, which has
+/// the types of the systems, must outlive it.
+void AddSweepCommands(CLI::App& app, std::function<int()>& command,
+                      const diagrams::Catalogue& catalogue);
 
 }  // namespace oca::tools

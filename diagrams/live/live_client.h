@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <stdexcept>
 
 #include "diagrams/live/live_server_state.h"
+#include "framework/error.h"
 
 namespace oca::live {
 
@@ -95,7 +95,7 @@ class LiveServer::Server::Client : public std::enable_shared_from_this<Client> {
 
   void Handle(const std::string& text, bool is_text) {
     try {
-      if (!is_text) throw std::invalid_argument("binary messages are not expected");
+      if (!is_text) throw ConfigError("binary messages are not expected");
       const auto json = ordered_json::parse(text);
       const std::string op = json.at("op").get<std::string>();
       if (op == "subscribe") {
@@ -113,7 +113,7 @@ class LiveServer::Server::Client : public std::enable_shared_from_this<Client> {
       } else if (op == "subscribeParameterUpdates" || op == "unsubscribeParameterUpdates") {
         watches_ = op == "subscribeParameterUpdates";
       } else {
-        throw std::invalid_argument("unknown op");
+        throw ConfigError("unknown op");
       }
     } catch (const std::exception& error) {
       ++server_.malformed_;
@@ -125,7 +125,7 @@ class LiveServer::Server::Client : public std::enable_shared_from_this<Client> {
     const auto id = item.at("id").get<std::uint32_t>();
     const int channel = item.at("channelId").get<int>();
     if (channel < 0 || static_cast<std::size_t>(channel) >= server_.channels_.size()) {
-      throw std::invalid_argument("no such channel");
+      throw ConfigError("no such channel");
     }
     const bool fresh = subscriptions_.insert_or_assign(channel, id).second;
     if (!fresh) return;

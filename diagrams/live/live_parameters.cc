@@ -4,11 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 
-#include "diagrams/catalogue.h"
 #include "framework/error.h"
 
 namespace oca::live {
@@ -28,19 +27,13 @@ std::string Yaml(const LiveParameter::Value& value) {
   return "[" + list + "]";
 }
 
-struct Range {
-  double lower{-std::numeric_limits<double>::infinity()};
-  double upper{std::numeric_limits<double>::infinity()};
-};
-
-/// The bounds of a field; one that is excluded is within all the same, for a slider.
-Range RangeOf(const nlohmann::json& field) {
-  Range range;
-  for (const char* key : {"minimum", "exclusiveMinimum"}) {
-    if (field.contains(key)) range.lower = std::max(range.lower, field[key].get<double>());
+/// Those of a field; nothing if there is no such key.
+std::optional<Bounds> BoundsOf(const std::vector<Field>& fields, const std::string& key) {
+  for (const Field& field : fields) {
+    if (field.key == key) return field.bounds;
   }
-  if (field.contains("maximum")) range.upper = field["maximum"].get<double>();
-  return range;
+  if (key == "frequency") return Bounds{.lower = 0.0};  // that stands for a period
+  return std::nullopt;
 }
 
 /// The parameter that a value is, whole; empty if it is another value.
@@ -53,18 +46,18 @@ std::string ParameterIn(const Value& value) {
 }  // namespace
 
 record::McapTexts RangesOf(const LoadedDiagram& loaded) {
-  std::map<std::string, Range> ranges;
+  std::map<std::string, Bounds> ranges;
   const Value* const systems = loaded.document.Find("systems");
   for (const LoadedDiagram::Block& block : loaded.systems) {
     const Value* const given = systems == nullptr ? nullptr : systems->Find(block.name);
     if (given == nullptr || given->map() == nullptr) continue;
-    const auto schema = nlohmann::json::parse(diagrams::FindRow(block.type).schema());
     for (const Value::Entry& entry : *given->map()) {
       const std::string name = ParameterIn(entry.value);
-      if (name.empty() || !schema["properties"].contains(entry.key)) continue;
-      const Range range = RangeOf(schema["properties"][entry.key]);
-      Range& all = ranges[name];
-      all = {std::max(all.lower, range.lower), std::min(all.upper, range.upper)};
+      const auto bounds = BoundsOf(block.row->fields(), entry.key);
+      if (name.empty() || !bounds) continue;
+      Bounds& all = ranges[name];  // one that is excluded is within all the same, for a slider
+      all.lower = std::max(all.lower, bounds->lower);
+      all.upper = std::min(all.upper, bounds->upper);
     }
   }
   record::McapTexts texts;

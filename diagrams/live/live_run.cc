@@ -81,7 +81,7 @@ class LiveRunner {
 
  private:
   LoadedDiagram Load(const std::vector<Override>& overrides) const {
-    return diagrams::LoadMovable(options_.file, overrides);
+    return diagrams::LoadMovable(options_.file, overrides, options_.catalogue);
   }
 
   void Warn(const std::string& warning) const {

@@ -17,6 +17,7 @@ namespace oca::live {
 
 struct LiveRunOptions {
   std::filesystem::path file;
+  diagrams::Catalogue catalogue{diagrams::Catalogue::Standard()};  ///< types of its systems
   std::vector<diagrams::Override> overrides;
   std::optional<double> duration;  ///< s; without one the run goes on until it is interrupted
   double realtime_factor{1.0};     ///< simulated seconds a second

@@ -182,7 +182,7 @@ void LiveServer::Server::Change(const std::string& name, const ordered_json& val
   const std::lock_guard lock(mutex_);
   const auto found = std::find_if(parameters_.begin(), parameters_.end(),
                                   [&](const auto& one) { return one.name == name; });
-  if (found == parameters_.end()) throw std::invalid_argument("no such parameter: " + name);
+  if (found == parameters_.end()) throw ConfigError("no such parameter: " + name);
   found->value = ReadValue(value, found->value);
   std::erase_if(changes_, [&](const auto& change) { return change.name == name; });
   changes_.push_back(*found);

@@ -13,7 +13,7 @@ LiveSession::LiveSession(diagrams::LoadedDiagram loaded, record::RecorderOptions
                          std::vector<record::RecordSink*> sinks, double realtime_factor, Log* log)
     : loaded_(std::make_shared<const diagrams::LoadedDiagram>(std::move(loaded))),
       recorder_(*loaded_, std::move(options), std::move(sinks), log),
-      simulator_(*loaded_->diagram, loaded_->integrator) {
+      simulator_(*loaded_->diagram, loaded_->simulator.integration) {
   simulator_.SetLog(&recorder_);
   simulator_.SetRealtimeFactor(realtime_factor);
 }
@@ -26,7 +26,7 @@ void LiveSession::Start(Simulator::Monitor monitor) {
 
 void LiveSession::Adopt(const LiveSession& previous) {
   const Context& old = previous.simulator_.context();
-  Simulator trial(*loaded_->diagram, simulator_.context(), loaded_->integrator);
+  Simulator trial(*loaded_->diagram, simulator_.context(), loaded_->simulator.integration);
   AdoptFrom(previous, old, trial.context());
   trial.Initialize();
   AdoptFrom(previous, old, simulator_.context());

@@ -10,6 +10,7 @@
 #include <iterator>
 #include <vector>
 
+#include "diagrams/data_folders.h"
 #include "framework/error.h"
 
 namespace oca::live {
@@ -25,8 +26,8 @@ std::vector<std::filesystem::path> Candidates() {
   if (!error) {
     const auto folder = program.parent_path();
     paths.push_back(folder / "viewer/viewer.html");
-    paths.push_back(folder.parent_path() / "share/oca/viewer.html");
   }
+  for (const auto& folder : diagrams::DataFolders()) paths.push_back(folder / "viewer.html");
   return paths;
 }
 

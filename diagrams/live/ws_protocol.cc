@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <variant>
+
+#include "framework/error.h"
 
 namespace oca::live {
 namespace {
@@ -82,7 +83,7 @@ std::string ParameterValues(const std::vector<LiveParameter>& parameters, const 
   return Dump(json);
 }
 
-/// A JSON value as one of the type that `like` has. throws std::invalid_argument.
+/// A JSON value as one of the type that `like` has. throws ConfigError.
 LiveParameter::Value ReadValue(const ordered_json& json, const LiveParameter::Value& like) {
   if (std::holds_alternative<bool>(like) && json.is_boolean()) return json.get<bool>();
   if (std::holds_alternative<double>(like) && json.is_number()) return json.get<double>();
@@ -92,7 +93,7 @@ LiveParameter::Value ReadValue(const ordered_json& json, const LiveParameter::Va
       std::all_of(json.begin(), json.end(), [](const auto& item) { return item.is_number(); })) {
     return json.get<std::vector<double>>();
   }
-  throw std::invalid_argument("another type or length of the value");
+  throw ConfigError("another type or length of the value");
 }
 
 }  // namespace oca::live

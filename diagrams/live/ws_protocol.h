@@ -31,7 +31,7 @@ std::string Unadvertisement(std::size_t count);
 /// An answer to the request `id` if it is not null.
 std::string ParameterValues(const std::vector<LiveParameter>& parameters,
                             const nlohmann::ordered_json& id);
-/// A JSON value as one of the type that `like` has. throws std::invalid_argument.
+/// A JSON value as one of the type that `like` has. throws ConfigError.
 LiveParameter::Value ReadValue(const nlohmann::ordered_json& json,
                                const LiveParameter::Value& like);
 

@@ -141,24 +141,26 @@ ExtractedRecord::ExtractedRecord(const McapFile& record) {
 
 ExtractedRecord::~ExtractedRecord() { Remove(); }
 
-diagrams::LoadedDiagram ExtractedRecord::Load(
-    const std::vector<diagrams::Override>& overrides) const {
+diagrams::LoadedDiagram ExtractedRecord::Load(const std::vector<diagrams::Override>& overrides,
+                                              const diagrams::Catalogue& catalogue) const {
   std::vector<fs::path> folders = diagrams::PackageFolders();
   folders.push_back(folder_);
   models::OpenedFiles restricted(folders);  // whoever made it knows not what we keep
-  if (overrides.empty() && !HasSources(folder_)) return diagrams::LoadDiagram(diagram());
+  if (overrides.empty() && !HasSources(folder_)) {
+    return diagrams::LoadDiagram(diagram(), {}, catalogue);
+  }
   std::vector<diagrams::Override> packages;
   if (!overrides.empty()) packages = CompletePackages(folder_);
-  if (!HasSources(folder_)) return diagrams::LoadDiagram(diagram(), overrides);
+  if (!HasSources(folder_)) return diagrams::LoadDiagram(diagram(), overrides, catalogue);
   auto [main, all] = ReadSources(folder_);
   all.insert(all.end(), overrides.begin(), overrides.end());
   diagrams::LoadedDiagram loaded;
   if (!overrides.empty() && PlaceFiles(folder_, main.parent_path())) {
     std::vector<diagrams::Override> with_packages = all;
     with_packages.insert(with_packages.end(), packages.begin(), packages.end());
-    loaded = diagrams::LoadDiagram(main, with_packages);
+    loaded = diagrams::LoadDiagram(main, with_packages, catalogue);
   } else {
-    loaded = diagrams::LoadDiagram(diagram(), overrides);
+    loaded = diagrams::LoadDiagram(diagram(), overrides, catalogue);
   }
   Problems ignored;
   diagrams::DocumentSources sources;

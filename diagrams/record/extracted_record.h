@@ -27,7 +27,9 @@ class ExtractedRecord {
   /// The diagram as it ran, or with further overrides: then made from its sources, if what they
   /// name lies beside them, so that a parameter may choose other files. What the record does not
   /// have of a package is taken from this machine. throws ConfigError as LoadDiagram does.
-  diagrams::LoadedDiagram Load(const std::vector<diagrams::Override>& overrides) const;
+  diagrams::LoadedDiagram Load(
+      const std::vector<diagrams::Override>& overrides,
+      const diagrams::Catalogue& catalogue = diagrams::Catalogue::Standard()) const;
 
  private:
   void Remove();

@@ -19,10 +19,31 @@ ordered_json NumberSchema(const std::string& unit) {
   return schema;
 }
 
+/// What a value may be that looks like this one.
+ordered_json SchemaLike(const ordered_json& value) {
+  if (value.is_number()) return NumberSchema("");
+  if (value.is_string()) return {{"type", "string"}};
+  if (value.is_boolean()) return {{"type", "boolean"}};
+  if (value.is_array()) {
+    const ordered_json item{{"type", "object"}};
+    return {{"type", "array"}, {"items", value.empty() ? item : SchemaLike(value[0])}};
+  }
+  ordered_json schema = ordered_json::object();
+  if (!value.is_object()) return schema;  // null: of any kind
+  schema["type"] = "object";
+  for (const auto& [key, member] : value.items()) schema["properties"][key] = SchemaLike(member);
+  return schema;
+}
+
 ordered_json SchemaOf(const SignalFormat& format) {
   ordered_json properties = ordered_json::object();
   if (format.type != &kVectorType) {
-    properties[format.port] = {{"type", "array"}, {"items", {{"type", "object"}}}};
+    const auto value = ordered_json::parse(DefaultJson(*format.type));
+    if (!value.is_object()) {
+      properties[format.port] = SchemaLike(value);
+    } else if (!value.empty()) {
+      properties = SchemaLike(value)["properties"];
+    }
   } else if (format.joints.empty()) {
     properties["values"] = {{"type", "array"}, {"items", NumberSchema(format.unit)}};
   }
@@ -94,7 +115,7 @@ void AppendSignal(std::string& out, const SignalFormat& format, const void* valu
   } else {
     format.type->write_json(value, out);
   }
-  if (out.size() > start && out[start] == '[') {
+  if (out.size() > start && out[start] != '{') {  // a message is an object
     out.insert(start, "{\"" + format.port + "\":");
     out += '}';
   }

@@ -15,7 +15,6 @@
 #include "diagrams/sampling/random_obstacles.h"
 #include "framework/error.h"
 #include "framework/nearest.h"
-#include "models/error.h"
 
 namespace oca::diagrams {
 namespace {
@@ -46,8 +45,9 @@ Value Only(const Value& map, const std::vector<std::string>& keys) {
 
 class Sampler {
  public:
-  Sampler(const std::vector<Override>& overrides, Value& document, Problems& problems)
-      : document_(document), problems_(problems) {
+  Sampler(const std::vector<Override>& overrides, const Catalogue& catalogue, Value& document,
+          Problems& problems)
+      : catalogue_(catalogue), document_(document), problems_(problems) {
     const Value* const written = document_.Find("sampling");
     if (written == nullptr || written->null()) return;
     const Value section = Resolved(*written);
@@ -205,7 +205,7 @@ class Sampler {
     if (!problems_.empty()) return false;
     try {
       const TaskNames names = acceptance_->names();
-      TaskGeometry task(root, names, cache_, problems_);
+      TaskGeometry task(root, names, catalogue_, cache_, problems_);
       if (!problems_.empty()) return false;
       Value::List drawn;
       if (const Value* const obstacles = root.Find("sampling")->Find("obstacles")) {
@@ -220,9 +220,7 @@ class Sampler {
       if (!drawn.empty()) Append(document_, names.obstacles, drawn);
       scenario.obstacles = static_cast<int>(drawn.size());
       return true;
-    } catch (const ConfigError& error) {
-      problems_.Add(accept_location_, fmt::format("sampling: {}", error.what()));
-    } catch (const models::ModelError& error) {
+    } catch (const Error& error) {
       problems_.Add(accept_location_, fmt::format("sampling: {}", error.what()));
     }
     return false;
@@ -246,6 +244,7 @@ class Sampler {
     list->list()->insert(list->list()->end(), obstacles.begin(), obstacles.end());
   }
 
+  const Catalogue& catalogue_;
   Value& document_;
   Problems& problems_;
   std::vector<std::string> overridden_;  // paths
@@ -259,14 +258,15 @@ class Sampler {
 
 }  // namespace
 
-Scenario DrawScenario(const std::vector<Override>& overrides, Value& document, Problems& problems) {
-  return Sampler(overrides, document, problems).Draw();
+Scenario DrawScenario(const std::vector<Override>& overrides, const Catalogue& catalogue,
+                      Value& document, Problems& problems) {
+  return Sampler(overrides, catalogue, document, problems).Draw();
 }
 
-std::string SamplingSchema() {
+nlohmann::ordered_json SamplingSchema() {
   using nlohmann::ordered_json;
   const auto schema = [](const ParamType& type, const char* meaning) {
-    ordered_json result = ordered_json::parse(type.Schema({}));
+    ordered_json result = type.Schema({});
     result["description"] = meaning;
     return result;
   };
@@ -286,8 +286,7 @@ std::string SamplingSchema() {
                                              "added to those of systems.obstacles")},
                         {"accept", schema(ParamTypeOf<AcceptParams>(),
                                           "all must hold, else the scenario is drawn again")},
-                        {"tries", tries}}}}
-      .dump();
+                        {"tries", tries}}}};
 }
 
 }  // namespace oca::diagrams

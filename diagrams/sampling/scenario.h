@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
+#include "diagrams/catalogue.h"
 #include "diagrams/document.h"
 #include "framework/value.h"
 
@@ -34,9 +36,10 @@ struct Scenario {
 /// Replaces the drawn parameters of `document` by their values, appends the drawn obstacles and
 /// takes the section `sampling` out. Parameters that an override sets keep their value. What is
 /// wrong is added to `problems`, and if no scenario is accepted, how often each condition refused.
-Scenario DrawScenario(const std::vector<Override>& overrides, Value& document, Problems& problems);
+Scenario DrawScenario(const std::vector<Override>& overrides, const Catalogue& catalogue,
+                      Value& document, Problems& problems);
 
-/// JSON Schema of the section, as text.
-std::string SamplingSchema();
+/// JSON Schema of the section.
+nlohmann::ordered_json SamplingSchema();
 
 }  // namespace oca::diagrams

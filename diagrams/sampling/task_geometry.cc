@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "diagrams/catalogue.h"
 #include "diagrams/diagram_file.h"
 #include "diagrams/model_section.h"
 #include "framework/error.h"
@@ -67,9 +66,9 @@ models::RobotModel At(const models::RobotModel& model, const Eigen::Isometry3d& 
 
 }  // namespace
 
-TaskGeometry::TaskGeometry(const Value& root, const TaskNames& names, ModelCache& cache,
-                           Problems& problems)
-    : names_(names) {
+TaskGeometry::TaskGeometry(const Value& root, const TaskNames& names, const Catalogue& catalogue,
+                           ModelCache& cache, Problems& problems)
+    : catalogue_(catalogue), names_(names) {
   SimulatorParams simulator;
   if (const Value* const value = root.Find("simulator")) {
     ReadFields(*value, FieldsOf<SimulatorParams>(), "simulator", &simulator, problems);
@@ -136,7 +135,7 @@ std::unique_ptr<Diagram> TaskGeometry::Source(const Value& root, const std::stri
     }
     ModelSection files(Value(std::move(packages), root.location()), problems);
     const Value resolved = files.ResolveFiles(Value(std::move(params), entry->location()));
-    auto system = FindRow(*type->string()).make(resolved, where, models, problems);
+    auto system = catalogue_.Find(*type->string())->Make(resolved, where, models, problems);
     if (!system) return nullptr;
     DiagramBuilder builder;
     const System& added = builder.AddSystem(name, std::move(system));

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "diagrams/catalogue.h"
 #include "framework/diagram.h"
 #include "framework/value.h"
 #include "models/planning/clearance.h"
@@ -31,8 +32,9 @@ struct ModelCache {
 class TaskGeometry {
  public:
   /// From a tree whose ${...} are worked out. What is wrong is added to `problems`; then nothing
-  /// else may be called.
-  TaskGeometry(const Value& root, const TaskNames& names, ModelCache& cache, Problems& problems);
+  /// else may be called. `catalogue` has the types of its systems and must outlive it.
+  TaskGeometry(const Value& root, const TaskNames& names, const Catalogue& catalogue,
+               ModelCache& cache, Problems& problems);
 
   const models::RobotModel& model() const { return *model_; }
   double duration() const { return duration_; }  ///< s, of the run
@@ -64,6 +66,7 @@ class TaskGeometry {
   void LoadModel(const Value& root, ModelCache& cache, Problems& problems);
   void PlaceObstacles(double time);
 
+  const Catalogue& catalogue_;
   TaskNames names_;
   double duration_{0.0};
   std::shared_ptr<const models::RobotModel> model_;

@@ -207,7 +207,7 @@ std::string Campaign::DifferenceTo(const Campaign& other) const {
   return differences;
 }
 
-std::vector<std::string> Inspect(Campaign& campaign) {
+std::vector<std::string> Inspect(Campaign& campaign, const diagrams::Catalogue& catalogue) {
   constexpr std::int64_t kTried = 3;
   std::vector<std::string> warnings;
   Hash hash;
@@ -215,8 +215,8 @@ std::vector<std::string> Inspect(Campaign& campaign) {
     for (std::int64_t sample = 0;; ++sample) {
       const int seed = campaign.SeedOf(sample);
       try {
-        const auto loaded =
-            diagrams::LoadDiagram(campaign.file, campaign.OverridesOf(seed, combination));
+        const auto loaded = diagrams::LoadDiagram(
+            campaign.file, campaign.OverridesOf(seed, combination), catalogue);
         campaign.name = loaded.name;
         for (const std::string& warning : loaded.warnings) {
           const bool told = std::find(warnings.begin(), warnings.end(), warning) != warnings.end();

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "diagrams/catalogue.h"
 #include "diagrams/document.h"
 #include "diagrams/sweep/variation.h"
 
@@ -68,6 +69,7 @@ struct Campaign {
 /// Loads the diagram once for each combination, with the first of samples 0 to 2 that loads, and
 /// fills in `name` and `file_hash`. Returns the warnings of the loads, each once.
 /// throws ConfigError with the problems of the file if none does.
-std::vector<std::string> Inspect(Campaign& campaign);
+std::vector<std::string> Inspect(
+    Campaign& campaign, const diagrams::Catalogue& catalogue = diagrams::Catalogue::Standard());
 
 }  // namespace oca::sweep

@@ -193,8 +193,8 @@ std::optional<SampleRow> RunSample(const Campaign& campaign, std::int64_t sample
   row.outcome = Outcome::kNotLoaded;
   try {
     const auto start = Clock::now();
-    const auto loaded =
-        diagrams::LoadDiagram(campaign.file, campaign.OverridesOf(row.seed, settings));
+    const auto loaded = diagrams::LoadDiagram(
+        campaign.file, campaign.OverridesOf(row.seed, settings), options.catalogue);
     timing.load_seconds = SecondsSince(start);
     row.outcome = Outcome::kFailed;
     StepWatch watch(options, timing.steps);

@@ -12,7 +12,8 @@
 namespace oca::sweep {
 
 struct SweepOptions {
-  int jobs{1};                          ///< threads
+  int jobs{1};                                                     ///< threads
+  diagrams::Catalogue catalogue{diagrams::Catalogue::Standard()};  ///< of the file's types
   std::optional<double> timeout{};      ///< s of the wall clock for a run, loading left out
   std::function<bool()> interrupted{};  ///< from any thread; true ends the sweep
   /// A few times a second: runs that are done and that there are.

@@ -50,7 +50,7 @@ std::vector<Sample> Simulate(int rate, int ticks) {
   const Output<Vector> q{output("plant", "position")};
   const Output<Vector> delta{output("limiter", "limited_delta")};
   const Output<ObstacleSet> obstacles{output("obstacles", "obstacles")};
-  Simulator simulator(*whole.diagram, whole.integrator);
+  Simulator simulator(*whole.diagram, whole.simulator.integration);
   simulator.Initialize();
   std::vector<Sample> samples;
   for (int k = 0; k < ticks; ++k) {

@@ -32,7 +32,7 @@ class MethodRun {
  public:
   MethodRun(const std::string& file, const std::string& method, std::vector<Override> overrides)
       : loaded_(Load(file, method, std::move(overrides))),
-        simulator_(*loaded_.diagram, loaded_.integrator) {}
+        simulator_(*loaded_.diagram, loaded_.simulator.integration) {}
 
   void Initialize() { simulator_.Initialize(); }
   void AdvanceTo(double time) { simulator_.AdvanceTo(time); }

@@ -68,7 +68,7 @@ TEST(SafetyFilterDiagramTest, SurvivesACubeThatComesHeadOn) {
 template <class Look>
 void Watch(const std::string& name, const Look& look) {
   const LoadedDiagram loaded = LoadDiagram(FileOf(name));
-  Simulator simulator(*loaded.diagram, loaded.integrator);
+  Simulator simulator(*loaded.diagram, loaded.simulator.integration);
   const auto activity = loaded.diagram->FindSystem("filter")->FindOutput("activity");
   const auto clips = loaded.diagram->FindSystem("motion_limiter")->FindOutput("clips");
   for (int k = 0; k < 1400; ++k) {
@@ -109,7 +109,7 @@ TEST(SafetyFilterDiagramTest, TakesNoMoreFromTheHeapThanTheReportsChain) {
   if (!kCountsAllocations) GTEST_SKIP() << "malloc is not ours to count here";
   const auto taken = [](const std::string& name) {
     const LoadedDiagram loaded = LoadDiagram(FileOf(name));
-    Simulator simulator(*loaded.diagram, loaded.integrator);
+    Simulator simulator(*loaded.diagram, loaded.simulator.integration);
     simulator.Initialize();
     const std::int64_t before = AllocationCount();
     simulator.AdvanceTo(loaded.simulator.duration);

@@ -155,7 +155,7 @@ TEST(StaticTest, RunsWithoutTheHeapFromInitializeToTheGoal) {
        {"static_test", "dynamic_test", "link_forces_test", "dual_arm", "grasped_box"}) {
     const LoadedDiagram loaded =
         LoadDiagram(OCA_SOURCE_DIR "/diagrams/" + std::string(file) + ".yaml");
-    Simulator simulator(*loaded.diagram, loaded.integrator);
+    Simulator simulator(*loaded.diagram, loaded.simulator.integration);
     simulator.Initialize();
     const std::int64_t before = AllocationCount();
     simulator.AdvanceTo(loaded.simulator.duration);

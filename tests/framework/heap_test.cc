@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "framework/function.h"
 #include "framework/signal_log.h"
 #include "framework/simulator.h"
 #include "tests/allocation_count.h"
@@ -108,6 +109,29 @@ TEST_P(HeapTest, SavingIntoAndRestoringFromAContextTakesNothing) {
     simulator.context() = saved;
   }
   EXPECT_EQ(AllocationCount() - before, 0);
+}
+
+TEST_P(HeapTest, BlocksGivenAsLambdasTakeNothing) {
+  DiagramBuilder builder;
+  const System& clock = builder.AddSystem(
+      "clock", MakeBlock({.output = {"out", 2}},
+                         [](double t, MutableVectorView out) { out << t, std::sin(t); }));
+  const System& norm =
+      builder.AddSystem("norm", MakeBlock({.inputs = {{"in"}}, .output = {"out", 1}},
+                                          [](VectorView in) { return in.norm(); }));
+  const System& all = builder.AddSystem(
+      "all", MakeBlock({.inputs = {{"a", 1}}, .output = {"out", 1}}, {Period(1, 100), 0.0},
+                       [](const VectorInputs& in, MutableVectorView x) { x += in[0]; }));
+  builder.ConnectPorts(clock.FindOutput("out"), norm.FindInput("in"));
+  builder.ConnectPorts(norm.FindOutput("out"), all.FindInput("a"));
+  builder.ExportOutput("out", all.FindOutput("out"));
+  const auto diagram = builder.Build();
+  Simulator simulator(*diagram, {.integrator = GetParam()});
+  simulator.Initialize();
+  const std::int64_t before = AllocationCount();
+  simulator.AdvanceTo(3.0);
+  EXPECT_EQ(AllocationCount() - before, 0);
+  EXPECT_GT(diagram->GetOutput<Vector>("out").Eval(simulator.context())[0], 100.0);
 }
 
 /// Bounces between two walls under a pull; each wall is a witness.

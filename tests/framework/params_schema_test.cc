@@ -13,7 +13,7 @@ using nlohmann::json;
 
 json Schema() {
   const Everything defaults;
-  return json::parse(SchemaOfFields(FieldsOf<Everything>(), &defaults));
+  return json::parse(SchemaOfFields(FieldsOf<Everything>(), &defaults).dump());
 }
 
 TEST(ParamsSchemaTest, IsAClosedObjectThatRequiresWhatIsRequired) {
@@ -73,9 +73,9 @@ TEST(ParamsSchemaTest, DefaultsThatJsonCannotSayAreLeftOut) {
   }
 }
 
-TEST(ParamsSchemaTest, ShowFieldsIsJsonThatReadsBack) {
+TEST(ParamsSchemaTest, JsonOfFieldsReadsBack) {
   const Everything defaults;
-  const json shown = json::parse(ShowFields(FieldsOf<Everything>(), &defaults));
+  const json shown = json::parse(JsonOfFields(FieldsOf<Everything>(), &defaults).dump());
   EXPECT_EQ(shown["gain"], 0.5);
   EXPECT_EQ(shown["name"], "\"quoted\"");
   EXPECT_FALSE(shown.contains("reach"));
@@ -83,7 +83,7 @@ TEST(ParamsSchemaTest, ShowFieldsIsJsonThatReadsBack) {
   Everything other;
   other.ceiling = 3.0;
   other.limit = PerComponent(Eigen::VectorXd(Eigen::Vector2d(1.0, 0.5)));
-  const json more = json::parse(ShowFields(FieldsOf<Everything>(), &other));
+  const json more = json::parse(JsonOfFields(FieldsOf<Everything>(), &other).dump());
   EXPECT_EQ(more["ceiling"], 3.0);
   EXPECT_EQ(more["limit"], json::parse("[1, 0.5]"));
 }
@@ -97,7 +97,7 @@ struct Sampled {
 
 TEST(ParamsSchemaTest, ARequiredPeriodIsNotRequiredOfTheSchemaBecauseAFrequencyWillDo) {
   const Sampled defaults;
-  const json schema = json::parse(SchemaOfFields(FieldsOf<Sampled>(), &defaults));
+  const json schema = json::parse(SchemaOfFields(FieldsOf<Sampled>(), &defaults).dump());
   EXPECT_FALSE(schema.contains("required"));
   EXPECT_TRUE(schema["properties"].contains("frequency"));
 }

@@ -93,9 +93,9 @@ TEST_F(LiveRunTest, StatesGoOnInADiagramWithOtherParameters) {
   const auto path = Write(kRamp);
   const LoadedDiagram slow = LoadDiagram(path);
   const LoadedDiagram fast = LoadDiagram(path, {{"parameters.slope", "4"}});
-  Simulator before(*slow.diagram, slow.integrator);
+  Simulator before(*slow.diagram, slow.simulator.integration);
   before.AdvanceTo(1.0);
-  Simulator after(*fast.diagram, fast.integrator);
+  Simulator after(*fast.diagram, fast.simulator.integration);
   after.context().SetTime(1.0);
   AdoptStates(*slow.diagram, before.context(), *fast.diagram, after.context());
   after.AdvanceTo(1.5);

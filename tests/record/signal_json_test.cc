@@ -1,14 +1,54 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "diagrams/record/signal_json.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "diagrams/record/json_text.h"
+#include "framework/error.h"
 #include "systems/signals.h"
+
+namespace oca {
+
+/// Signals as somebody else may define them: a bare number, an object.
+struct Level {
+  double value{0.5};
+};
+template <>
+struct Signal<Level> {
+  static constexpr const char* kName = "Level";
+  static Fault Check(const Level&, Look) { return {}; }
+  static void WriteJson(const Level& level, std::string& out) {
+    out += std::to_string(level.value);
+  }
+  static Level ReadJson(std::string_view) { return {}; }
+};
+struct Mood {
+  double charge{1.0};
+};
+template <>
+struct Signal<Mood> {
+  static constexpr const char* kName = "Mood";
+  static Fault Check(const Mood&, Look) { return {}; }
+  static void WriteJson(const Mood& mood, std::string& out) {
+    out += R"({"charge":)" + std::to_string(mood.charge) +
+           R"(,"good":true,"why":"so","since":null,"parts":[{"a":1}],"all":[]})";
+  }
+  static Mood ReadJson(std::string_view) { return {}; }
+};
+struct Babble {};
+template <>
+struct Signal<Babble> {
+  static constexpr const char* kName = "Babble";
+  static Fault Check(const Babble&, Look) { return {}; }
+  static void WriteJson(const Babble&, std::string& out) { out += "nan"; }
+  static Babble ReadJson(std::string_view) { return {}; }
+};
+
+}  // namespace oca
 
 namespace oca::record {
 namespace signal_json_test {
@@ -63,6 +103,40 @@ TEST(SignalJsonTest, BriefProximitiesAreNamesAndDistance) {
   format.brief = true;
   EXPECT_EQ(Text(format, &set),
             R"({"proximities":[{"link":"hand","obstacle":"box","distance":0.25}]})");
+}
+
+TEST(SignalJsonTest, AMessageIsAnObjectWhateverASignalWrites) {
+  const Level level;
+  EXPECT_EQ(Text({"tank", "level", &TypeOf<Level>(), 0, "", {}}, &level), R"({"level":0.500000})");
+  const Mood mood;
+  const json written = json::parse(Text({"me", "mood", &TypeOf<Mood>(), 0, "", {}}, &mood));
+  EXPECT_EQ(written["charge"], 1.0);
+  EXPECT_FALSE(written.contains("mood"));
+}
+
+TEST(SignalJsonTest, TheSchemaOfAForeignSignalIsThatOfItsMessages) {
+  const auto schema = [](const SignalType& type) {
+    return json::parse(ChannelOf({"system", "port", &type, 0, "", {}}).schema);
+  };
+  EXPECT_EQ(schema(TypeOf<Level>())["properties"],
+            json::parse(R"({"port":{"type":["number","null"]}})"));
+  const json mood = schema(TypeOf<Mood>());
+  EXPECT_EQ(mood["x-signal"], "Mood");
+  EXPECT_EQ(mood["properties"], json::parse(R"({
+      "charge": {"type": ["number", "null"]}, "good": {"type": "boolean"},
+      "why": {"type": "string"}, "since": {},
+      "parts": {"type": "array",
+                "items": {"type": "object", "properties": {"a": {"type": ["number", "null"]}}}},
+      "all": {"type": "array", "items": {"type": "object"}}})"));
+  EXPECT_EQ(schema(TypeOf<systems::ProximitySet>())["properties"],
+            json::parse(R"({"port":{"type":"array","items":{"type":"object"}}})"));
+}
+
+TEST(SignalJsonTest, ATypeThatWritesNoJsonIsNamed) {
+  EXPECT_THAT(([] {
+                ChannelOf({"system", "port", &TypeOf<Babble>(), 0, "", {}});
+              }),
+              testing::ThrowsMessage<ConfigError>(testing::HasSubstr("signal type Babble")));
 }
 
 std::string Short(double number) {

@@ -84,8 +84,8 @@ TEST(IntegratorPlantTest, OrderTwoStopsAtAStopUntilTheCommandHasBrakedIt) {
 }
 
 TEST(IntegratorPlantTest, RefusesOtherOrders) {
-  EXPECT_EQ(RefusalOf({.order = 3}), "order: got 3; expected 1 or 2");
-  EXPECT_EQ(RefusalOf({.order = 0}), "order: got 0; expected 1 or 2");
+  EXPECT_EQ(RefusalOf({.order = 3}), "order: got 3; expected in [1, 2]");
+  EXPECT_EQ(RefusalOf({.order = 0}), "order: got 0; expected in [1, 2]");
 }
 
 TEST(IntegratorPlantTest, RefusesAVelocityThatOrderOneCannotHave) {

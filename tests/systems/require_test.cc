@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "systems/require.h"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <functional>
-#include <limits>
 
 #include "framework/error.h"
 
 namespace oca::systems {
 namespace require_test {
-
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 std::string Refusal(const std::function<void()>& call) {
   try {
@@ -32,22 +26,10 @@ TEST(RequireTest, NamesTheParameterAndTheNumber) {
             "speed: too small; got -1.5; expected >= 0");
 }
 
-TEST(RequireTest, NamesTheComponentOfAList) {
-  const PerComponent list(Eigen::VectorXd(Eigen::Vector3d(1.0, 2.0, kNaN)));
-  EXPECT_THAT(Refusal([&] { RequireFinite("gain", list); }),
-              AllOf(HasSubstr("gain[2]: not finite"), HasSubstr("nan")));
-}
-
 TEST(RequireTest, DrawsTheLineAtTheBound) {
   EXPECT_NO_THROW(RequireAtLeast("x", 0.0, 0.0));
   EXPECT_THROW(RequireAbove("x", 0.0, 0.0), ConfigError);
   EXPECT_NO_THROW(RequireAbove("x", 1e-300, 0.0));
-}
-
-TEST(RequireTest, RefusesWhatCompareWouldLetPass) {
-  EXPECT_THROW(RequireAbove("x", kNaN, 0.0), ConfigError);
-  EXPECT_THROW(RequireAtLeast("x", std::numeric_limits<double>::infinity(), 0.0), ConfigError);
-  EXPECT_THROW(RequireFinite("x", Eigen::VectorXd()), ConfigError);
 }
 
 TEST(RequireTest, ComparesBoundsComponentByComponent) {
@@ -62,8 +44,6 @@ TEST(RequireTest, ComparesBoundsComponentByComponent) {
 TEST(RequireTest, TellsPeriodsApartAtZero) {
   EXPECT_NO_THROW(RequirePositive("period", Period(1, 1000000000)));
   EXPECT_THROW(RequirePositive("period", Period()), ConfigError);
-  EXPECT_NO_THROW(RequireNotNegative("period", Period()));
-  EXPECT_THROW(RequireNotNegative("period", Period(-1, 10)), ConfigError);
 }
 
 }  // namespace require_test

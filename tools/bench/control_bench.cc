@@ -43,7 +43,7 @@ class Loop {
  public:
   Loop(int obstacle_count, bool meshes)
       : loaded_(LoadLoop(obstacle_count, meshes)),
-        simulator_(*loaded_.diagram, loaded_.integrator),
+        simulator_(*loaded_.diagram, loaded_.simulator.integration),
         start_(Initialized(simulator_)) {
     for (int i = 0; i < kLoop; ++i) Tick();  // warm-up
   }

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "battery_monitor.h"
+#include "diagrams/catalogue.h"
+#include "framework/function.h"
+
+namespace acme {
+
+/// The system types of OCA and ours.
+inline oca::diagrams::Catalogue Catalogue() {
+  auto catalogue = oca::diagrams::Catalogue::Standard();
+  catalogue.Add<BatteryMonitor>("BatteryMonitor");
+
+  // A block that needs no class: a lambda.
+  catalogue.Add("LowBattery", {"1 while the battery is low", "out = low ? 1 : 0", ""}, [] {
+    return oca::MakeBlock({.inputs = {{"battery"}}, .output = {"out", 1}},
+                          [](const Battery& battery) { return battery.low ? 1.0 : 0.0; });
+  });
+  return catalogue;
+}
+
+}  // namespace acme
