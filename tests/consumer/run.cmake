@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # cmake -DBUILD=... -DSOURCE=... -DWORK=... -P run.cmake: installs, builds the project of someone
 # else against it, and shows that the block of theirs works wherever one of ours does. The files are
-# those of docs/own_block.md.
+# those of docs/how-to/own_block.md.
 cmake_minimum_required(VERSION 3.25)
 
 # run(STATUS PATTERN COMMAND...): the command ends so and prints what matches; INPUT is its stdin.
@@ -87,12 +87,12 @@ else()
 endif()
 
 # The page that explains it quotes these very files.
-file(READ ${SOURCE}/docs/own_block.md page)
+file(READ ${SOURCE}/docs/how-to/own_block.md page)
 foreach(name battery_monitor.h catalogue.h simulator.cc battery.yaml CMakeLists.txt embedded.cc)
   file(READ ${files}/${name} text)
   string(REGEX REPLACE "^[^\n]*SPDX[^\n]*\n" "" text "${text}")
   string(FIND "${page}" "\n${text}```" at)
   if(at EQUAL -1)
-    message(FATAL_ERROR "docs/own_block.md does not quote tests/consumer/${name} as it is")
+    message(FATAL_ERROR "docs/how-to/own_block.md does not quote tests/consumer/${name} as it is")
   endif()
 endforeach()
