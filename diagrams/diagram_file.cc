@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "diagrams/diagram_file.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "diagrams/catalogue.h"
 #include "diagrams/sampling/scenario.h"
@@ -116,47 +118,88 @@ ordered_json MapOf(const ordered_json& items) {
   return {{"type", "object"}, {"additionalProperties", items}};
 }
 
-/// Numbers and booleans may also be given as "${...}".
+/// What is no text may also be given as "${...}". Said beside the type, not as an alternative, so
+/// that an editor says of a wrong number what is wrong with it.
 void AllowExpressions(ordered_json& schema) {
-  if (schema.is_array()) {
-    for (auto& item : schema) AllowExpressions(item);
-    return;
+  for (const char* key : {"items", "additionalProperties"}) {
+    if (schema.contains(key) && schema[key].is_object()) AllowExpressions(schema[key]);
   }
-  if (!schema.is_object()) return;
-  for (auto& [key, item] : schema.items()) {
-    if (key != "default" && key != "enum") AllowExpressions(item);
+  if (schema.contains("properties")) {
+    for (auto& [key, property] : schema["properties"].items()) AllowExpressions(property);
   }
-  const auto type = schema.find("type");
-  const bool plain = type != schema.end() && (*type == "number" || *type == "integer" ||
-                                              *type == "boolean" || *type == "array");
-  if (!plain && !schema.contains("enum")) return;
-  ordered_json description;
-  if (schema.contains("description")) description = schema["description"];
-  const ordered_json expression{{"type", "string"}, {"pattern", "\\$\\{.*\\}"}};
-  schema = {{"anyOf", ordered_json::array({schema, expression})}};
-  if (!description.is_null()) schema["description"] = description;
+  const char* const expression = "\\$\\{.*\\}";
+  if (schema.contains("enum")) {
+    ordered_json names{{"enum", schema["enum"]}};
+    schema.erase("enum");
+    schema["anyOf"] =
+        ordered_json::array({std::move(names), {{"type", "string"}, {"pattern", expression}}});
+  } else if (schema.contains("type") && schema["type"] != "object" && schema["type"] != "string") {
+    if (!schema["type"].is_array()) schema["type"] = ordered_json::array({schema["type"]});
+    schema["type"].push_back("string");
+    schema["pattern"] = expression;
+  }
 }
 
-ordered_json SystemsSchema() {
-  ordered_json any = ordered_json::array();
-  for (const CatalogueRow& row : Catalogue()) {
-    ordered_json schema = ordered_json::parse(row.schema());
-    ordered_json properties{{"type", {{"const", row.type}, {"description", row.doc.summary}}}};
-    for (auto& [key, property] : schema["properties"].items()) {
-      AllowExpressions(property);
-      properties[key] = property;
-    }
-    schema["properties"] = properties;
-    schema["description"] = row.doc.summary;
-    ordered_json condition{{"properties", {{"type", {{"const", row.type}}}}}};
-    any.push_back({{"if", condition}, {"then", schema}});
+/// Nothing is required of maps: what is missing here may stand in a file that includes this one or
+/// is included by it, for maps are merged key by key. Lists are not, so what they hold is whole.
+void AllowPartialMaps(ordered_json& schema) {
+  schema.erase("required");
+  if (schema.contains("additionalProperties") && schema["additionalProperties"].is_object()) {
+    AllowPartialMaps(schema["additionalProperties"]);
   }
+  if (!schema.contains("properties")) return;
+  for (auto& [key, property] : schema["properties"].items()) AllowPartialMaps(property);
+}
+
+/// Of the parts of a diagram that maps hold.
+ordered_json PartialSchemaOf(ordered_json schema) {
+  AllowExpressions(schema);
+  AllowPartialMaps(schema);
+  return schema;
+}
+
+ordered_json IfType(const std::string& type, const ordered_json& then) {
+  const ordered_json condition{{"required", {"type"}},
+                               {"properties", {{"type", {{"const", type}}}}}};
+  return {{"if", condition}, {"then", then}};
+}
+
+/// The system that is named by `type`; where an included file names it, any key of any system.
+ordered_json SystemsSchema() {
   ordered_json types = ordered_json::array();
-  for (const CatalogueRow& row : Catalogue()) types.push_back(row.type);
-  return MapOf({{"type", "object"},
-                {"required", {"type"}},
-                {"properties", {{"type", {{"enum", types}}}}},
-                {"allOf", any}});
+  ordered_json cases = ordered_json::array();
+  ordered_json known = ordered_json::object();  // key -> what it is in one system or another
+  for (const CatalogueRow& row : Catalogue()) {
+    ordered_json schema = PartialSchemaOf(ordered_json::parse(row.schema()));
+    types.push_back(row.type);
+    for (const auto& [key, property] : schema["properties"].items()) {
+      ordered_json& variants = known[key]["anyOf"];
+      if (std::find(variants.begin(), variants.end(), property) == variants.end()) {
+        variants.push_back(property);
+      }
+    }
+    schema["properties"]["type"] = {{"const", row.type}, {"description", row.doc.summary}};
+    schema["description"] = row.doc.summary;
+    cases.push_back(IfType(row.type, schema));
+  }
+  cases.push_back({{"if", {{"not", {{"required", {"type"}}}}}},
+                   {"then", {{"properties", known}, {"additionalProperties", false}}}});
+  return MapOf(
+      {{"type", "object"}, {"properties", {{"type", {{"enum", types}}}}}, {"allOf", cases}});
+}
+
+/// What a file with a name that includes nothing must say: it is whole.
+ordered_json WholeFileSchema() {
+  ordered_json cases = ordered_json::array();
+  for (const CatalogueRow& row : Catalogue()) {
+    const ordered_json schema = ordered_json::parse(row.schema());
+    if (!schema.contains("required")) continue;
+    cases.push_back(IfType(row.type, {{"required", schema["required"]}}));
+  }
+  const ordered_json systems = MapOf({{"required", {"type"}}, {"allOf", cases}});
+  const ordered_json models =
+      MapOf({{"required", SchemaOf(ParamTypeOf<ModelParams>())["required"]}});
+  return {{"properties", {{"systems", systems}, {"models", models}}}};
 }
 
 }  // namespace
@@ -168,30 +211,30 @@ std::string DiagramSchema() {
   sections["description"] = text;
   sections["include"] = {{"type", "array"}, {"items", text}};
   sections["parameters"] = {{"type", "object"}};
-  sections["simulator"] = SchemaOf(ParamTypeOf<SimulatorParams>());
-  sections["simulator_tolerances"] = MapOf(SchemaOf(ParamTypeOf<ToleranceParams>()));
-  sections["sampling"] = ordered_json::parse(SamplingSchema());
+  sections["simulator"] = PartialSchemaOf(SchemaOf(ParamTypeOf<SimulatorParams>()));
+  sections["simulator_tolerances"] =
+      PartialSchemaOf(MapOf(SchemaOf(ParamTypeOf<ToleranceParams>())));
+  sections["sampling"] = PartialSchemaOf(ordered_json::parse(SamplingSchema()));
   sections["packages"] = MapOf(text);
-  sections["models"] = MapOf(SchemaOf(ParamTypeOf<ModelParams>()));
-  for (const char* key : {"simulator", "simulator_tolerances", "sampling", "models"}) {
-    AllowExpressions(sections[key]);
-  }
+  sections["models"] = PartialSchemaOf(MapOf(SchemaOf(ParamTypeOf<ModelParams>())));
   sections["systems"] = SystemsSchema();
   sections["connections"] = {{"type", "array"},
                              {"items", {{"type", "string"}, {"pattern", "^\\S+ *-> *\\S+$"}}}};
   const ordered_json rate{{"type", "number"}, {"exclusiveMinimum", 0}};
-  sections["record"] = {{"type", "object"},
-                        {"additionalProperties", false},
-                        {"properties", {{"signals", MapOf(rate)}, {"scene", rate}}}};
-  AllowExpressions(sections["record"]);
-  sections["expect"] = MapOf(SchemaOf(ParamTypeOf<ExpectParams>()));
-  AllowExpressions(sections["expect"]);
+  sections["record"] =
+      PartialSchemaOf({{"type", "object"},
+                       {"additionalProperties", false},
+                       {"properties", {{"signals", MapOf(rate)}, {"scene", rate}}}});
+  sections["expect"] = PartialSchemaOf(MapOf(SchemaOf(ParamTypeOf<ExpectParams>())));
   for (const Section& section : Sections()) sections[section.key]["description"] = section.meaning;
+  const ordered_json whole{{"required", {"name"}}, {"not", {{"required", {"include"}}}}};
   const ordered_json schema{{"$schema", "http://json-schema.org/draft-07/schema#"},
                             {"title", "OCA diagram"},
                             {"type", "object"},
                             {"additionalProperties", false},
-                            {"properties", sections}};
+                            {"properties", sections},
+                            {"if", whole},
+                            {"then", WholeFileSchema()}};
   return schema.dump(2);
 }
 

@@ -155,9 +155,13 @@ class PerComponentType final : public ParamType {
                            : ShowNumbers(values.values().data(), values.values().size());
   }
   std::string Schema(const FieldInfo& field) const override {
-    const ordered_json number = NumberSchema(field);
-    const ordered_json list{{"type", "array"}, {"items", number}, {"minItems", 1}};
-    return ordered_json{{"oneOf", ordered_json::array({number, list})}}.dump();
+    // One schema for both, for bounds speak of numbers and the rest of lists: an editor then says
+    // what is wrong with either, and not that no alternative fits.
+    ordered_json schema = NumberSchema(field);
+    schema["items"] = schema;
+    schema["type"] = {"number", "array"};
+    schema["minItems"] = 1;
+    return schema.dump();
   }
 };
 

@@ -14,3 +14,7 @@ run(${CMAKE_COMMAND} -G Ninja -S ${SOURCE}/tests/consumer -B ${WORK}/build
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/consumer ${WORK}/installed/share/oca/diagrams/static_test.yaml)
 run(${WORK}/installed/bin/simulator run ${WORK}/installed/share/oca/diagrams/static_test.yaml)
+# What the first line of installed diagrams leads to.
+if(NOT EXISTS ${WORK}/installed/share/oca/diagrams/diagram.schema.json)
+  message(FATAL_ERROR "diagram.schema.json: not installed beside the diagrams")
+endif()
