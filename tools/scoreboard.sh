@@ -5,15 +5,14 @@
 #   --quick  only what takes seconds and needs the release build alone
 #   REGEX    of ids, such as ^size/; all without it
 # Prints a row a goal: its id and issue, what is counted, the value, the bound, whether it is met, and
-# the command (helpers are in tools/goals). A goal
-# whose command fails or prints no number is not measured, never met. Exit status 1 if any is missed
-# or not measured.
+# the command (helpers are in tools/goals). A goal whose command fails or prints no number is not
+# measured, never met. Exit status 1 if any is missed or not measured.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 quick=false
 [ "${1:-}" = --quick ] && quick=true && shift
 if [[ "${1:-}" == -* || $# -gt 1 ]]; then
-  sed -n 's/^# \?//p' "$0" | sed -n 2,10p >&2
+  sed -n 's/^# \?//p' "$0" | sed -n 3,9p >&2
   [ "${1:-}" = --help ] && exit 0
   exit 64
 fi
