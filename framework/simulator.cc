@@ -51,6 +51,7 @@ class Simulator::Clock {
     std::vector<Every> everies = everies_;
     everies.push_back(every);
     std::vector<Beat> beats;
+    beats.reserve(everies.size());
     for (const Every& each : everies) {
       beats.push_back({Ticks(each.offset, rate), Ticks(each.period, rate)});
     }
