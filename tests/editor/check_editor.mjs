@@ -89,6 +89,15 @@ for (const [what, name, text, instead, says] of mistakes) {
   const found = marks.some((mark) => mark.line === line && says.test(mark.message));
   if (!found) fail(`${what}: ${name}.yaml:${line}: got ${JSON.stringify(marks)}; expected ${says}`);
 }
+// What it offers and says where a person writes.
+const fresh = join(source, 'diagrams/fresh.yaml');  // need not exist
+const start = '# yaml-language-server: $schema=diagram.schema.json\nname: fresh\nsystems:\n  field:\n    type: ';
+const types = await editor.offers(fresh, start, 5, 11);
+if (!types.includes('RepulsiveField') || types.length < 25) fail(`types: offered ${types}`);
+const keys = await editor.offers(fresh, `${start}RepulsiveField\n    `, 6, 5);
+if (keys.join() !== 'force_gain,max_distance,min_distance') fail(`keys of a RepulsiveField: offered ${keys}`);
+const said = await editor.says(fresh, `${start}RepulsiveField\n    force_gain: 1`, 6, 7);
+if (!/eq\. \(3\.1\).*N m\^3/.test(said)) fail(`force_gain: said ${said}`);
 editor.stop();
 
 console.log(`${shipped.length + own.length} files, ${mistakes.length} mistakes, ${failures} failures`);

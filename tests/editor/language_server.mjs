@@ -26,7 +26,10 @@ export class LanguageServer {
   async start() {
     await this.#request('initialize', {
       processId: process.pid, rootUri: null,
-      capabilities: {workspace: {configuration: true}, textDocument: {publishDiagnostics: {}}},
+      capabilities: {
+        workspace: {configuration: true},
+        textDocument: {publishDiagnostics: {}, completion: {completionItem: {}}, hover: {contentFormat: ['markdown']}},
+      },
     });
     this.#send({method: 'initialized', params: {}});
     this.#send({method: 'workspace/didChangeConfiguration', params: {settings: this.#all()}});
@@ -41,10 +44,31 @@ export class LanguageServer {
     return marks.map(({range, message}) => ({line: range.start.line + 1, message}));
   }
 
+  // What it offers at a place of a file with this text, lines and columns from 1: labels, in its order.
+  async offers(file, text, line, column) {
+    const answer = await this.#ask('textDocument/completion', file, text, line, column);
+    return answer.items.map(({label}) => label);
+  }
+
+  // What it says of the word there.
+  async says(file, text, line, column) {
+    return (await this.#ask('textDocument/hover', file, text, line, column)).contents.value;
+  }
+
   stop() { this.#process.kill(); }
 
+  async #ask(method, file, text, line, column) {
+    const uri = pathToFileURL(file).href;
+    this.#send({method: 'textDocument/didOpen',
+                params: {textDocument: {uri, languageId: 'yaml', version: ++this.#version, text}}});
+    const position = {line: line - 1, character: column - 1};
+    const answer = await this.#request(method, {textDocument: {uri}, position});
+    await this.#told(uri, 'textDocument/didClose', {uri});
+    return answer;
+  }
+
   #all() {
-    return {yaml: {validate: true, schemaStore: {enable: false}, ...this.#settings},
+    return {yaml: {validate: true, completion: true, hover: true, schemaStore: {enable: false}, ...this.#settings},
             http: {}, '[yaml]': {}, editor: {}, files: {}};
   }
 
