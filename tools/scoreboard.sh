@@ -19,7 +19,7 @@ fi
 filter=${1:-.}
 
 if [ -z "${OCA_BUILD:-}" ]; then
-  EXTRA_PACKAGES=universal-ctags tools/setup.sh release $($quick && echo simulator viewer) || exit 1
+  EXTRA_PACKAGES=universal-ctags tools/setup.sh release $($quick && echo simulator viewer case_control_loop) || exit 1
 fi
 export OCA_BUILD=${OCA_BUILD:-$PWD/build/release}
 OCA_WORK=$(mktemp -d) || exit 1
