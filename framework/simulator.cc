@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -88,6 +89,7 @@ class Simulator::Clock {
  private:
   static std::int64_t Ticks(const Period& period, std::int64_t rate) {
     const std::int64_t factor = rate / period.denominator();
+    assert(factor > 0);  // the rate is a multiple of every denominator
     if (std::abs(period.numerator()) > kMostTicks / factor) {
       throw ConfigError(
           fmt::format("simulator: period; got {}; expected at most {} s beside the others",
