@@ -22,9 +22,10 @@ const Block* DriverOf(const LoadedDiagram& loaded, const std::string& name, cons
   const InputHandle input = system->FindInput(port);
   for (const auto& [from, to] : loaded.diagram->connections()) {
     if (to.system != system || to.index != input.index) continue;
-    const auto found = std::find_if(
-        loaded.systems.begin(), loaded.systems.end(),
-        [&](const Block& block) { return loaded.diagram->FindSystem(block.name) == from.system; });
+    const auto found = std::find_if(loaded.systems.begin(), loaded.systems.end(),
+                                    [&, source = from.system](const Block& block) {
+                                      return loaded.diagram->FindSystem(block.name) == source;
+                                    });
     return found == loaded.systems.end() ? nullptr : &*found;
   }
   return nullptr;

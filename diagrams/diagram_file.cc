@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "diagrams/diagram_file.h"
 
-#include <nlohmann/json.hpp>
-
-#include "diagrams/sampling/scenario.h"
-
 namespace oca::diagrams {
-
-using nlohmann::ordered_json;
 
 void SimulatorParams::Describe(Fields<SimulatorParams>& fields) {
   fields.Add("duration", &SimulatorParams::duration, "s", "how long to run")
@@ -81,100 +75,6 @@ const std::vector<Section>& Sections() {
       {"expect", "bounds on metrics and signals that the run must keep"},
   };
   return sections;
-}
-
-namespace {
-
-ordered_json SchemaOf(const ParamType& type) { return type.Schema({}); }
-
-ordered_json MapOf(const ordered_json& items) {
-  return {{"type", "object"}, {"additionalProperties", items}};
-}
-
-/// Numbers and booleans may also be given as "${...}".
-void AllowExpressions(ordered_json& schema) {
-  if (schema.is_array()) {
-    for (auto& item : schema) AllowExpressions(item);
-    return;
-  }
-  if (!schema.is_object()) return;
-  for (auto& [key, item] : schema.items()) {
-    if (key != "default" && key != "enum") AllowExpressions(item);
-  }
-  const auto type = schema.find("type");
-  const bool plain = type != schema.end() && (*type == "number" || *type == "integer" ||
-                                              *type == "boolean" || *type == "array");
-  if (!plain && !schema.contains("enum")) return;
-  ordered_json description;
-  if (schema.contains("description")) description = schema["description"];
-  const ordered_json expression{{"type", "string"}, {"pattern", "\\$\\{.*\\}"}};
-  schema = {{"anyOf", ordered_json::array({schema, expression})}};
-  if (!description.is_null()) schema["description"] = description;
-}
-
-ordered_json SystemsSchema(const Catalogue& catalogue) {
-  ordered_json any = ordered_json::array();
-  for (const Catalogue::Row& row : catalogue.rows()) {
-    ordered_json schema = SchemaOfFields(row->fields(), row->new_params().get());
-    ordered_json properties{{"type", {{"const", row->type}, {"description", row->doc.summary}}}};
-    for (auto& [key, property] : schema["properties"].items()) {
-      AllowExpressions(property);
-      properties[key] = property;
-    }
-    schema["properties"] = properties;
-    schema["description"] = row->doc.summary;
-    ordered_json condition{{"properties", {{"type", {{"const", row->type}}}}}};
-    any.push_back({{"if", condition}, {"then", schema}});
-  }
-  ordered_json types = ordered_json::array();
-  for (const Catalogue::Row& row : catalogue.rows()) types.push_back(row->type);
-  return MapOf({{"type", "object"},
-                {"required", {"type"}},
-                {"properties", {{"type", {{"enum", types}}}}},
-                {"allOf", any}});
-}
-
-}  // namespace
-
-std::string DiagramSchema(const Catalogue& catalogue) {
-  ordered_json sections;
-  const ordered_json text{{"type", "string"}};
-  sections["name"] = text;
-  sections["description"] = text;
-  sections["include"] = {{"type", "array"}, {"items", text}};
-  sections["parameters"] = {{"type", "object"}};
-  sections["simulator"] = SchemaOf(ParamTypeOf<SimulatorParams>());
-  sections["simulator_tolerances"] = MapOf(SchemaOf(ParamTypeOf<Tolerances>()));
-  sections["sampling"] = SamplingSchema();
-  sections["packages"] = MapOf(text);
-  sections["models"] = MapOf(SchemaOf(ParamTypeOf<ModelParams>()));
-  for (const char* key : {"simulator", "simulator_tolerances", "sampling", "models"}) {
-    AllowExpressions(sections[key]);
-  }
-  sections["systems"] = SystemsSchema(catalogue);
-  sections["connections"] = {{"type", "array"},
-                             {"items", {{"type", "string"}, {"pattern", "^\\S+ *-> *\\S+$"}}}};
-  const auto rate = [](const char* meaning) -> ordered_json {
-    return {
-        {"type", "number"}, {"exclusiveMinimum", 0}, {"description", meaning}, {"x-unit", "Hz"}};
-  };
-  ordered_json signals = MapOf(rate("of `system.port`, or of all that `system.*` names"));
-  signals["description"] = "signals and how often to keep them";
-  sections["record"] = {
-      {"type", "object"},
-      {"additionalProperties", false},
-      {"properties",
-       {{"signals", signals}, {"scene", rate("of the scene that report and view show")}}}};
-  AllowExpressions(sections["record"]);
-  sections["expect"] = MapOf(SchemaOf(ParamTypeOf<ExpectParams>()));
-  AllowExpressions(sections["expect"]);
-  for (const Section& section : Sections()) sections[section.key]["description"] = section.meaning;
-  const ordered_json schema{{"$schema", "http://json-schema.org/draft-07/schema#"},
-                            {"title", "OCA diagram"},
-                            {"type", "object"},
-                            {"additionalProperties", false},
-                            {"properties", sections}};
-  return schema.dump(2);
 }
 
 }  // namespace oca::diagrams

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "diagrams/catalogue.h"
 #include "framework/integrator_options.h"
 #include "framework/params.h"
 #include "models/robot/urdf.h"
@@ -64,8 +63,5 @@ struct Section {
   const char* meaning;
 };
 const std::vector<Section>& Sections();
-
-/// JSON Schema (draft 7) of diagram files with systems of these types, for editors.
-std::string DiagramSchema(const Catalogue& catalogue = Catalogue::Standard());
 
 }  // namespace oca::diagrams

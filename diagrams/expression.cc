@@ -216,7 +216,7 @@ Value Expressions::ResolveText(const std::string& text, const Location& location
                     fmt::format("got '{}'; expected a closing }}", text.substr(open, 40)));
       return Value({}, location);
     }
-    const Value value = Evaluate(Trim(text.substr(open + 2, close - open - 2)), location, 0);
+    Value value = Evaluate(Trim(text.substr(open + 2, close - open - 2)), location, 0);
     if (open == 0 && close + 1 == text.size()) return value;
     if (value.list() != nullptr || value.map() != nullptr) {
       problems_.Add(location, "a list or map inside a text; expected a number or text");

@@ -314,12 +314,12 @@ class Loader {
     try {
       OutputHandle output;
       InputHandle input;
-      const bool good =
-          Locate(*from, item.location(),
-                 [&](const System& system) { output = system.FindOutput(from->port); }) &
-          Locate(*to, item.location(),
-                 [&](const System& system) { input = system.FindInput(to->port); });
-      if (!good || !Inside(to->system)) return;
+      const bool from_there = Locate(*from, item.location(), [&](const System& system) {
+        output = system.FindOutput(from->port);
+      });
+      const bool to_there = Locate(
+          *to, item.location(), [&](const System& system) { input = system.FindInput(to->port); });
+      if (!from_there || !to_there || !Inside(to->system)) return;
       if (Inside(from->system)) {
         builder_.ConnectPorts(output, input);
       } else {

@@ -87,7 +87,7 @@ ordered_json WorstOf(const ordered_json& one, const ordered_json& other) {
     }
   }
   if (worst["stuck_time"] != one["stuck_time"]) worst["stuck_pair"] = other["stuck_pair"];
-  const auto first = other["first_contact_time"];
+  const auto& first = other["first_contact_time"];
   if (first.is_number() && one["first_contact_time"].is_number()) {
     worst["first_contact_time"] =
         std::min(first.get<double>(), one["first_contact_time"].get<double>());
@@ -96,7 +96,7 @@ ordered_json WorstOf(const ordered_json& one, const ordered_json& other) {
     worst["time_to_goal"] = ordered_json();  // all are there, or not
   }
   const char* const kCertified = "certified_min_distance";  // known only if it is for both
-  const auto certified = other[kCertified];
+  const auto& certified = other[kCertified];
   worst[kCertified] =
       certified.is_number() && one[kCertified].is_number()
           ? ordered_json(std::min(certified.get<double>(), one[kCertified].get<double>()))

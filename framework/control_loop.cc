@@ -22,7 +22,8 @@ std::int64_t Ratio(const Period& span, const Period& period, const std::string& 
   const std::int64_t whole = span.numerator() / over;
   const std::int64_t factor = period.denominator() / under;
   const bool divides = span.denominator() == under && period.numerator() == over;
-  if (!divides || std::abs(whole) > std::numeric_limits<std::int32_t>::max() / factor) {
+  constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
+  if (!divides || std::abs(whole) > kMost || factor > kMost || std::abs(whole) * factor > kMost) {
     throw ConfigError(
         fmt::format("control loop: {}: events; got them every {}; expected whole multiples of {}",
                     system, span.ToString(), period.ToString()));

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "framework/error.h"
@@ -44,9 +45,9 @@ class FixedStepIntegrator : public Integrator {
                       max_steps_));
     }
     const double h = (to - from) / count;
-    for (double i = 0.0; i < count; ++i) {
+    for (std::int64_t i = 0; i < static_cast<std::int64_t>(count); ++i) {
       std::copy_n(plan_.continuous(context), start_.size(), start_.data());
-      Advance(context, from + i * h, h);
+      Advance(context, from + static_cast<double>(i) * h, h);
       plan_.SetTimeAndState(context, i + 1.0 < count ? from + (i + 1.0) * h : to, at_.data());
       ++statistics_.steps;
     }

@@ -195,9 +195,13 @@ class PerComponentType final : public ParamType {
                            : NumbersJson(values.values().data(), values.values().size());
   }
   ordered_json Schema(const FieldInfo& field) const override {
-    const ordered_json number = NumberSchema(field);
-    const ordered_json list{{"type", "array"}, {"items", number}, {"minItems", 1}};
-    return {{"oneOf", ordered_json::array({number, list})}};
+    // One schema for both, for bounds speak of numbers and the rest of lists: an editor then says
+    // what is wrong with either, and not that no alternative fits.
+    ordered_json schema = NumberSchema(field);
+    schema["items"] = schema;
+    schema["type"] = {"number", "array"};
+    schema["minItems"] = 1;
+    return schema;
   }
 };
 

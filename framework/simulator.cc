@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -51,6 +52,7 @@ class Simulator::Clock {
     std::vector<Every> everies = everies_;
     everies.push_back(every);
     std::vector<Beat> beats;
+    beats.reserve(everies.size());
     for (const Every& each : everies) {
       beats.push_back({Ticks(each.offset, rate), Ticks(each.period, rate)});
     }
@@ -87,6 +89,7 @@ class Simulator::Clock {
  private:
   static std::int64_t Ticks(const Period& period, std::int64_t rate) {
     const std::int64_t factor = rate / period.denominator();
+    assert(factor > 0);  // the rate is a multiple of every denominator
     if (std::abs(period.numerator()) > kMostTicks / factor) {
       throw ConfigError(
           fmt::format("simulator: period; got {}; expected at most {} s beside the others",

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "framework/error.h"
 
@@ -14,6 +15,15 @@ std::string Location::ToString() const {
   const std::string name = file ? *file : std::string("parameters");
   return line > 0 ? fmt::format("{}:{}:{}", name, line, column) : name;
 }
+
+Value::Value() = default;
+Value::Value(Data data, Location location)
+    : data_(std::move(data)), location_(std::move(location)) {}
+Value::Value(const Value& other) = default;
+Value::Value(Value&& other) noexcept = default;
+Value& Value::operator=(const Value& other) = default;
+Value& Value::operator=(Value&& other) noexcept = default;
+Value::~Value() = default;
 
 bool Value::number(double& out) const {
   if (const auto* whole = std::get_if<std::int64_t>(&data_)) {

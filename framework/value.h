@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -27,8 +26,14 @@ class Value {
   using Map = std::vector<Entry>;  ///< in the order of the file; keys are unique
   using Data = std::variant<std::monostate, bool, std::int64_t, double, std::string, List, Map>;
 
-  Value() = default;
-  Value(Data data, Location location) : data_(std::move(data)), location_(std::move(location)) {}
+  // Defined where Entry is complete.
+  Value();
+  Value(Data data, Location location);
+  Value(const Value& other);
+  Value(Value&& other) noexcept;
+  Value& operator=(const Value& other);
+  Value& operator=(Value&& other) noexcept;
+  ~Value();
 
   const Data& data() const { return data_; }
   Data& data() { return data_; }

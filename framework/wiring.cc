@@ -63,7 +63,10 @@ class Equalities {
   void Settle() {
     for (bool changed = true; changed;) {
       changed = false;
-      for (const auto& [a, b] : all_) changed |= Spread(a, b) | Spread(b, a);
+      for (const auto& [a, b] : all_) {
+        const bool forth = Spread(a, b);
+        changed |= Spread(b, a) || forth;
+      }
     }
   }
 
@@ -189,8 +192,7 @@ void Wiring::Connect(const Diagram::Connection& connection, const std::string& p
   }
   for (const Target& target : targets) {
     const Driver driver{from->second, connection.from.index, -1};
-    const SignalType* got =
-        from->second >= 0 ? leaves_[from->second].system->outputs()[driver.output].type : nullptr;
+    const SignalType* const got = leaves_[from->second].system->outputs()[driver.output].type;
     if (got != InfoOf(target).type) {
       problems_.push_back(fmt::format("{} -> {}: type; got {}; expected {}", NameOfDriver(driver),
                                       NameOfInput(target.leaf, target.input), got->name,

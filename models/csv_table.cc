@@ -251,12 +251,8 @@ bool CsvTable::AtEnd() const {
 }
 
 void CsvTable::TakeLineEnd() {
-  if (at_ < text_.size() && text_[at_] == '\r')
-    ++at_;
-  else if (at_ < text_.size() && text_[at_] == '\n')
-    ++at_;
-  else
-    return;
+  if (at_ >= text_.size() || (text_[at_] != '\r' && text_[at_] != '\n')) return;
+  ++at_;
   if (text_[at_ - 1] == '\r' && at_ < text_.size() && text_[at_] == '\n') ++at_;
   ++next_line_;
 }

@@ -80,6 +80,7 @@ class MotionTally {
   /// Takes over the capacity too, so that a list that grows later does not allocate.
   struct PairList : std::vector<Pair> {
     PairList() = default;
+    // NOLINTNEXTLINE(bugprone-copy-constructor-init): assigning takes the capacity over
     PairList(const PairList& other) : vector() { *this = other; }
     PairList& operator=(const PairList& other);
   };

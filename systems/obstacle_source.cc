@@ -126,7 +126,8 @@ void ObstacleSource::Params::Describe(Fields<Params>& fields) {
 ObstacleSource::Params ObstacleSource::Example() {
   ObstacleParams box;
   box.id = "box";
-  box.shape = {ShapeType::kBox, {}, {}, Eigen::Vector3d(0.2, 0.2, 0.2), {}};
+  box.shape.type = ShapeType::kBox;
+  box.shape.size = Eigen::Vector3d(0.2, 0.2, 0.2);
   box.pose = PoseParams{{0.0, 0.6, 1.0}, {}, {}};
   return {.period = Period(1, 100), .frames = {}, .obstacles = {box}};
 }

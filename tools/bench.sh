@@ -81,25 +81,13 @@ instructions() { # ROW -> instructions an iteration, in the release build
   rm -f "$work"/callgrind*
 }
 
-compile() { # FLAGS... HEADERS -> the CPU time of compiling only these headers, ns
-  local source=$work/only.cc best='' time header
-  : >"$source"
-  for header in ${*: -1}; do echo "#include $header" >>"$source"; done
-  for _ in 1 2 3; do
-    time=$( { TIMEFORMAT='%U %S'; time c++ -std=c++20 "${@:1:$#-1}" -I. -isystem "$eigen" \
-      -c "$source" -o "$work/only.o"; } 2>&1 | awk '{ printf "%.0f", ($1 + $2) * 1e9 }')
-    if [ -z "$best" ] || [ "$time" -lt "$best" ]; then best=$time; fi
-  done
-  echo "$best"
-}
-
 run release
 run bench
 : >"$work/counts"
 missing=
 if ! $quick; then
   if command -v valgrind >/dev/null; then
-    while IFS=';' read -r row _ _ counted; do
+    while IFS=';' read -r row _ _ _ _ _ _ _ counted; do
       [ "$counted" = i ] && grep -q "^$row;" "$work/release" || continue
       echo "$row;$(instructions "$row")" >>"$work/counts"
     done <"$goals"
@@ -108,12 +96,14 @@ if ! $quick; then
   fi
 fi
 if [[ engine/compile =~ $filter ]]; then
-  eigen=$(pkg-config --variable=prefix eigen3)/include/eigen3
-  product='"framework/diagram.h" "framework/simulator.h"'
-  echo "engine/compile;$(compile -O2 "$product");;0" >>"$work/release"
-  echo "engine/compile/floor;$(compile -O2 '<Eigen/Core> <memory> <string> <vector>');;0" \
+  compile() { # FLAG... HEADER... -> ns of CPU
+    OCA_WORK=$work tools/goals/compile.sh "$@" | awk '{ printf "%.0f", 1e9 * $1 }'
+  }
+  product=('"framework/diagram.h"' '"framework/simulator.h"')
+  echo "engine/compile;$(compile -O2 -I. "${product[@]}");;0" >>"$work/release"
+  echo "engine/compile/floor;$(compile -O2 '<Eigen/Core>' '<memory>' '<string>' '<vector>');;0" \
     >>"$work/release"
-  echo "engine/compile;$(compile -O3 -march=native "$product");;0" >>"$work/bench"
+  echo "engine/compile;$(compile -O3 -march=native -I. "${product[@]}");;0" >>"$work/bench"
 fi
 
 echo "$(date +%F), $(awk -F': ' '/^model name/ { print $2; exit }' /proc/cpuinfo), $(nproc) cores, \
@@ -128,28 +118,33 @@ awk -F';' '
     return sprintf(ns < 100 ? "%.1f" : "%.0f", ns)
   }
   function or_dash(text) { return text == "" ? "-" : text }
-  # What the row does beyond its goal, or fails to: "<= 2.5 us, 10 x fcl_kdl"; other goals are for
-  # the reader.
-  function verdict(row, text,  parts, n, i, word, limit, time, peer, said) {
-    n = split(text, parts, /, */)
-    for (i = 1; i <= n; ++i) {
-      split(parts[i], word, " ")
-      time = row ~ /^engine\// ? release[row] : bench[row]
-      if (parts[i] ~ /^<= /) {
-        limit = word[2] * (word[3] == "us" ? 1e3 : word[3] == "s" ? 1e9 : 1)
-        if (time == "") continue
-        if (time + 0 > limit) return "missed"
-        said = "yes"
-      } else if (parts[i] ~ /^[0-9]+ x /) {
-        peer = bench[row "/" word[3]]
-        if (time == "" || peer == "") continue
-        if (peer < word[1] * time) return "missed"
-        said = "yes"
-      }
+  # Adds what a line of the table asks of a row: a bound, of its time or beside that of another row.
+  function ask(row, operation, other, bound, unit,  text, word) {
+    split(bound, word, " ")
+    ++asked[row]; first[row, asked[row]] = operation; second[row, asked[row]] = other
+    limit[row, asked[row]] = word[2] * (operation == "" && unit == "s" ? 1e9 : 1)
+    if (operation == "") text = word[1] " " show(limit[row, asked[row]])
+    else if (operation == "/") text = bound " x " (index(other, row "/") == 1 ? substr(other, length(row) + 2) : other)
+    else text = word[1] " " other " + " word[2]
+    goal[row] = goal[row] (goal[row] == "" ? "" : ", ") text
+  }
+  function verdict(row,  i, value, other, said) {
+    value = row ~ /^engine\// ? release[row] : bench[row]
+    for (i = 1; i <= asked[row]; ++i) {
+      other = row ~ /^engine\// ? release[second[row, i]] : bench[second[row, i]]
+      if (value == "" || first[row, i] != "" && other == "") continue
+      if (first[row, i] == "/") { if (value / other > limit[row, i]) return "missed" }
+      else if (value - other > limit[row, i]) return "missed"
+      said = "yes"
     }
     return said == "" ? "-" : said
   }
-  FILENAME ~ /goals.csv$/ { goal[$1] = $2; drake[$1] = $3; next }
+  FILENAME ~ /goals.csv$/ {
+    if (/^#/ || split($1, word, " ") == 2) next
+    if ($3 ~ /^<=/) ask(word[1], word[2], word[3], $3, $4)
+    if ($8 != "") drake[word[1]] = $8
+    next
+  }
   FILENAME ~ /bench$/ { bench[$1] = $2; if ($5 != "") tail[$1] = $0; next }
   FILENAME ~ /counts$/ { count[$1] = $2; next }
   { if (!($1 in release)) order[++rows] = $1; release[$1] = $2; heap[$1] = $3; bad[$1] = $4 }
@@ -164,7 +159,7 @@ awk -F';' '
       floor = release[row "/floor"]
       if (floor == "") { parent = row; sub(/\/[^\/]*$/, "", parent); floor = release[parent "/floor"] }
       printf line, row, or_dash(goal[row]), or_dash(drake[row]),
-             (bad[row] ? "failed" : show(release[row])), show(bench[row]), verdict(row, goal[row]),
+             (bad[row] ? "failed" : show(release[row])), show(bench[row]), verdict(row),
              show(floor), ((floor > 0) ? sprintf("%.1f", release[row] / floor) : "-"),
              (heap[row] == "" ? "-" : sprintf("%.3g", (heap[row] < 1e-3) ? 0 : heap[row])),
              or_dash(count[row])

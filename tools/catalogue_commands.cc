@@ -7,6 +7,7 @@
 
 #include "diagrams/catalogue.h"
 #include "diagrams/diagram_file.h"
+#include "diagrams/diagram_schema.h"
 #include "tools/catalogue_text.h"
 #include "tools/commands.h"
 #include "tools/terminal.h"

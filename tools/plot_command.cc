@@ -40,7 +40,7 @@ std::vector<PlotPanel> SignalPanels(const PlotArguments& arguments) {
         std::string label = port == std::string::npos ? series.name : series.name.substr(port);
         if (label.starts_with('.')) label.erase(0, 1);
         if (arguments.records.size() > 1) {
-          label = fs::path(arguments.records[run]).stem().string() + " " + label;
+          label.insert(0, fs::path(arguments.records[run]).stem().string() + " ");
         }
         panels[i].curves.push_back({label, std::move(series.times), std::move(series.values),
                                     colour++, static_cast<int>(run)});

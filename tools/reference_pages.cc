@@ -9,6 +9,7 @@
 
 #include "diagrams/catalogue.h"
 #include "diagrams/diagram_file.h"
+#include "diagrams/diagram_schema.h"
 #include "tools/catalogue_text.h"
 #include "tools/schema_table.h"
 
@@ -47,7 +48,8 @@ void AddSystemSection(const diagrams::CatalogueRow& row, const systems::ModelSet
   AddPortRows("output", example->outputs(), page);
   const std::string table = SchemaTable(SchemaOfFields(row.fields(), row.new_params().get()));
   page += table.empty() ? "\nNo parameters.\n" : "\n" + table;
-  page += fmt::format("\nExample parameters: `{}`\n", JsonOfFields(row.fields(), row.example_params.get()).dump());
+  page += fmt::format("\nExample parameters: `{}`\n",
+                      JsonOfFields(row.fields(), row.example_params.get()).dump());
 }
 
 }  // namespace
@@ -63,7 +65,8 @@ std::string SystemsPage(const diagrams::Catalogue& catalogue) {
       "| type | what it does |\n|---|---|\n";
   const systems::ModelSet models = ExampleModels();
   for (const auto& row : catalogue.rows()) {
-    page += fmt::format("| [{}](#{}) | {} |\n", row->type, Anchor(row->type), Cell(row->doc.summary));
+    page +=
+        fmt::format("| [{}](#{}) | {} |\n", row->type, Anchor(row->type), Cell(row->doc.summary));
   }
   for (const auto& row : catalogue.rows()) AddSystemSection(*row, models, page);
   return page;

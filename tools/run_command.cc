@@ -202,6 +202,17 @@ ExitStatus StatusOf(const diagrams::RunResult& result) {
   return result.ExpectationsMet() ? kFine : kExpectationNotMet;
 }
 
+void PrintResult(const RunArguments& arguments, const diagrams::LoadedDiagram& loaded,
+                 const diagrams::RunResult& result) {
+  if (arguments.json) {
+    std::cout << ToJson(loaded, result).dump(2, ' ', false, ordered_json::error_handler_t::replace)
+              << '\n';
+  } else {
+    std::cout << RunSummary(loaded, result, WantsColour(STDOUT_FILENO)) << ProfileTable(result);
+  }
+  if (!result.failure.empty()) Tell("error: {}\n", result.failure);
+}
+
 }  // namespace
 
 void CheckRunOutputs(const RunArguments& arguments, const diagrams::LoadedDiagram& loaded) {
@@ -272,13 +283,7 @@ int RunCommand(const RunArguments& arguments, const diagrams::Catalogue& catalog
   if (recorder) recorder->Finish();
   if (report) report->Finish();
 
-  if (arguments.json) {
-    std::cout << ToJson(loaded, result).dump(2, ' ', false, ordered_json::error_handler_t::replace)
-              << '\n';
-  } else {
-    std::cout << RunSummary(loaded, result, WantsColour(STDOUT_FILENO)) << ProfileTable(result);
-  }
-  if (!result.failure.empty()) Tell("error: {}\n", result.failure);
+  PrintResult(arguments, loaded, result);
   return StatusOf(result);
 }
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs what is missing and builds. Usage: tools/setup.sh [PRESET [TARGET...]]
+# `tools/setup.sh --packages` installs alone. EXTRA_PACKAGES names Debian packages beyond tools/packages.txt.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 preset=${1:-release}
@@ -26,6 +27,7 @@ if [ ${#missing[@]} -gt 0 ]; then
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
 fi
 
+[ "$preset" = --packages ] && exit 0
 modules=tools/viewer/node_modules/.package-lock.json
 if [ ! -e "$modules" ] || [ tools/viewer/package-lock.json -nt "$modules" ]; then
   npm --prefix tools/viewer ci --ignore-scripts --no-audit --no-fund > /dev/null ||

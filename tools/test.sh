@@ -38,8 +38,9 @@ else
 fi
 
 if command -v npm > /dev/null; then
-  echo "Records, by readers of others"
+  echo "Records, by readers of others; diagrams, in an editor"
   tests/record_node/run.sh build/release/tools/simulator
+  tests/editor/run.sh build/release/tools/simulator
 else
-  echo "Records are not read by others: no npm."
+  echo "Records are not read by others, diagrams by no editor: no npm."
 fi

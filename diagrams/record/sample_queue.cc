@@ -47,7 +47,7 @@ const void* LiveValue(const OutputHandle& output, const Context& context) {
 
 }  // namespace
 
-SampleQueue::SampleQueue(std::vector<Group> groups, const Context& context) {
+SampleQueue::SampleQueue(const std::vector<Group>& groups, const Context& context) {
   std::size_t room = kTexts;
   for (const Group& group : groups) {
     auto lane = std::make_unique<Lane>();

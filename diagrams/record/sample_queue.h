@@ -40,7 +40,7 @@ class SampleQueue {
   };
 
   /// `context` settles the lengths of vectors and the capacity of lists.
-  SampleQueue(std::vector<Group> groups, const Context& context);
+  SampleQueue(const std::vector<Group>& groups, const Context& context);
   ~SampleQueue();
   SampleQueue(const SampleQueue&) = delete;
   SampleQueue& operator=(const SampleQueue&) = delete;

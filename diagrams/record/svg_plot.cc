@@ -184,8 +184,8 @@ class PanelWriter {
   }
 
   void WriteName(std::size_t entry, const std::string& stroke, const std::string& name) {
-    const double x =
-        kLeft + Width() + 12.0 + column_width_ * static_cast<double>(entry / kLegendRows);
+    const std::size_t column = entry / kLegendRows;
+    const double x = kLeft + Width() + 12.0 + column_width_ * static_cast<double>(column);
     const double y = top_ + 8.0 + 16.0 * static_cast<double>(entry % kLegendRows);
     Line(x, y, x + 24.0, y, stroke.c_str());
     Text(x + 30.0, y + 4.0, "start", name);
@@ -214,7 +214,8 @@ double LegendColumns(const std::vector<PlotPanel>& panels) {
   for (const PlotPanel& panel : panels) {
     entries = std::max(entries, panel.curves.size() + (panel.limit ? 1 : 0));
   }
-  return static_cast<double>((entries + kLegendRows - 1) / kLegendRows);
+  const std::size_t columns = (entries + kLegendRows - 1) / kLegendRows;
+  return static_cast<double>(columns);
 }
 
 }  // namespace

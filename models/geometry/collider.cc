@@ -22,6 +22,9 @@ struct Visitor : Cases... {
   using Cases::operator()...;
 };
 
+template <class... Cases>
+Visitor(Cases...) -> Visitor<Cases...>;
+
 double CheckedSize(double value, std::string_view where, std::string_view what) {
   if (!(std::isfinite(value) && value > 0.0)) {
     throw ModelError(

@@ -45,7 +45,7 @@ Extent CheckedExtent(std::span<const Vector3d> points, std::string_view name) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  const Extent extent{0.5 * (low + high), 0.5 * (high - low).maxCoeff()};
+  Extent extent{0.5 * (low + high), 0.5 * (high - low).maxCoeff()};
   if (!(extent.size >= kExtentMin && extent.size <= kExtentMax)) {
     throw ModelError(fmt::format("{}: size out of range; got {} m; expected {} to {} m", name,
                                  2 * extent.size, 2 * kExtentMin, 2 * kExtentMax));

@@ -246,7 +246,7 @@ SignedDistance OfParts(const Collider& a, const Isometry3d& X_WA, const Collider
     const Isometry3d X_WO = part_a ? X_WA * a.parts()[index / count_b].X_SP : X_WA;
     const Isometry3d X_WT = part_b ? X_WB * b.parts()[index % count_b].X_SP : X_WB;
     const double limit = i == 0 ? max_distance : std::min(max_distance, best.distance);
-    const SignedDistance found = OfPair(one, X_WO, two, X_WT, limit, i == 0 ? cache : nullptr);
+    SignedDistance found = OfPair(one, X_WO, two, X_WT, limit, i == 0 ? cache : nullptr);
     if (found.status == DistanceStatus::kInvalid) return found;
     if (best_index >= 0 && (found.distance > best.distance ||
                             (found.distance == best.distance && index > best_index))) {

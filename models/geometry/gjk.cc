@@ -57,6 +57,13 @@ bool Refine(const CorePair& pair, const Simplex& simplex, CoreDistance* found) {
   return RefineContact(pair, std::span(points.data(), simplex.count()), found);
 }
 
+// How wrong a bound may be and its direction still taken. The direction of a short v is rounded;
+// only of round bodies does it come to mean nothing.
+double DoubtOf(const CorePair& pair, double proof, double size, double length) {
+  return proof + (pair.IsRound() ? std::min(kBlunt * size, 1e-6 * length)
+                                 : kDirection * size * size / length);
+}
+
 }  // namespace
 
 GjkStatus Gjk(const CorePair& pair, double max_distance, bool separated, PairCache* cache,
@@ -75,9 +82,7 @@ GjkStatus Gjk(const CorePair& pair, double max_distance, bool separated, PairCac
     if (length <= kTouch * size) break;
     const CorePair::Difference support = pair.Support(-simplex.v());
     const double bound = simplex.v().dot(support.w) / length;
-    // The direction of a short v is rounded; only of round bodies does it come to mean nothing.
-    const double doubt = proof + (pair.IsRound() ? std::min(kBlunt * size, 1e-6 * length)
-                                                 : kDirection * size * size / length);
+    const double doubt = DoubtOf(pair, proof, size, length);
     if (bound > 0.0 && bound > lower - doubt) across = simplex.v() / length;
     if (bound > lower) lower = bound, outside = true;
     if (bound > max_distance) {

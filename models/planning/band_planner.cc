@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "models/planning/rrt_connect.h"
 #include "models/planning/smooth_step.h"
@@ -42,7 +43,7 @@ BandPlanner::BandPlanner(std::shared_ptr<const RobotModel> model,
                          const BandPlannerSettings& settings, bool self_collision)
     : settings_(settings),
       band_(model, settings.band, self_collision),
-      standing_(std::make_unique<Clearance>(model, self_collision)) {}
+      standing_(std::make_unique<Clearance>(std::move(model), self_collision)) {}
 
 double BandPlanner::HorizonOf(const BandTask& task, bool moving) const {
   double horizon =

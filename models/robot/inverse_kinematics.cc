@@ -191,7 +191,7 @@ class Search {
   }
 
   /// The solution drawn to the start and away from things, if that succeeds.
-  PostureSolution Drawn(PostureSolution from) {
+  PostureSolution Drawn(const PostureSolution& from) {
     Eigen::VectorXd q = from.q;
     for (const double weight : kPostureWeights) q = Solve(q, weight);
     PostureSolution drawn = Judged(Solve(q, 0.0));

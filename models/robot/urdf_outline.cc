@@ -35,7 +35,7 @@ class OutlineReader {
 
  private:
   std::string ReadName(const TiXmlElement& element, std::set<std::string>& taken) const {
-    const std::string name = xml_.Text(element, "name");
+    std::string name = xml_.Text(element, "name");
     if (!taken.insert(name).second) {
       xml_.Fail(element, "name", "one that is taken", "a name of its own");
     }

@@ -8,10 +8,10 @@ namespace oca::models {
 
 std::optional<std::vector<double>> ParseFiniteNumbers(std::string_view text) {
   std::vector<double> numbers;
-  constexpr std::string_view kSpace = " \t\r\n";
-  for (std::size_t at = text.find_first_not_of(kSpace); at != text.npos;
-       at = text.find_first_not_of(kSpace, at)) {
-    const std::size_t end = std::min(text.find_first_of(kSpace, at), text.size());
+  constexpr std::string_view kBlanks = " \t\r\n";
+  for (std::size_t at = text.find_first_not_of(kBlanks); at != text.npos;
+       at = text.find_first_not_of(kBlanks, at)) {
+    const std::size_t end = std::min(text.find_first_of(kBlanks, at), text.size());
     std::string_view word = text.substr(at, end - at);
     if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
     double number = 0.0;

@@ -60,7 +60,7 @@ std::vector<double> XmlReader::Numbers(const TiXmlElement& element, const char* 
 
 std::vector<double> XmlReader::Positive(const TiXmlElement& element, const char* attribute,
                                         int count) const {
-  const std::vector<double> numbers = Numbers(element, attribute, count, true);
+  std::vector<double> numbers = Numbers(element, attribute, count, true);
   if (std::any_of(numbers.begin(), numbers.end(), [](double number) { return !(number > 0.0); })) {
     Fail(element, attribute, fmt::format("'{}'", element.Attribute(attribute)), "more than 0");
   }

@@ -96,3 +96,8 @@ foreach(name battery_monitor.h catalogue.h simulator.cc battery.yaml CMakeLists.
     message(FATAL_ERROR "docs/how-to/own_block.md does not quote tests/consumer/${name} as it is")
   endif()
 endforeach()
+
+# What the first line of installed diagrams leads to.
+if(NOT EXISTS ${installed}/share/oca/diagrams/diagram.schema.json)
+  message(FATAL_ERROR "diagram.schema.json: not installed beside the diagrams")
+endif()

@@ -41,8 +41,8 @@ TEST(ParamsSchemaTest, CarriesTypesBoundsAndUnits) {
   EXPECT_EQ(properties["period"]["exclusiveMinimum"], 0.0);
   EXPECT_FALSE(properties["period"].contains("minimum"));
   EXPECT_EQ(properties["frequency"]["exclusiveMinimum"], 0.0);
-  EXPECT_EQ(properties["limit"]["oneOf"][0]["exclusiveMinimum"], 0.0);
-  EXPECT_EQ(properties["limit"]["oneOf"][1]["items"]["maximum"], 5.0);
+  EXPECT_EQ(properties["limit"]["exclusiveMinimum"], 0.0);
+  EXPECT_EQ(properties["limit"]["items"]["maximum"], 5.0);
   EXPECT_EQ(properties["axis"]["minItems"], 3);
   EXPECT_EQ(properties["axis"]["maxItems"], 3);
   EXPECT_EQ(properties["waypoints"]["items"]["properties"]["time"]["minimum"], 0.0);

@@ -156,6 +156,31 @@ struct Loop {
   double least;
 };
 
+ObstacleSource::Params OneBall() {
+  ObstacleSource::Params sources;
+  sources.obstacles.push_back({.id = "ball"});
+  sources.obstacles[0].shape.type = ShapeType::kSphere;
+  sources.obstacles[0].shape.radius = 0.05;
+  sources.obstacles[0].pose.emplace();
+  sources.obstacles[0].pose->xyz = {0.55, 0.3, 0.3};
+  return sources;
+}
+
+/// After 40 s.
+Loop Watch(Simulator& simulator, const DeltaLimiter& limiter, const LoopGain& gain) {
+  simulator.AdvanceTo(40.0);
+  Loop loop{};
+  for (int k = 1; k <= 20; ++k) {
+    const Eigen::VectorXd before = limiter.limited_delta.Eval(simulator.context());
+    simulator.AdvanceTo(40.0 + k * kDt);
+    const Eigen::VectorXd after = limiter.limited_delta.Eval(simulator.context());
+    loop.change = std::max(loop.change, (after - before).cwiseAbs().maxCoeff());
+  }
+  loop.gain = gain.gain.Eval(simulator.context())[0];
+  loop.least = models::LeastRelaxationTime(loop.gain, kDt);
+  return loop;
+}
+
 Loop Settle(Method method, double relaxation_time, bool adaptive) {
   const Period period(1, 100);
   const ModelSet models = TestModels("lwr4");
@@ -171,13 +196,7 @@ Loop Settle(Method method, double relaxation_time, bool adaptive) {
       builder.Add<IntegratorPlant>("plant", IntegratorPlant::Params{.initial_position = home});
   const auto& kinematics =
       builder.Add<RobotKinematics>("kinematics", RobotKinematics::Params{}, models);
-  ObstacleSource::Params sources;
-  sources.obstacles.push_back({.id = "ball"});
-  sources.obstacles[0].shape.type = ShapeType::kSphere;
-  sources.obstacles[0].shape.radius = 0.05;
-  sources.obstacles[0].pose.emplace();
-  sources.obstacles[0].pose->xyz = {0.55, 0.3, 0.3};
-  const auto& obstacles = builder.Add<ObstacleSource>("obstacles", sources);
+  const auto& obstacles = builder.Add<ObstacleSource>("obstacles", OneBall());
   const auto& distance = builder.Add<BulletDistance>("distance", BulletDistance::Params{}, models);
   const auto& field = builder.Add<RepulsiveField>("field", RepulsiveField::Params{});
   const auto& wrenches = builder.Add<WrenchTransform>("wrenches", WrenchTransform::Params{});
@@ -212,17 +231,7 @@ Loop Settle(Method method, double relaxation_time, bool adaptive) {
   }
   const auto diagram = builder.Build();
   Simulator simulator(*diagram);
-  simulator.AdvanceTo(40.0);
-  Loop loop{};
-  for (int k = 1; k <= 20; ++k) {
-    const Eigen::VectorXd before = limiter.limited_delta.Eval(simulator.context());
-    simulator.AdvanceTo(40.0 + k * kDt);
-    const Eigen::VectorXd after = limiter.limited_delta.Eval(simulator.context());
-    loop.change = std::max(loop.change, (after - before).cwiseAbs().maxCoeff());
-  }
-  loop.gain = gain.gain.Eval(simulator.context())[0];
-  loop.least = models::LeastRelaxationTime(loop.gain, kDt);
-  return loop;
+  return Watch(simulator, limiter, gain);
 }
 
 // The bound from both sides, at the equilibrium that a calm loop finds. Curvature of the contact,

@@ -367,6 +367,25 @@ TEST_F(CommandLineTest, TheSchemaIsJsonAndKnowsEveryTypeAndKey) {
   }
 }
 
+TEST_F(CommandLineTest, TheSchemaRequiresOfMapsOnlyWhatNoOtherFileCanSay) {
+  const json schema = json::parse(run("$S schema").out);
+  EXPECT_FALSE(schema["properties"]["systems"]["additionalProperties"].contains("required"));
+  EXPECT_FALSE(schema["properties"]["models"]["additionalProperties"].contains("required"));
+  // A file with a name that includes nothing is whole.
+  EXPECT_EQ(schema["if"], json::parse(R"({"required":["name"],"not":{"required":["include"]}})"));
+  const json& whole = schema["then"]["properties"];
+  EXPECT_EQ(whole["systems"]["additionalProperties"]["required"], json::parse(R"(["type"])"));
+  EXPECT_EQ(whole["models"]["additionalProperties"]["required"], json::parse(R"(["urdf"])"));
+}
+
+TEST_F(CommandLineTest, TheSchemaBoundsNumbersBesideTheExpressionsThatMayStandForThem) {
+  const json schema = json::parse(run("$S schema").out);
+  const json& duration = schema["properties"]["simulator"]["properties"]["duration"];
+  EXPECT_EQ(duration["type"], json::parse(R"(["number","string"])"));
+  EXPECT_EQ(duration["minimum"], 0.0);
+  EXPECT_EQ(duration["pattern"], R"(\$\{.*\})");
+}
+
 TEST_F(CommandLineTest, GraphsDrawEverySystemAndConnection) {
   const std::string file = Small();
   const Ran dot = run("$S graph " + file);

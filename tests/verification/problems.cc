@@ -41,7 +41,7 @@ class Equation final : public System {
   const Output<Vector> out;
 };
 
-std::vector<Problem> NamedProblems() {
+std::vector<Problem> Motions() {
   return {
       {"sine",
        "x' = sin 3t, x(0) = 0",
@@ -86,6 +86,11 @@ std::vector<Problem> NamedProblems() {
        },
        20.0,
        {-0.7700755784112404, 0.7883448169944244, -0.8941837319886915, -0.1234617641584410}},
+  };
+}
+
+std::vector<Problem> Detest() {
+  return {
       {"detest_a2",
        "x' = -x^3 / 2, x(0) = 1",
        kDetest,
@@ -107,6 +112,11 @@ std::vector<Problem> NamedProblems() {
        [](double, const double* x, double, double* d) { d[0] = 0.25 * x[0] * (1 - x[0] / 20); },
        20.0,
        {17.73016648131484}},
+  };
+}
+
+std::vector<Problem> StiffProblems() {
+  return {
       {.name = "prothero_robinson",
        .equation = "x' = -1e6 (x - cos t) - sin t, x(0) = 1",
        .source = "closed form; Prothero and Robinson 1974",
@@ -131,6 +141,14 @@ std::vector<Problem> NamedProblems() {
        .relative = true,
        .absolute = 1e-8},
   };
+}
+
+std::vector<Problem> NamedProblems() {
+  std::vector<Problem> all = Motions();
+  for (const auto& more : {Detest(), StiffProblems()}) {
+    all.insert(all.end(), more.begin(), more.end());
+  }
+  return all;
 }
 
 void Lag(double x, double u, double* derivative) { *derivative = (u - x) / 0.05; }

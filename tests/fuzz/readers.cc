@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tests/fuzz/readers.h"
+
+#include <filesystem>
+#include <string>
+
+#include "diagrams/document.h"
+#include "diagrams/json_reader.h"
+#include "diagrams/record/extracted_record.h"
+#include "diagrams/record/mcap_reader.h"
+#include "framework/error.h"
+#include "framework/signal.h"
+#include "models/csv_table.h"
+#include "models/error.h"
+#include "models/geometry/mesh.h"
+#include "models/geometry/octree.h"
+#include "models/geometry/point_cloud.h"
+#include "models/robot/srdf.h"
+#include "models/robot/urdf.h"
+#include "systems/signals.h"
+#include "tests/temporary_folder.h"
+
+namespace oca::test {
+namespace {
+
+/// The file of that name, in a folder of this process, with these bytes.
+std::filesystem::path FileOf(const char* name, std::string_view bytes) {
+  static const TemporaryFolder folder;
+  return folder.Write(name, bytes);
+}
+
+/// Calls `read` and returns whether it did not refuse.
+template <class Read>
+bool Accepts(Read read) {
+  try {
+    read();
+    return true;
+  } catch (const ConfigError&) {
+    return false;
+  } catch (const models::ModelError&) {
+    return false;
+  }
+}
+
+bool ReadDocument(std::string_view bytes) {
+  return Accepts([&] {
+    Problems problems;
+    diagrams::LoadDocument(FileOf("fuzz.yaml", bytes), {}, problems);
+    problems.Throw();
+  });
+}
+
+bool ReadUrdf(std::string_view bytes) {
+  return Accepts([&] { models::ParseUrdf(std::string(bytes), "fuzz.urdf"); });
+}
+
+bool ReadSrdf(std::string_view bytes) {
+  static const models::SrdfRobot robot{
+      "planar2",
+      {"planar2_base_link", "planar2_link_1", "planar2_link_2", "planar2_tip"},
+      {"planar2_joint_1", "planar2_joint_2", "planar2_tip_joint"}};
+  return Accepts([&] { models::LoadDisabledPairs(FileOf("fuzz.srdf", bytes), robot); });
+}
+
+bool ReadCsv(std::string_view bytes) {
+  return Accepts([&] {
+    models::CsvTable table(FileOf("fuzz.csv", bytes));
+    while (table.NextRow()) {
+      for (std::size_t column = 0; column < table.width(); ++column) table.AnyNumber(column);
+    }
+  });
+}
+
+bool ReadPcd(std::string_view bytes) {
+  return Accepts([&] { models::LoadPointCloud(FileOf("fuzz.pcd", bytes)); });
+}
+
+bool ReadPly(std::string_view bytes) {
+  return Accepts([&] { models::LoadPointCloud(FileOf("fuzz.ply", bytes)); });
+}
+
+bool ReadStl(std::string_view bytes) {
+  return Accepts([&] { models::LoadMesh(FileOf("fuzz.stl", bytes)); });
+}
+
+bool ReadPgm(std::string_view bytes) {
+  return Accepts([&] { models::LoadHeightmap(FileOf("fuzz.pgm", bytes), 0.05, 1.0); });
+}
+
+bool ReadBinaryTree(std::string_view bytes) {
+  return Accepts([&] { models::LoadOctree(FileOf("fuzz.bt", bytes)); });
+}
+
+bool ReadFullTree(std::string_view bytes) {
+  return Accepts([&] { models::LoadOctree(FileOf("fuzz.ot", bytes)); });
+}
+
+template <class T>
+bool ReadSignal(std::string_view bytes) {
+  return Accepts([&] { Signal<T>::ReadJson(bytes); });
+}
+
+/// What `eval` reads: parameters, and inputs of every type that others make.
+bool ReadJson(std::string_view bytes) {
+  bool accepted = Accepts([&] { diagrams::ReadJson(bytes, "fuzz"); });
+  accepted |= Accepts([&] { ReadVectorJson(bytes); });
+  accepted |= ReadSignal<systems::ObstacleSet>(bytes);
+  accepted |= ReadSignal<systems::LinkPoses>(bytes);
+  accepted |= ReadSignal<systems::ProximitySet>(bytes);
+  accepted |= ReadSignal<systems::LinkForceSet>(bytes);
+  accepted |= ReadSignal<systems::WrenchSet>(bytes);
+  return accepted;
+}
+
+bool ReadRecord(std::string_view bytes) {
+  return Accepts([&] {
+    const auto record = record::McapFile::Parse(std::string(bytes), "fuzz.mcap");
+    const record::ExtractedRecord extracted(record);
+  });
+}
+
+constexpr Reader kReaders[] = {
+    {"csv", ReadCsv},
+    {"document", ReadDocument},
+    {"json", ReadJson},
+    {"octree_bt", ReadBinaryTree},
+    {"octree_ot", ReadFullTree},
+    {"pcd", ReadPcd},
+    {"pgm", ReadPgm},
+    {"ply", ReadPly},
+    {"record", ReadRecord},
+    {"srdf", ReadSrdf},
+    {"stl", ReadStl},
+    {"urdf", ReadUrdf},
+};
+
+}  // namespace
+
+std::span<const Reader> Readers() { return kReaders; }
+
+}  // namespace oca::test
