@@ -18,16 +18,8 @@ using Block = LoadedDiagram::Block;
 
 /// The block that drives an input of a system of that name; null if nothing does.
 const Block* DriverOf(const LoadedDiagram& loaded, const std::string& name, const char* port) {
-  const System* const system = loaded.diagram->FindSystem(name);
-  const InputHandle input = system->FindInput(port);
-  for (const auto& [from, to] : loaded.diagram->connections()) {
-    if (to.system != system || to.index != input.index) continue;
-    const auto found = std::find_if(
-        loaded.systems.begin(), loaded.systems.end(),
-        [&](const Block& block) { return loaded.diagram->FindSystem(block.name) == from.system; });
-    return found == loaded.systems.end() ? nullptr : &*found;
-  }
-  return nullptr;
+  const auto driver = loaded.diagram->DriverOf(loaded.diagram->FindInput(name + "." + port));
+  return driver ? &loaded.BlockOf(*driver->system) : nullptr;
 }
 
 bool HasSolids(const models::RobotModel& model) {

@@ -5,9 +5,10 @@
 
 #include <algorithm>
 #include <exception>
+#include <iterator>
 #include <map>
 #include <optional>
-#include <set>
+#include <utility>
 
 #include "diagrams/catalogue.h"
 #include "framework/dynamic_port.h"
@@ -44,53 +45,41 @@ struct Loop {
   OutputHandle request{};
 };
 
-/// Looks around in the wiring of a diagram.
-class Wiring {
- public:
-  explicit Wiring(const Diagram& diagram) : diagram_(diagram) {}
-
-  /// What drives an input; an index of -1: nothing.
-  OutputHandle DriverOf(const InputHandle& input) const {
-    for (const auto& [from, to] : diagram_.connections()) {
-      if (to.system == input.system && to.index == input.index) return from;
+/// The next system on the way of a delta: what an output is called does not matter, an input does.
+const System* After(const Diagram& diagram, const System& system) {
+  for (int i = 0; i < std::ssize(system.outputs()); ++i) {
+    for (const InputHandle& reader : diagram.ReadersOf({{&system, i}})) {
+      const auto port = static_cast<std::size_t>(reader.index);
+      if (reader.system->inputs()[port].name == "delta") return reader.system;
     }
-    return {};
   }
+  return nullptr;
+}
 
-  /// The loop that the mapping is part of, if it is of the known make and not switched off.
-  std::optional<Loop> LoopOf(const JacobianMapping& mapping) const {
-    Loop loop;
-    loop.mapping = &mapping;
-    const System* at = &mapping;
-    for (int step = 0; step < 10 && loop.overlay == nullptr; ++step) {
-      at = After(*at);
-      if (at == nullptr) return std::nullopt;
-      if (const auto* relaxation = dynamic_cast<const DeltaRelaxation*>(at)) {
-        if (DriverOf(relaxation->relaxation_time).index >= 0) return std::nullopt;  // it adapts
-        loop.relaxation = relaxation;
-      }
-      loop.overlay = dynamic_cast<const DeltaOverlay*>(at);
+/// The loop that the mapping is part of, if it is of the known make and not switched off.
+std::optional<Loop> LoopOf(const Diagram& diagram, const JacobianMapping& mapping) {
+  Loop loop;
+  loop.mapping = &mapping;
+  const System* at = &mapping;
+  for (int step = 0; step < 10 && loop.overlay == nullptr; ++step) {
+    at = After(diagram, *at);
+    if (at == nullptr) return std::nullopt;
+    if (const auto* relaxation = dynamic_cast<const DeltaRelaxation*>(at)) {
+      if (diagram.DriverOf(relaxation->relaxation_time)) return std::nullopt;  // it adapts
+      loop.relaxation = relaxation;
     }
-    if (loop.overlay == nullptr || !loop.overlay->params().enabled) return std::nullopt;
-    if (!loop.overlay->params().period.positive()) return std::nullopt;
-    loop.kinematics = dynamic_cast<const RobotKinematics*>(DriverOf(mapping.links).system);
-    loop.request = DriverOf(loop.overlay->position_in);
-    if (loop.kinematics == nullptr || loop.request.index < 0) return std::nullopt;
-    return loop;
+    loop.overlay = dynamic_cast<const DeltaOverlay*>(at);
   }
-
- private:
-  /// The next system on the way of a delta: what an output is called does not matter, an input
-  /// does.
-  const System* After(const System& system) const {
-    for (const auto& [from, to] : diagram_.connections()) {
-      if (from.system == &system && to.system->inputs()[to.index].name == "delta") return to.system;
-    }
-    return nullptr;
-  }
-
-  const Diagram& diagram_;
-};
+  if (loop.overlay == nullptr || !loop.overlay->params().enabled) return std::nullopt;
+  if (!loop.overlay->params().period.positive()) return std::nullopt;
+  const auto links = diagram.DriverOf(mapping.links);
+  const auto request = diagram.DriverOf(loop.overlay->position_in);
+  if (!links || !request) return std::nullopt;
+  loop.kinematics = dynamic_cast<const RobotKinematics*>(links->system);
+  loop.request = *request;
+  if (loop.kinematics == nullptr) return std::nullopt;
+  return loop;
+}
 
 /// A copy of what a loop computes its delta from, with the positions of the arm to be set.
 class Probe {
@@ -111,7 +100,7 @@ class Probe {
     builder_.ExportInput("velocity", kinematics.velocity);
     raw_ = mapping.delta;
     gain_ = gain.gain;
-    request_ = {copies_.at(loop.request.system), loop.request.index};
+    request_ = {{copies_.at(loop.request.system), loop.request.index}};
     if (fields_.empty()) return;
     diagram_ = builder_.Build();
     position_ = diagram_->GetInput<Vector>("position");
@@ -154,26 +143,36 @@ class Probe {
 
  private:
   void Copy(const LoadedDiagram& loaded) {
-    const auto& connections = loaded.diagram->connections();
-    std::set<const System*> needed{loop_.mapping, loop_.kinematics, loop_.request.system};
-    for (std::size_t before = 0; before != needed.size();) {
-      before = needed.size();
-      for (const auto& [from, to] : connections) {
-        if (needed.contains(to.system) && to.system != loop_.kinematics) needed.insert(from.system);
+    const Diagram& diagram = *loaded.diagram;
+    std::vector<const System*> needed{loop_.mapping, loop_.kinematics, loop_.request.system};
+    const auto drivers_of = [&](const System& system) {
+      std::vector<std::pair<OutputHandle, InputHandle>> drivers;
+      for (int i = 0; i < std::ssize(system.inputs()); ++i) {
+        const InputHandle input{{&system, i}};
+        if (const auto driver = diagram.DriverOf(input)) drivers.emplace_back(*driver, input);
+      }
+      return drivers;
+    };
+    for (std::size_t i = 0; i < needed.size(); ++i) {
+      if (needed[i] == loop_.kinematics) continue;
+      for (const auto& [from, to] : drivers_of(*needed[i])) {
+        const bool known = std::find(needed.begin(), needed.end(), from.system) != needed.end();
+        if (!known) needed.push_back(from.system);
       }
     }
     Problems problems;
     for (const auto& block : loaded.systems) {
-      const System* const original = loaded.diagram->FindSystem(block.name);
-      if (!needed.contains(original)) continue;
+      const System* const original = diagram.FindSystem(block.name);
+      if (std::find(needed.begin(), needed.end(), original) == needed.end()) continue;
       auto copy = FindRow(block.type).make(block.params, block.name, loaded.models, problems);
       problems.Throw();
       copies_[original] = &builder_.AddSystem(block.name, std::move(copy));
     }
-    for (const auto& [from, to] : connections) {
-      if (!copies_.contains(to.system) || to.system == loop_.kinematics) continue;
-      builder_.ConnectPorts({{copies_.at(from.system), from.index}},
-                            {{copies_.at(to.system), to.index}});
+    for (const auto& [original, copy] : copies_) {
+      if (original == loop_.kinematics) continue;
+      for (const auto& [from, to] : drivers_of(*original)) {
+        builder_.ConnectPorts({{copies_.at(from.system), from.index}}, {{copy, to.index}});
+      }
     }
   }
 
@@ -185,7 +184,7 @@ class Probe {
         const OutputHandle slopes{{copy, static_cast<int>(i)}};
         builder_.ConnectPorts(
             slopes, fields_.empty() ? InputHandle(gain.slopes) : InputHandle(gain.more_slopes));
-        fields_.push_back({slopes});
+        fields_.push_back(Typed<ContactSlopes>(slopes));
       }
     }
   }
@@ -245,12 +244,11 @@ std::optional<std::string> Judge(const LoadedDiagram& loaded, const Loop& loop) 
 
 std::vector<std::string> ChatterWarnings(const LoadedDiagram& loaded) {
   std::vector<std::string> warnings;
-  const Wiring wiring(*loaded.diagram);
   for (const auto& block : loaded.systems) {
     const System* const system = loaded.diagram->FindSystem(block.name);
     const auto* const mapping = dynamic_cast<const JacobianMapping*>(system);
     if (mapping == nullptr) continue;
-    const auto loop = wiring.LoopOf(*mapping);
+    const auto loop = LoopOf(*loaded.diagram, *mapping);
     if (!loop) continue;
     std::optional<std::string> warning;
     try {

@@ -17,7 +17,7 @@
 #include "framework/dynamic_port.h"
 #include "framework/error.h"
 #include "framework/nearest.h"
-#include "framework/plan.h"
+#include "framework/schedule.h"
 #include "models/opened_files.h"
 #include "systems/obstacle_source.h"
 
@@ -436,7 +436,7 @@ class Loader {
       if (!part_.empty()) ExportOutputs();
       if (movable_) ExportOffsets();
       loaded_.diagram = builder_.Build();
-      loaded_.diagram->plan().CheckStart(loaded_.diagram->MakeContext(), false);
+      loaded_.diagram->schedule().CheckStart(loaded_.diagram->MakeContext(), false);
     } catch (const SimulationError& error) {  // a state starts where it cannot be
       problems_.Add(locations_.at(error.system), error.what());
     } catch (const WiringError& error) {
@@ -489,6 +489,12 @@ class Loader {
 };
 
 }  // namespace
+
+const LoadedDiagram::Block& LoadedDiagram::BlockOf(const System& system) const {
+  const std::string path = diagram->PathOf(system);
+  return *std::find_if(systems.begin(), systems.end(),
+                       [&](const Block& block) { return block.name == path; });
+}
 
 LoadedDiagram LoadDiagram(const fs::path& file, const std::vector<Override>& overrides) {
   return Loader(file).Load(file, overrides);

@@ -44,6 +44,9 @@ struct LoadedDiagram {
   std::vector<Expectation> expectations;
   /// Outputs of type MotionMetrics, with the names of their systems.
   NamedOutputs metrics;
+
+  /// The block that a system of the diagram is.
+  const Block& BlockOf(const System& system) const;
 };
 
 /// Reads, checks and builds a diagram file.

@@ -154,7 +154,7 @@ class ExpectationReader {
     result_.output = *output;
     if (&TypeOfPort(*output) != &kVectorType) return CheckMember();
     if (diagram_ == nullptr) return false;
-    const int size = VectorSize(*output, diagram_->MakeContext());
+    const int size = diagram_->SizeOf(*output);
     if (result_.index < 0 && size == 1 && result_.member.empty()) result_.index = 0;
     if (result_.index >= 0 && result_.index < size) return true;
     return Fail(fmt::format(": expected {}[i] with i from 0 to {}", port, size - 1));

@@ -14,18 +14,13 @@
 namespace oca::tools {
 namespace {
 
-std::string UnitText(const Unit& unit) {
-  if (unit.any()) return "any unit";
-  std::string text = unit.variable() >= 0 ? "u" : unit.text();
-  if (unit.rates() == 0) return text;
-  return unit.rates() == 1 ? text + "/s" : fmt::format("{}/s^{}", text, unit.rates());
-}
-
 template <class Info>
 void PrintPorts(const char* kind, const std::vector<Info>& ports) {
   for (const Info& port : ports) {
     std::string text = port.type->name;
-    if (port.type == &kVectorType) text += ", " + UnitText(port.spec.unit);
+    if (port.type == &kVectorType) {
+      text += ", " + (port.spec.unit.any() ? "any unit" : port.spec.unit.ToString());
+    }
     if constexpr (requires { port.optional; }) {
       if (port.optional) text += ", optional";
     }

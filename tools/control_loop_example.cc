@@ -77,7 +77,7 @@ template <class T>
 oca::Output<T> OutputOf(const oca::diagrams::LoadedDiagram& whole, const char* system,
                         const char* port) {
   const oca::System* const found = whole.diagram->FindSystem(system);
-  if (found != nullptr) return {found->FindOutput(port)};
+  if (found != nullptr) return oca::Typed<T>(found->FindOutput(port));
   throw std::runtime_error(whole.file + ": systems; got no '" + system +
                            "'; expected those of parts/loop.yaml");
 }

@@ -12,8 +12,8 @@
 #include "systems/motion_metrics.h"
 #include "systems/obstacle_source.h"
 #include "systems/robot_kinematics.h"
+#include "tools/motion_ahead.h"
 #include "tools/plan_bodies.h"
-#include "tools/plan_wiring.h"
 
 namespace oca::tools {
 namespace {
@@ -47,7 +47,7 @@ PlanScene::PlanScene(const diagrams::LoadedDiagram& loaded, const std::string& m
 }
 
 const System& PlanScene::FindJudge(const std::string& model) {
-  const PlanWiring wiring(loaded_);
+  const Diagram& diagram = *loaded_.diagram;
   std::vector<std::pair<std::string, const System*>> judges;  // model, system
   std::vector<std::string> judged;
   for (const auto& block : loaded_.systems) {
@@ -66,17 +66,18 @@ const System& PlanScene::FindJudge(const std::string& model) {
   }
   name_ = judges[0].first;
   const System& judge = *judges[0].second;
-  judge_ = wiring.NameOf(judge);
+  judge_ = diagram.PathOf(judge);
   model_ = loaded_.models.Get(name_);
-  distance_ = wiring.DriverOf(judge, "proximities").system;
-  const std::string got = distance_ == nullptr ? "nothing" : wiring.BlockOf(*distance_).type;
+  const auto proximities = diagram.DriverOf(judge.FindInput("proximities"));
+  distance_ = proximities ? proximities->system : nullptr;
+  const std::string got = distance_ == nullptr ? "nothing" : loaded_.BlockOf(*distance_).type;
   if (got != "BulletDistance") {
     throw ConfigError(
         fmt::format("{}.proximities: driver; got {}; expected a BulletDistance, which says what "
                     "there is to see",
                     judge_, got));
   }
-  const auto& block = wiring.BlockOf(*distance_);
+  const auto& block = loaded_.BlockOf(*distance_);
   params_ = ReadParams<systems::BulletDistance::Params>(block.params);
   if (FullName(loaded_.models, params_.model) != name_) {
     throw ConfigError(fmt::format("{}.model: got '{}'; expected '{}', which {} judges", block.name,
@@ -86,38 +87,37 @@ const System& PlanScene::FindJudge(const std::string& model) {
 }
 
 void PlanScene::FindMotion(const System& judge) {
-  const PlanWiring wiring(loaded_);
-  const OutputHandle request = wiring.DriverOf(judge, "request");
-  const OutputHandle position = wiring.DriverOf(judge, "position");
+  const Diagram& diagram = *loaded_.diagram;
+  const auto request = diagram.DriverOf(judge.FindInput("request"));
+  const auto position = diagram.DriverOf(judge.FindInput("position"));
   for (const auto& [port, driver] : {std::pair("request", request), {"position", position}}) {
-    if (driver.system != nullptr) continue;
+    if (driver) continue;
     throw ConfigError(fmt::format("{}.{}: driver; got nothing; expected one", judge_, port));
   }
   const std::string where = judge_ + ".request";
-  request_ = wiring.AheadOf(request, where).first;
+  request_ = MotionAheadOf(diagram, *request, where).motion;
   if (request_->size() != model_->num_positions()) {
     throw ConfigError(fmt::format("{}: length; got {} joints; expected {}", where, request_->size(),
                                   model_->num_positions()));
   }
-  const Context context = loaded_.diagram->MakeContext();
-  const auto start = EvalVector(position, context);
+  const Context context = diagram.MakeContext();
+  const auto start = EvalVector(*position, context);
   start_ = Eigen::Map<const VectorXd>(start.data(), static_cast<Eigen::Index>(start.size()));
 }
 
 void PlanScene::AddObstacles() {
-  const PlanWiring wiring(loaded_);
-  const OutputHandle driver = wiring.DriverOf(*distance_, "obstacles");
-  const std::string where = wiring.NameOf(*distance_) + ".obstacles";
-  const auto& block = wiring.BlockOf(*driver.system);
-  if (!wiring.TimeAlone(driver)) {
+  const Diagram& diagram = *loaded_.diagram;
+  const OutputHandle driver = diagram.DriverOf(distance_->FindInput("obstacles")).value();
+  const std::string where = diagram.PathOf(*distance_) + ".obstacles";
+  const auto& block = loaded_.BlockOf(*driver.system);
+  if (!diagram.UpstreamOf(driver, Through::kInstant).of_time_alone()) {
     throw ConfigError(fmt::format(
         "{}: driver; got '{}', a {}, which depends on the run; expected a source that time alone "
         "moves, as an ObstacleSource",
         where, block.name, block.type));
   }
   std::shared_ptr<ObstacleScript> script;
-  if (block.type == "ObstacleSource" &&
-      wiring.DriverOf(*driver.system, "offsets").system == nullptr) {
+  if (block.type == "ObstacleSource" && !diagram.DriverOf(driver.system->FindInput("offsets"))) {
     auto params = ReadParams<systems::ObstacleSource::Params>(block.params);
     params.period = Period();  // what it does between its samples counts too
     const std::shared_ptr<const Diagram> own =
@@ -138,27 +138,28 @@ void PlanScene::AddOther(const std::string& name) {
     sees_.push_back(name);
     return;
   }
-  const PlanWiring wiring(loaded_);
+  const Diagram& diagram = *loaded_.diagram;
   const std::string port = "links_" + name;
-  const std::string where = wiring.NameOf(*distance_) + "." + port;
-  const System* const kinematics = wiring.DriverOf(*distance_, port).system;
-  const auto& block = wiring.BlockOf(*kinematics);
+  const std::string where = diagram.PathOf(*distance_) + "." + port;
+  const System* const kinematics = diagram.DriverOf(distance_->FindInput(port)).value().system;
+  const auto& block = loaded_.BlockOf(*kinematics);
   if (block.type != "RobotKinematics") {
     throw ConfigError(fmt::format("{}: driver; got '{}', a {}; expected a RobotKinematics", where,
                                   block.name, block.type));
   }
-  const OutputHandle positions = wiring.DriverOf(*kinematics, "position");
-  if (wiring.TimeAlone(positions)) {
+  const OutputHandle positions = diagram.DriverOf(kinematics->FindInput("position")).value();
+  if (diagram.UpstreamOf(positions, Through::kInstant).of_time_alone()) {
     const auto context = std::make_shared<Context>(loaded_.diagram->MakeContext());
     AddLinks(name, other, [context, positions](double time) {
       context->SetTime(time);
       const auto q = EvalVector(positions, *context);
       return VectorXd(Eigen::Map<const VectorXd>(q.data(), static_cast<Eigen::Index>(q.size())));
     });
-    sees_.push_back(fmt::format("{} along {}", name, wiring.NameOf(*positions.system)));
+    sees_.push_back(fmt::format("{} along {}", name, diagram.PathOf(*positions.system)));
     return;
   }
-  const auto [motion, source] = wiring.AheadOf(positions, where);
+  const auto [motion, known_by] = MotionAheadOf(diagram, positions, where);
+  const std::string source = diagram.PathOf(*known_by);
   if (motion->size() != other->num_positions()) {
     throw ConfigError(fmt::format("{}: length of '{}'; got {} joints; expected {}", where, source,
                                   motion->size(), other->num_positions()));

@@ -22,31 +22,30 @@ bool Recorded(const LoadedDiagram& loaded, const std::string& name) {
 /// The held delta of a limiter that has the same robot, if that one is recorded and `delta` is not.
 OutputHandle RecordedDelta(const LoadedDiagram& loaded, const diagrams::SignalFacts& facts,
                            const OutputHandle& delta) {
-  if (Recorded(loaded, facts.NameOf(delta))) return delta;
+  if (Recorded(loaded, loaded.diagram->PathOf(delta))) return delta;
   for (const OutputHandle& other : facts.OutputsOf("DeltaLimiter", kVectorType.name)) {
     const bool same_robot = facts.RobotOf(other) == facts.RobotOf(delta);
-    if (same_robot && Recorded(loaded, facts.NameOf(other))) return other;
+    if (same_robot && Recorded(loaded, loaded.diagram->PathOf(other))) return other;
   }
   return delta;
 }
 
 /// What an overlay applies of a limited delta, if that is recorded and the delta itself is not.
-OutputHandle AppliedDelta(const LoadedDiagram& loaded, const diagrams::SignalFacts& facts,
-                          const OutputHandle& limited) {
-  if (Recorded(loaded, facts.NameOf(limited))) return limited;
+OutputHandle AppliedDelta(const LoadedDiagram& loaded, const OutputHandle& limited) {
+  if (Recorded(loaded, loaded.diagram->PathOf(limited))) return limited;
   for (const LoadedDiagram::Block& block : loaded.systems) {
     if (block.type != "DeltaOverlay") continue;
-    const auto delta = facts.DriverOf(block.name, "delta");
+    const auto delta = loaded.diagram->DriverOf(loaded.diagram->FindInput(block.name + ".delta"));
     const OutputHandle applied =
         loaded.diagram->FindSystem(block.name)->FindOutput("applied_delta");
-    const bool same = delta && facts.NameOf(*delta) == facts.NameOf(limited);
-    if (same && Recorded(loaded, facts.NameOf(applied))) return applied;
+    const bool same = delta && *delta == limited;
+    if (same && Recorded(loaded, loaded.diagram->PathOf(applied))) return applied;
   }
   return limited;
 }
 
-std::string TopicOf(const OutputHandle& output, const diagrams::SignalFacts& facts) {
-  std::string topic = "/" + facts.NameOf(output);
+std::string TopicOf(const LoadedDiagram& loaded, const OutputHandle& output) {
+  std::string topic = "/" + loaded.diagram->PathOf(output);
   std::replace(topic.begin(), topic.end(), '.', '/');
   return topic;
 }
@@ -83,8 +82,7 @@ Period SamplingOf(const LoadedDiagram::Block& block) {
 
 }  // namespace
 
-std::vector<LimitHint> LimitHintsOf(const LoadedDiagram& loaded,
-                                    const diagrams::SignalFacts& facts) {
+std::vector<LimitHint> LimitHintsOf(const LoadedDiagram& loaded) {
   std::vector<LimitHint> hints;
   for (const LoadedDiagram::Block& block : loaded.systems) {
     if (SwitchedOff(block)) continue;
@@ -94,9 +92,10 @@ std::vector<LimitHint> LimitHintsOf(const LoadedDiagram& loaded,
       hint.kind = "rate";
       hint.bound = NumbersAt(block, "max_joint_velocity");
       if (hint.bound.empty()) hint.bound = {systems::DeltaLimiter::Params{}.max_joint_velocity[0]};
-      hint.output = AppliedDelta(loaded, facts, system.FindOutput("limited_delta"));
+      hint.output = AppliedDelta(loaded, system.FindOutput("limited_delta"));
     } else if (block.type == "RepulsiveField") {
-      const auto proximities = facts.DriverOf(block.name, "proximities");
+      const auto proximities =
+          loaded.diagram->DriverOf(loaded.diagram->FindInput(block.name + ".proximities"));
       hint.kind = "below";
       hint.bound = NumbersAt(block, "max_distance");
       if (!proximities || hint.bound.empty()) continue;
@@ -116,14 +115,13 @@ std::vector<LimitHint> LimitHintsOf(const LoadedDiagram& loaded,
   return hints;
 }
 
-std::string LimitHintsJson(const std::vector<LimitHint>& hints,
-                           const diagrams::SignalFacts& facts) {
+std::string LimitHintsJson(const LoadedDiagram& loaded, const std::vector<LimitHint>& hints) {
   ordered_json list = ordered_json::array();
   for (const LimitHint& hint : hints) {
     ordered_json json{{"system", hint.system},
                       {"type", hint.type},
                       {"kind", hint.kind},
-                      {"signal", TopicOf(hint.output, facts)}};
+                      {"signal", TopicOf(loaded, hint.output)}};
     if (hint.bound.size() == 1) json["bound"] = hint.bound[0];
     if (hint.bound.size() > 1) json["bound"] = hint.bound;
     list.push_back(json);
@@ -146,34 +144,37 @@ std::vector<PlotHint> PlotHintsOf(const LoadedDiagram& loaded, const diagrams::S
       }
     }
     if (block.type != "MotionMetrics") continue;
-    if (const auto output = facts.DriverOf(block.name, "request")) {
+    if (const auto output =
+            loaded.diagram->DriverOf(loaded.diagram->FindInput(block.name + ".request"))) {
       requested.outputs.push_back(*output);
     }
-    if (const auto output = facts.DriverOf(block.name, "delta")) {
+    if (const auto output =
+            loaded.diagram->DriverOf(loaded.diagram->FindInput(block.name + ".delta"))) {
       delta.outputs.push_back(RecordedDelta(loaded, facts, *output));
     }
-    if (const auto output = facts.DriverOf(block.name, "position")) {
+    if (const auto output =
+            loaded.diagram->DriverOf(loaded.diagram->FindInput(block.name + ".position"))) {
       final_joints.outputs.push_back(*output);
     }
   }
   distance.outputs = facts.OutputsOf("BulletDistance", "ProximitySet");
   for (const OutputHandle& output : facts.OutputsOf("IntegratorPlant", kVectorType.name)) {
-    if (facts.NameOf(output).ends_with(".velocity")) speed.outputs.push_back(output);
+    if (loaded.diagram->PathOf(output).ends_with(".velocity")) speed.outputs.push_back(output);
   }
   std::vector<PlotHint> hints;
   for (PlotHint* hint : {&requested, &delta, &final_joints, &distance, &speed}) {
     if (hint->outputs.empty()) continue;
-    if (hint->unit.empty()) hint->unit = facts.UnitOf(hint->outputs.front());
+    if (hint->unit.empty()) hint->unit = loaded.diagram->UnitOf(hint->outputs.front()).ToString();
     hints.push_back(std::move(*hint));
   }
   return hints;
 }
 
-std::string PlotHintsJson(const std::vector<PlotHint>& hints, const diagrams::SignalFacts& facts) {
+std::string PlotHintsJson(const LoadedDiagram& loaded, const std::vector<PlotHint>& hints) {
   ordered_json list = ordered_json::array();
   for (const PlotHint& hint : hints) {
     ordered_json topics = ordered_json::array();
-    for (const OutputHandle& output : hint.outputs) topics.push_back(TopicOf(output, facts));
+    for (const OutputHandle& output : hint.outputs) topics.push_back(TopicOf(loaded, output));
     ordered_json json{
         {"id", hint.id}, {"title", hint.title}, {"unit", hint.unit}, {"topics", topics}};
     if (hint.limit) json["limit"] = *hint.limit;

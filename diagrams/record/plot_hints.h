@@ -38,11 +38,12 @@ struct LimitHint {
 
 /// The systems of a diagram that limit: DeltaLimiter, RepulsiveField, SafetyFilter, MotionLimiter,
 /// without those that are switched off. Where several signals would do, one that is recorded.
-std::vector<LimitHint> LimitHintsOf(const diagrams::LoadedDiagram& loaded,
-                                    const diagrams::SignalFacts& facts);
+std::vector<LimitHint> LimitHintsOf(const diagrams::LoadedDiagram& loaded);
 
 /// As JSON lists, for metadata `oca.plots`.
-std::string PlotHintsJson(const std::vector<PlotHint>& hints, const diagrams::SignalFacts& facts);
-std::string LimitHintsJson(const std::vector<LimitHint>& hints, const diagrams::SignalFacts& facts);
+std::string PlotHintsJson(const diagrams::LoadedDiagram& loaded,
+                          const std::vector<PlotHint>& hints);
+std::string LimitHintsJson(const diagrams::LoadedDiagram& loaded,
+                           const std::vector<LimitHint>& hints);
 
 }  // namespace oca::record

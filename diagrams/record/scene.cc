@@ -68,10 +68,10 @@ Scene::Scene(const diagrams::LoadedDiagram& loaded, const diagrams::SignalFacts&
   proximities_ = AddSources(facts.OutputsOf("BulletDistance", Signal<ProximitySet>::kName));
   std::vector<OutputHandle> forces, wrenches;
   for (const auto& output : facts.OutputsOf("", Signal<LinkForceSet>::kName)) {
-    if (facts.BlockOf(output.system)->type != "ForceSum") forces.push_back(output);
+    if (loaded.BlockOf(*output.system).type != "ForceSum") forces.push_back(output);
   }
   for (const auto& output : facts.OutputsOf("", Signal<WrenchSet>::kName)) {
-    if (!facts.NameOf(output).ends_with("_in_link")) wrenches.push_back(output);
+    if (!loaded.diagram->PathOf(output).ends_with("_in_link")) wrenches.push_back(output);
   }
   forces_ = AddSources(forces);
   wrenches_ = AddSources(wrenches);
@@ -103,12 +103,14 @@ void Scene::AddRobots(const diagrams::LoadedDiagram& loaded, const diagrams::Sig
     robot.X_WL = models::LinkPoses(*model, Eigen::VectorXd::Zero(model->num_positions()));
     for (const auto& block : loaded.systems) {
       if (block.type == "RobotKinematics" && !robot.links) {
-        const auto position = facts.DriverOf(block.name, "position");
+        const auto position =
+            loaded.diagram->DriverOf(loaded.diagram->FindInput(block.name + ".position"));
         if (!position || facts.RobotOf(*position) != name) continue;
         robot.links = AddSources({loaded.diagram->FindSystem(block.name)->FindOutput("links")})[0];
       }
       if (block.type == "MotionMetrics" && !robot.request) {
-        const auto request = facts.DriverOf(block.name, "request");
+        const auto request =
+            loaded.diagram->DriverOf(loaded.diagram->FindInput(block.name + ".request"));
         if (!request || facts.RobotOf(*request) != name) continue;
         robot.request = AddSources({*request})[0];
       }
