@@ -120,6 +120,7 @@ CatalogueRow Row(const char* type) {
     return texts;
   };
   row.needs_models = std::constructible_from<S, const Params&, const systems::ModelSet&>;
+  row.says_obstacles = requires { requires S::kSaysObstacles; };
   return row;
 }
 

@@ -28,6 +28,8 @@ struct CatalogueRow {
   std::string (*schema)();                 ///< of its parameters
   std::vector<std::string> (*defaults)();  ///< one a field, as JSON
   bool needs_models;
+  /// Its parameter `obstacles` is that of an ObstacleSource: what goals are to be clear of.
+  bool says_obstacles;
 };
 
 /// Every system, by type name in alphabetic order.

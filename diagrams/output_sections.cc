@@ -129,7 +129,7 @@ class ExpectationReader {
   }
 
   bool AimAtMetric(const NamedOutputs& metrics) {
-    if (metrics.empty()) return Fail(": a metric needs a system of type MotionMetrics");
+    if (metrics.empty()) return Fail(": a metric needs a system that judges the run");
     result_.output = metrics.front().second;
     result_.member = entry_.key;
     result_.metric = true;

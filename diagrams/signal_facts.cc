@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "diagrams/signal_facts.h"
 
-#include "diagrams/catalogue.h"
-
 namespace oca::diagrams {
 
 SignalFacts::SignalFacts(const LoadedDiagram& loaded) : loaded_(loaded) {
@@ -36,7 +34,7 @@ bool SignalFacts::Claim(const System& system, const std::string& robot) {
 /// A system that names a robot reads and writes vectors of its joints.
 void SignalFacts::ClaimModels() {
   for (const LoadedDiagram::Block& block : loaded_.systems) {
-    if (!FindRow(block.type).needs_models) continue;
+    if (!block.of_models) continue;
     const Value* const model = block.params.Find("model");
     std::string name = model != nullptr && model->string() != nullptr ? *model->string() : "";
     if (name.empty() && loaded_.models.all().size() == 1)
@@ -72,19 +70,6 @@ std::vector<std::string> SignalFacts::JointsOf(const OutputHandle& output) const
     joints.push_back(joint.text());
   }
   return joints;
-}
-
-std::vector<OutputHandle> SignalFacts::OutputsOf(const std::string& system_type,
-                                                 const std::string& signal_type) const {
-  std::vector<OutputHandle> found;
-  for (const auto& block : loaded_.systems) {
-    if (!system_type.empty() && block.type != system_type) continue;
-    const System* const system = loaded_.diagram->FindSystem(block.name);
-    for (const auto& output : system->outputs()) {
-      if (output.type->name == signal_type) found.push_back(system->FindOutput(output.name));
-    }
-  }
-  return found;
 }
 
 }  // namespace oca::diagrams

@@ -22,9 +22,6 @@ class SignalFacts {
   std::string RobotOf(const OutputHandle& output) const;
   /// Names of that robot's joints, one an element of the output; empty if it is none's.
   std::vector<std::string> JointsOf(const OutputHandle& output) const;
-  /// The outputs of systems of a type (any: empty) whose signals are of a type, by name.
-  std::vector<OutputHandle> OutputsOf(const std::string& system_type,
-                                      const std::string& signal_type) const;
 
  private:
   using Key = std::pair<const System*, int>;

@@ -74,6 +74,23 @@ class Diagram final : public System {
 
   /// The leaves in this diagram, in order.
   std::vector<Leaf> systems() const;
+  /// All that leaves in this diagram declare of a role, in order.
+  template <class Role>
+  struct Declared {
+    std::string path;
+    const System* system;
+    const Role* role;
+  };
+  template <class Role>
+  std::vector<Declared<Role>> FindRoles() const {
+    std::vector<Declared<Role>> found;
+    for (const Leaf& leaf : systems()) {
+      for (const Role* role : leaf.system->template roles<Role>()) {
+        found.push_back({leaf.path, leaf.system, role});
+      }
+    }
+    return found;
+  }
   /// From the root; of the root itself empty.
   std::string PathOf(const System& system) const;
   std::string PathOf(const OutputHandle& output) const;

@@ -206,7 +206,7 @@ std::vector<int> ScheduleCompiler::ReportLoop(const std::vector<int>& open_prede
     path += (i > 0 ? " -> " : "") + wiring_.NameOfOutput(to.leaf, to.output);
   }
   wiring_.problems().push_back(fmt::format(
-      "algebraic loop: {}; break it with a Delay, a ZeroOrderHold or any system whose output is a "
+      "algebraic loop: {}; break it with a delay, a hold or any system whose output is a "
       "state",
       path));
   return walk;

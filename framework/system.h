@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <any>
 #include <functional>
 #include <initializer_list>
 #include <string>
@@ -98,6 +99,25 @@ class System {
   int size_variables() const { return size_variables_; }
   int unit_variables() const { return unit_variables_; }
 
+  /// What the system is for others, beyond its ports: a role is a struct of any type that a
+  /// constructor declares. nullptr if it has none of that type; the first of several.
+  template <class Role>
+  const Role* role() const {
+    for (const std::any& declared : roles_) {
+      if (const auto* const found = std::any_cast<Role>(&declared)) return found;
+    }
+    return nullptr;
+  }
+  /// All of a type, in the order of their declaration.
+  template <class Role>
+  std::vector<const Role*> roles() const {
+    std::vector<const Role*> found;
+    for (const std::any& declared : roles_) {
+      if (const auto* const one = std::any_cast<Role>(&declared)) found.push_back(one);
+    }
+    return found;
+  }
+
   /// Ports by name. throw WiringError naming the ports there are.
   virtual InputHandle FindInput(const std::string& name) const;
   virtual OutputHandle FindOutput(const std::string& name) const;
@@ -110,6 +130,11 @@ class System {
   /// throws ConfigError if two lists differ in length.
   Size DeclareSize(std::initializer_list<std::pair<const char*, const PerComponent*>> parameters);
   Unit DeclareUnit() { return Unit::Variable(unit_variables_++); }
+
+  template <class Role>
+  void DeclareRole(Role role) {
+    roles_.emplace_back(std::move(role));
+  }
 
   template <class T>
   Input<T> DeclareInput(std::string name, PortSpec spec = {}) {
@@ -243,6 +268,7 @@ class System {
   std::vector<StateInfo> states_;
   std::vector<EventInfo> events_;
   std::vector<WitnessInfo> witnesses_;
+  std::vector<std::any> roles_;
   int size_variables_{0};
   int unit_variables_{0};
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "systems/require.h"
+#include "systems/roles.h"
 
 namespace oca::systems {
 namespace {
@@ -34,6 +35,13 @@ DeltaLimiter::DeltaLimiter(const Params& params)
       delta(DeclareInput<Vector>("delta", {size_, unit_})),
       limited_delta(DeclareStateOutput("limited_delta", x_)) {
   DeclareUpdate<&DeltaLimiter::Update>(Every{params_.period}, Writes(x_), delta, x_);
+  DeclareRole(CarriesDelta{.in = delta, .out = limited_delta});
+  if (!params_.enabled) return;
+  const Eigen::VectorXd& bound = params_.max_joint_velocity.values();
+  DeclareRole(Limits{.shown = Limits::Shown::kRate,
+                     .signal = limited_delta,
+                     .bound = {bound.begin(), bound.end()},
+                     .period = params_.period});
 }
 
 void DeltaLimiter::Shrink(VectorView delta_value, VectorView x, MutableVectorView next) const {

@@ -2,6 +2,7 @@
 #include "systems/delta_overlay.h"
 
 #include "systems/require.h"
+#include "systems/roles.h"
 
 namespace oca::systems {
 namespace {
@@ -35,6 +36,10 @@ DeltaOverlay::DeltaOverlay(const Params& params)
                                                                   velocity_in, delta, x_)),
       applied_delta(DeclareOutput<Vector, &DeltaOverlay::CalcApplied>("applied_delta",
                                                                       {size_, unit_}, delta)) {
+  if (params_.enabled) {
+    DeclareRole(PassesOn{.in = delta, .out = applied_delta});
+    DeclareRole(AddsDelta{.delta = delta, .request = position_in, .period = params_.period});
+  }
   if (!params_.period.positive()) return;
   DeclareUpdate<&DeltaOverlay::Update>(Every{params_.period}, Writes(x_), delta);
 }

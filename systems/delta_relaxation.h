@@ -41,8 +41,6 @@ class DeltaRelaxation final : public System {
 
   explicit DeltaRelaxation(const Params& params);
 
-  const Params& params() const { return params_; }
-
  private:
   const Params params_;
   const Size size_;

@@ -3,6 +3,7 @@
 
 #include "systems/model_links.h"
 #include "systems/require.h"
+#include "systems/roles.h"
 
 namespace oca::systems {
 
@@ -32,6 +33,16 @@ MotionMetrics::MotionMetrics(const Params& params, const ModelSet& models)
   RequirePositive("period", params.period);
   DeclareUpdate<&MotionMetrics::Update>(Every{params.period}, Writes(x_), kTime, position, request,
                                         goal, delta, proximities);
+  DeclareRole(Boundary{"the judge"});
+  DeclareRole(Judges{.metrics = metrics,
+                     .position = position,
+                     .request = request,
+                     .delta = delta,
+                     .proximities = proximities,
+                     .model = params.model});
+  DeclareRole(Plots{.id = "requested", .title = "Requested joints", .signal = request});
+  DeclareRole(Plots{.id = "delta", .title = "Deltas of the avoidance", .signal = delta});
+  DeclareRole(Plots{.id = "final", .title = "Final joints", .signal = position});
 }
 
 PortSpec MotionMetrics::MakeSpec() {

@@ -7,6 +7,7 @@
 
 #include "framework/error.h"
 #include "systems/require.h"
+#include "systems/roles.h"
 
 namespace oca::systems {
 namespace {
@@ -41,6 +42,9 @@ RepulsiveField::RepulsiveField(const Params& params)
       proximities(DeclareInput<ProximitySet>("proximities")),
       forces(DeclareOutput<LinkForceSet, &RepulsiveField::CalcForces>("forces", {}, proximities)),
       slopes(DeclareOutput<ContactSlopes, &RepulsiveField::CalcSlopes>("slopes", {}, proximities)) {
+  DeclareRole(Repels{params_.max_distance});
+  DeclareRole(Limits{
+      .shown = Limits::Shown::kBelow, .signal = proximities, .bound = {params_.max_distance}});
 }
 
 double RepulsiveField::Magnitude(double distance) const {

@@ -11,6 +11,7 @@
 #include "systems/json_fields.h"
 #include "systems/model_links.h"
 #include "systems/require.h"
+#include "systems/roles.h"
 
 namespace oca::systems {
 namespace {
@@ -67,6 +68,9 @@ VortexField::VortexField(const Params& params, const ModelSet& models)
       slopes(
           DeclareOutput<ContactSlopes, &VortexField::CalcSlopes>("slopes", {}, proximities, axes)) {
   DeclareUpdate<&VortexField::Update>(Every{params_.period}, Writes(held_), axes);
+  DeclareRole(Repels{params_.max_distance});
+  DeclareRole(Limits{
+      .shown = Limits::Shown::kBelow, .signal = proximities, .bound = {params_.max_distance}});
 }
 
 double VortexField::Angle(double distance) const {

@@ -8,6 +8,7 @@
 #include "diagrams/diagram_file.h"
 #include "diagrams/package_paths.h"
 #include "models/robot/urdf.h"
+#include "systems/roles.h"
 #include "tools/commands.h"
 #include "tools/terminal.h"
 
@@ -57,6 +58,9 @@ int DescribeCommand(const std::string& type) {
   Print("\nports\n");
   PrintPorts("input", example->inputs());
   PrintPorts("output", example->outputs());
+  const auto roles = systems::DescribeRoles(*example);
+  if (!roles.empty()) Print("\nroles\n");
+  for (const std::string& role : roles) Print("  {}\n", role);
   Print("\nparameters\n");
   const auto defaults = row.defaults();
   for (std::size_t i = 0; i < row.fields().size(); ++i) {

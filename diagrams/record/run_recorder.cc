@@ -105,19 +105,21 @@ bool RunRecorder::HasChannelOf(const OutputHandle& output) const {
                      [&](const auto& other) { return other.topic == channel.topic; });
 }
 
-/// The last group: what the scene shows, then what plots need and nobody records.
+/// The last group: what the scene shows, then what plots and limits need and nobody records.
 void RunRecorder::AddScene(double duration, Groups& groups) {
   scene_group_ = static_cast<int>(groups.size());
   SampleQueue::Group group{scene_->sources(), CapacityFor(duration, loaded_.scene_period)};
   SignalGroup extra{loaded_.scene_period, {}, {}};
-  for (const PlotHint& hint : PlotHintsOf(loaded_, *facts_)) {
-    for (const OutputHandle& output : hint.outputs) {
-      if (HasChannelOf(output)) continue;
-      extra.formats.push_back(FormatOf(output));
-      extra.channels.push_back(AddChannel(ChannelOf(extra.formats.back())));
-      group.outputs.push_back(output);
-    }
+  const auto add = [&](const OutputHandle& output) {
+    if (HasChannelOf(output)) return;
+    extra.formats.push_back(FormatOf(output));
+    extra.channels.push_back(AddChannel(ChannelOf(extra.formats.back())));
+    group.outputs.push_back(output);
+  };
+  for (const PlotHint& hint : PlotHintsOf(loaded_)) {
+    for (const OutputHandle& output : hint.outputs) add(output);
   }
+  for (const LimitHint& hint : LimitHintsOf(loaded_)) add(hint.output);
   signals_.push_back(std::move(extra));
   groups.push_back(std::move(group));
 }
@@ -162,7 +164,7 @@ void RunRecorder::BeginSinks() {
     sink->AddMetadata(MainMetadata("running", nullptr));
     sink->AddMetadata({"oca.parameters", ParameterTexts(loaded_)});
     sink->AddMetadata({"oca.overrides", OverrideTexts(options_.overrides)});
-    const std::string plots = PlotHintsJson(loaded_, PlotHintsOf(loaded_, *facts_));
+    const std::string plots = PlotHintsJson(loaded_, PlotHintsOf(loaded_));
     const std::string limits = LimitHintsJson(loaded_, LimitHintsOf(loaded_));
     sink->AddMetadata({"oca.plots", {{"plots", plots}, {"limits", limits}}});
     sink->AddMetadata({"oca.warnings", WarningTexts(warnings_)});
