@@ -8,16 +8,17 @@
 namespace oca::systems {
 namespace {
 
-std::string NameOf(const OutputHandle& output) {
+std::string PortText(const OutputHandle& output) {
   return "`" + output.system->outputs()[static_cast<std::size_t>(output.index)].name + "`";
 }
 
-std::string NameOf(const InputHandle& input) {
+std::string PortText(const InputHandle& input) {
   return "`" + input.system->inputs()[static_cast<std::size_t>(input.index)].name + "`";
 }
 
-std::string NameOf(const RolePort& port) {
-  return port.output.system != nullptr ? NameOf(port.output) : "what drives " + NameOf(port.input);
+std::string PortText(const RolePort& port) {
+  return port.output.system != nullptr ? PortText(port.output)
+                                       : "what drives " + PortText(port.input);
 }
 
 }  // namespace
@@ -33,33 +34,37 @@ std::vector<std::string> DescribeRoles(const System& system) {
   const auto each = [&]<class Role>(std::string (*text_of)(const Role&)) {
     for (const Role* role : system.roles<Role>()) texts.push_back(text_of(*role));
   };
-  each(+[](const Limits& role) { return "limits, as " + NameOf(role.signal) + " shows"; });
-  each(+[](const Judges& role) { return "judges a run: " + NameOf(role.metrics); });
+  each(+[](const Limits& role) { return "limits, as " + PortText(role.signal) + " shows"; });
+  each(+[](const Judges& role) { return "judges a run: " + PortText(role.metrics); });
   each(+[](const Boundary& role) {
     return fmt::format("stands for {}, whose place a robot's own loop takes", role.stands_for);
   });
-  each(+[](const HoldsObstacles& role) {
-    return "says where obstacles really are: " + NameOf(role.obstacles);
+  each(+[](const Plant& role) {
+    return "moves joints by " + PortText(role.command) + ": " + PortText(role.position);
   });
-  each(
-      +[](const Kinematics& role) { return "places the links of a robot: " + NameOf(role.links); });
+  each(+[](const HoldsObstacles& role) {
+    return "says where obstacles really are: " + PortText(role.obstacles);
+  });
+  each(+[](const Kinematics& role) {
+    return "places the links of a robot: " + PortText(role.links);
+  });
   each(+[](const MeasuresDistances& role) {
-    return "measures distances: " + NameOf(role.proximities);
+    return "measures distances: " + PortText(role.proximities);
   });
   each(+[](const BlindSpots&) { return std::string("knows what is not seen"); });
   each(+[](const Repels& role) { return fmt::format("pushes links up to {} m away", role.range); });
   each(+[](const Plots& role) {
-    return fmt::format("plots {} ({})", NameOf(role.signal), role.title);
+    return fmt::format("plots {} ({})", PortText(role.signal), role.title);
   });
-  each(+[](const NotDrawn& role) { return NameOf(role.output) + " is not drawn"; });
-  each(+[](const PassesOn& role) { return NameOf(role.out) + " shows " + NameOf(role.in); });
+  each(+[](const NotDrawn& role) { return PortText(role.output) + " is not drawn"; });
+  each(+[](const PassesOn& role) { return PortText(role.out) + " shows " + PortText(role.in); });
   each(
       +[](const Remarks&) { return std::string("may have remarks when it is loaded or checked"); });
-  each(+[](const MapsForces& role) { return "maps forces to a delta: " + NameOf(role.delta); });
+  each(+[](const MapsForces& role) { return "maps forces to a delta: " + PortText(role.delta); });
   each(+[](const CarriesDelta& role) {
-    return "a delta passes from " + NameOf(role.in) + " to " + NameOf(role.out);
+    return "a delta passes from " + PortText(role.in) + " to " + PortText(role.out);
   });
-  each(+[](const AddsDelta& role) { return "adds " + NameOf(role.delta) + " to the request"; });
+  each(+[](const AddsDelta& role) { return "adds " + PortText(role.delta) + " to the request"; });
   return texts;
 }
 
