@@ -16,7 +16,7 @@
 #include "diagrams/catalogue.h"
 
 namespace oca::diagrams {
-namespace {
+namespace type_names_test {
 
 namespace fs = std::filesystem;
 using testing::ElementsAre;
@@ -117,5 +117,5 @@ TEST(TypeNamesTest, StandNowhereButInTheCatalogue) {
   EXPECT_GT(files, 200);
 }
 
-}  // namespace
+}  // namespace type_names_test
 }  // namespace oca::diagrams

@@ -6,7 +6,7 @@
 #include "tests/framework/blocks.h"
 
 namespace oca {
-namespace {
+namespace diagram_questions_test {
 
 using blocks::Vec;
 using testing::ElementsAre;
@@ -173,5 +173,5 @@ TEST(DiagramUnitTest, OtherTypesHaveNeitherSizeNorUnit) {
   EXPECT_TRUE(diagram->UnitOf(diagram->FindInput("in")).any());
 }
 
-}  // namespace
+}  // namespace diagram_questions_test
 }  // namespace oca

@@ -4,7 +4,7 @@
 #include "framework/port.h"
 
 namespace oca {
-namespace {
+namespace unit_test {
 
 TEST(UnitTest, IsTheSameHoweverItsRatesAreWritten) {
   EXPECT_EQ(Unit("rad/s^2"), Unit("rad").Rate().Rate());
@@ -33,5 +33,5 @@ TEST(UnitTest, AnyIsAnyHoweverOftenItIsTakenPerSecond) {
   EXPECT_FALSE(Unit::Variable(0).any());
 }
 
-}  // namespace
+}  // namespace unit_test
 }  // namespace oca

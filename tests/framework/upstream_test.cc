@@ -6,7 +6,7 @@
 #include "tests/framework/blocks.h"
 
 namespace oca {
-namespace {
+namespace upstream_test {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -136,5 +136,5 @@ TEST(UpstreamOfLoopsTest, EndsInALoopAndListsEachOnce) {
   EXPECT_EQ(upstream.states.size(), 1u);
 }
 
-}  // namespace
+}  // namespace upstream_test
 }  // namespace oca

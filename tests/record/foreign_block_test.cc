@@ -14,7 +14,7 @@
 #include "tests/record/record_runs.h"
 
 namespace oca::record {
-namespace {
+namespace foreign_block_test {
 
 using nlohmann::json;
 using systems::ObstacleSet;
@@ -234,5 +234,5 @@ TEST(ForeignBlockTest, IsRecordedAndDrawn) {
   EXPECT_EQ(lines["entities"][0]["lines"][0]["points"].size(), 2u);
 }
 
-}  // namespace
+}  // namespace foreign_block_test
 }  // namespace oca::record

@@ -28,7 +28,7 @@
 #include "tests/systems/test_models.h"
 
 namespace oca::systems {
-namespace {
+namespace roles_test {
 
 using testing::Contains;
 using testing::ElementsAre;
@@ -223,5 +223,5 @@ TEST(RolesTest, APortOfARoleIsAnOutputOrWhatDrivesAnInput) {
   EXPECT_EQ(RolePort().In(*diagram), std::nullopt);
 }
 
-}  // namespace
+}  // namespace roles_test
 }  // namespace oca::systems
