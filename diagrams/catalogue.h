@@ -25,6 +25,8 @@ struct CatalogueRow {
   std::shared_ptr<const void> example_params;  ///< of a small valid instance
   std::function<std::unique_ptr<System>(const void* params, const systems::ModelSet& models)> build;
   bool needs_models;
+  /// Its parameter `obstacles` is that of an ObstacleSource: what goals are to be clear of.
+  bool says_obstacles{false};
 
   /// A new system; nullptr, with problems, if the parameters are wrong. `where` is the path of the
   /// parameters in the file.
@@ -72,9 +74,11 @@ class Catalogue {
   Catalogue& Add(const std::string& type) {
     using P = typename S::Params;
     constexpr bool kNeedsModels = std::constructible_from<S, const P&, const systems::ModelSet&>;
-    return AddRow(RowOf<P>(
+    CatalogueRow row = RowOf<P>(
         type, S::kDoc, S::Example(), kNeedsModels,
-        [](const P& params, const systems::ModelSet& models) { return Make<S>(params, models); }));
+        [](const P& params, const systems::ModelSet& models) { return Make<S>(params, models); });
+    row.says_obstacles = requires { requires S::kSaysObstacles; };
+    return AddRow(std::move(row));
   }
   /// Adds what `make` makes of parameters, as a lambda that calls MakeBlock; `example` are those of
   /// a small valid instance. The texts of `doc` must outlive the catalogue.
@@ -120,7 +124,8 @@ class Catalogue {
             [make = std::move(make)](const void* params, const systems::ModelSet& models) {
               return make(*static_cast<const P*>(params), models);
             },
-            needs_models};
+            needs_models,
+            false};
   }
 
   std::vector<Row> rows_;

@@ -5,27 +5,25 @@
 
 #include <algorithm>
 #include <exception>
-#include <map>
+#include <iterator>
 #include <optional>
-#include <set>
+#include <utility>
 
 #include "framework/dynamic_port.h"
 #include "framework/port_access.h"
 #include "framework/simulator.h"
-#include "systems/delta_overlay.h"
-#include "systems/delta_relaxation.h"
-#include "systems/loop_gain.h"
-#include "systems/robot_kinematics.h"
+#include "models/robot/loop_gain.h"
+#include "systems/contact_slopes.h"
+#include "systems/roles.h"
 
 namespace oca::diagrams {
 namespace {
 
+using systems::AddsDelta;
+using systems::CarriesDelta;
 using systems::ContactSlopes;
-using systems::DeltaOverlay;
-using systems::DeltaRelaxation;
-using systems::JacobianMapping;
-using systems::LoopGain;
-using systems::RobotKinematics;
+using systems::Kinematics;
+using systems::MapsForces;
 
 constexpr int kSamples = 100;
 constexpr int kIterations = 6;
@@ -34,90 +32,84 @@ constexpr double kLargestStep = 0.05;
 // A delta that is still this far from rest after the last iteration says nothing (rad).
 constexpr double kAtRest = 1e-3;
 
-/// The systems of one loop.
+/// The parts of one loop.
 struct Loop {
-  const JacobianMapping* mapping{nullptr};
-  const RobotKinematics* kinematics{nullptr};
-  const DeltaRelaxation* relaxation{nullptr};  ///< nullptr: none
-  const DeltaOverlay* overlay{nullptr};
+  const System* mapping{nullptr};
+  const System* kinematics{nullptr};
+  const System* relaxation{nullptr};  ///< nullptr: none
+  double relaxation_time{0.0};        ///< s, of that
+  const System* overlay{nullptr};
   OutputHandle request{};
 };
 
-/// Looks around in the wiring of a diagram.
-class Wiring {
- public:
-  explicit Wiring(const Diagram& diagram) : diagram_(diagram) {}
+template <class Role>
+const Role& RoleOf(const System& system) {
+  return *system.role<Role>();
+}
 
-  /// What drives an input; an index of -1: nothing.
-  OutputHandle DriverOf(const InputHandle& input) const {
-    for (const auto& [from, to] : diagram_.connections()) {
-      if (to.system == input.system && to.index == input.index) return from;
+/// Follows a delta to where it is added to the request. False if it gets nowhere, or if what calms
+/// the loop adapts itself.
+bool FollowDelta(const Diagram& diagram, const OutputHandle& delta, int steps, Loop& loop) {
+  for (const InputHandle& reader :
+       steps > 0 ? diagram.ReadersOf(delta) : std::vector<InputHandle>{}) {
+    const auto* const adds = reader.system->role<AddsDelta>();
+    if (adds != nullptr && adds->delta == reader) {
+      loop.overlay = reader.system;
+      return true;
     }
-    return {};
-  }
-
-  /// The loop that the mapping is part of, if it is of the known make and not switched off.
-  std::optional<Loop> LoopOf(const JacobianMapping& mapping) const {
-    Loop loop;
-    loop.mapping = &mapping;
-    const System* at = &mapping;
-    for (int step = 0; step < 10 && loop.overlay == nullptr; ++step) {
-      at = After(*at);
-      if (at == nullptr) return std::nullopt;
-      if (const auto* relaxation = dynamic_cast<const DeltaRelaxation*>(at)) {
-        if (DriverOf(relaxation->relaxation_time).index >= 0) return std::nullopt;  // it adapts
-        loop.relaxation = relaxation;
-      }
-      loop.overlay = dynamic_cast<const DeltaOverlay*>(at);
+    const auto* const carries = reader.system->role<CarriesDelta>();
+    if (carries == nullptr || !(carries->in == reader)) continue;
+    const InputHandle& adapts = carries->adapts;
+    if (adapts.system != nullptr && diagram.DriverOf(adapts)) continue;
+    if (!FollowDelta(diagram, carries->out, steps - 1, loop)) continue;
+    if (carries->relaxation_time && loop.relaxation == nullptr) {
+      loop.relaxation = reader.system;
+      loop.relaxation_time = *carries->relaxation_time;
     }
-    if (loop.overlay == nullptr || !loop.overlay->params().enabled) return std::nullopt;
-    if (!loop.overlay->params().period.positive()) return std::nullopt;
-    loop.kinematics = dynamic_cast<const RobotKinematics*>(DriverOf(mapping.links).system);
-    loop.request = DriverOf(loop.overlay->position_in);
-    if (loop.kinematics == nullptr || loop.request.index < 0) return std::nullopt;
-    return loop;
+    return true;
   }
+  return false;
+}
 
- private:
-  /// The next system on the way of a delta: what an output is called does not matter, an input
-  /// does.
-  const System* After(const System& system) const {
-    for (const auto& [from, to] : diagram_.connections()) {
-      if (from.system == &system && to.system->inputs()[to.index].name == "delta") return to.system;
-    }
-    return nullptr;
-  }
-
-  const Diagram& diagram_;
-};
+/// The loop that the mapping is part of, if it is of the known make and not switched off.
+std::optional<Loop> LoopOf(const Diagram& diagram, const System& mapping, const MapsForces& maps) {
+  constexpr int kMostSteps = 10;
+  Loop loop;
+  loop.mapping = &mapping;
+  if (!FollowDelta(diagram, maps.delta, kMostSteps, loop)) return std::nullopt;
+  const AddsDelta& adds = RoleOf<AddsDelta>(*loop.overlay);
+  if (!adds.period.positive()) return std::nullopt;
+  const auto links = diagram.DriverOf(maps.links);
+  const auto request = diagram.DriverOf(adds.request);
+  if (!links || !request || links->system->role<Kinematics>() == nullptr) return std::nullopt;
+  loop.kinematics = links->system;
+  loop.request = *request;
+  return loop;
+}
 
 /// A copy of what a loop computes its delta from, with the positions of the arm to be set.
 class Probe {
  public:
   Probe(const LoadedDiagram& loaded, const Loop& loop) : loop_(loop) {
     Copy(loaded);
-    const auto& mapping = dynamic_cast<const JacobianMapping&>(*copies_.at(loop.mapping));
-    const auto& kinematics = dynamic_cast<const RobotKinematics&>(*copies_.at(loop.kinematics));
-    LoopGain::Params params = LoopGain::Params{.period = loop.overlay->params().period};
-    params.model = loop.mapping->params().model;
-    params.alpha = loop.mapping->params().alpha;
-    params.method = loop.mapping->params().method;
-    params.damping = loop.mapping->params().damping;
-    const auto& gain = builder_.Add<LoopGain>("loop_gain_", params, loaded.models);
-    builder_.Connect(kinematics.links, gain.links);
+    const auto& maps = RoleOf<MapsForces>(CopyOf(loop.mapping));
+    const auto& kinematics = RoleOf<Kinematics>(CopyOf(loop.kinematics));
+    const Period period = RoleOf<AddsDelta>(*loop.overlay).period;
+    const System& gain = builder_.AddSystem("loop_gain_", maps.make_gain(period));
+    builder_.ConnectPorts(kinematics.links, gain.FindInput("links"));
     ConnectSlopes(gain);
     builder_.ExportInput("position", kinematics.position);
-    builder_.ExportInput("velocity", kinematics.velocity);
-    raw_ = mapping.delta;
-    gain_ = gain.gain;
-    request_ = {copies_.at(loop.request.system), loop.request.index};
+    const bool has_velocity = kinematics.velocity.system != nullptr;
+    if (has_velocity) builder_.ExportInput("velocity", kinematics.velocity);
+    raw_ = Typed<Vector>(maps.delta);
+    gain_ = Typed<Vector>(gain.FindOutput("gain"));
+    request_ = {{&CopyOf(loop.request.system), loop.request.index}};
     if (fields_.empty()) return;
     diagram_ = builder_.Build();
     position_ = diagram_->GetInput<Vector>("position");
-    velocity_ = diagram_->GetInput<Vector>("velocity");
     simulator_.emplace(*diagram_);
-    delta_ = Eigen::VectorXd::Zero(gain.num_positions());
-    velocity_.Fix(simulator_->context(), delta_);
+    delta_ = Eigen::VectorXd::Zero(diagram_->SizeOf(raw_));
+    if (has_velocity) diagram_->GetInput<Vector>("velocity").Fix(simulator_->context(), delta_);
     position_.Fix(simulator_->context(), delta_);
     simulator_->Initialize();
   }
@@ -153,38 +145,53 @@ class Probe {
 
  private:
   void Copy(const LoadedDiagram& loaded) {
-    const auto& connections = loaded.diagram->connections();
-    std::set<const System*> needed{loop_.mapping, loop_.kinematics, loop_.request.system};
-    for (std::size_t before = 0; before != needed.size();) {
-      before = needed.size();
-      for (const auto& [from, to] : connections) {
-        if (needed.contains(to.system) && to.system != loop_.kinematics) needed.insert(from.system);
+    const Diagram& diagram = *loaded.diagram;
+    std::vector<const System*> needed{loop_.mapping, loop_.kinematics, loop_.request.system};
+    const auto drivers_of = [&](const System& system) {
+      std::vector<std::pair<OutputHandle, InputHandle>> drivers;
+      for (int i = 0; i < std::ssize(system.inputs()); ++i) {
+        const InputHandle input{{&system, i}};
+        if (const auto driver = diagram.DriverOf(input)) drivers.emplace_back(*driver, input);
+      }
+      return drivers;
+    };
+    for (std::size_t i = 0; i < needed.size(); ++i) {
+      if (needed[i] == loop_.kinematics) continue;
+      for (const auto& [from, to] : drivers_of(*needed[i])) {
+        const bool known = std::find(needed.begin(), needed.end(), from.system) != needed.end();
+        if (!known) needed.push_back(from.system);
       }
     }
     Problems problems;
     for (const auto& block : loaded.systems) {
-      const System* const original = loaded.diagram->FindSystem(block.name);
-      if (!needed.contains(original)) continue;
+      const System* const original = diagram.FindSystem(block.name);
+      if (std::find(needed.begin(), needed.end(), original) == needed.end()) continue;
       auto copy = block.row->Make(block.params, block.name, loaded.models, problems);
       problems.Throw();
-      copies_[original] = &builder_.AddSystem(block.name, std::move(copy));
+      copies_.emplace_back(original, &builder_.AddSystem(block.name, std::move(copy)));
     }
-    for (const auto& [from, to] : connections) {
-      if (!copies_.contains(to.system) || to.system == loop_.kinematics) continue;
-      builder_.ConnectPorts({{copies_.at(from.system), from.index}},
-                            {{copies_.at(to.system), to.index}});
+    for (const auto& [original, copy] : copies_) {
+      if (original == loop_.kinematics) continue;
+      for (const auto& [from, to] : drivers_of(*original)) {
+        builder_.ConnectPorts({{&CopyOf(from.system), from.index}}, {{copy, to.index}});
+      }
     }
   }
 
-  /// LoopGain takes the slopes of two fields; more than that no method has.
-  void ConnectSlopes(const LoopGain& gain) {
+  const System& CopyOf(const System* original) const {
+    return *std::find_if(copies_.begin(), copies_.end(), [&](const auto& entry) {
+              return entry.first == original;
+            })->second;
+  }
+
+  /// The gain takes the slopes of two fields; more than that no method has.
+  void ConnectSlopes(const System& gain) {
     for (const auto& [original, copy] : copies_) {
       for (std::size_t i = 0; i < copy->outputs().size() && fields_.size() < 2; ++i) {
         if (copy->outputs()[i].type != &TypeOf<ContactSlopes>()) continue;
         const OutputHandle slopes{{copy, static_cast<int>(i)}};
-        builder_.ConnectPorts(
-            slopes, fields_.empty() ? InputHandle(gain.slopes) : InputHandle(gain.more_slopes));
-        fields_.push_back({slopes});
+        builder_.ConnectPorts(slopes, gain.FindInput(fields_.empty() ? "slopes" : "more_slopes"));
+        fields_.push_back(Typed<ContactSlopes>(slopes));
       }
     }
   }
@@ -204,14 +211,13 @@ class Probe {
 
   const Loop loop_;
   DiagramBuilder builder_;
-  std::map<const System*, const System*> copies_;
+  std::vector<std::pair<const System*, const System*>> copies_;  // of originals
   std::vector<Output<ContactSlopes>> fields_;
   Output<Vector> raw_;
   Output<Vector> gain_;
   OutputHandle request_;
   std::unique_ptr<Diagram> diagram_;
   Input<Vector> position_;
-  Input<Vector> velocity_;
   std::optional<Simulator> simulator_;
   Eigen::VectorXd delta_;
 };
@@ -229,27 +235,22 @@ std::optional<std::string> Judge(const LoadedDiagram& loaded, const Loop& loop) 
     worst = *rest;
     when = time;
   }
-  const double period = loop.overlay->params().period.seconds();
-  const double given = loop.relaxation == nullptr ? 0.0 : loop.relaxation->params().relaxation_time;
+  const double period = RoleOf<AddsDelta>(*loop.overlay).period.seconds();
   const double least = models::LeastRelaxationTime(worst.gain, period);
-  if (std::max(given, period) > least) return std::nullopt;
+  if (std::max(loop.relaxation_time, period) > least) return std::nullopt;
   return fmt::format(
       "the loop must chatter: g = {:.3g} at rho = {:.2g} m ({} at {:.1f} s); stable needs "
       "relaxation_time > {:.2g} s, got {}",
       worst.gain, worst.distance, worst.link, when, least,
-      loop.relaxation == nullptr ? "no DeltaRelaxation" : fmt::format("{:.3g} s", given));
+      loop.relaxation == nullptr ? "no relaxation" : fmt::format("{:.3g} s", loop.relaxation_time));
 }
 
 }  // namespace
 
 std::vector<std::string> ChatterWarnings(const LoadedDiagram& loaded) {
   std::vector<std::string> warnings;
-  const Wiring wiring(*loaded.diagram);
-  for (const auto& block : loaded.systems) {
-    const System* const system = loaded.diagram->FindSystem(block.name);
-    const auto* const mapping = dynamic_cast<const JacobianMapping*>(system);
-    if (mapping == nullptr) continue;
-    const auto loop = wiring.LoopOf(*mapping);
+  for (const auto& [path, mapping, maps] : loaded.diagram->FindRoles<MapsForces>()) {
+    const auto loop = LoopOf(*loaded.diagram, *mapping, *maps);
     if (!loop) continue;
     std::optional<std::string> warning;
     try {
@@ -257,15 +258,10 @@ std::vector<std::string> ChatterWarnings(const LoadedDiagram& loaded) {
     } catch (const std::exception& error) {
       warning = fmt::format("the gain of its loop could not be estimated: {}", error.what());
     }
-    const auto named = std::find_if(
-        loaded.systems.begin(), loaded.systems.end(), [&](const LoadedDiagram::Block& other) {
-          const System* const found = loaded.diagram->FindSystem(other.name);
-          return loop->relaxation == nullptr ? found == mapping : found == loop->relaxation;
-        });
-    if (warning) {
-      warnings.push_back(fmt::format("{}: warning: systems.{}: {}",
-                                     named->params.location().ToString(), named->name, *warning));
-    }
+    if (!warning) continue;
+    const auto& named = loaded.BlockOf(loop->relaxation == nullptr ? *mapping : *loop->relaxation);
+    warnings.push_back(fmt::format("{}: warning: systems.{}: {}",
+                                   named.params.location().ToString(), named.name, *warning));
   }
   return warnings;
 }

@@ -9,14 +9,15 @@
 namespace oca::diagrams {
 
 /// Warnings about loops of avoidance that must chatter with their settings, a line each with its
-/// place: the gain g, where, and the relaxation time that they need. A loop is
+/// place: the gain g, where, and the relaxation time that they need. A loop is,
+/// in the roles that its systems declare,
 ///
-///     kinematics -> ... field -> ... -> JacobianMapping -> ... -> DeltaOverlay
+///     Kinematics -> ... field -> ... -> MapsForces -> CarriesDelta -> ... -> AddsDelta
 ///
 /// It is looked at without running it: at samples of the requested motion, obstacles where their
 /// script has them then, the delta is led to where the loop would rest, and the gain taken there
-/// (models::LoopGain). More than 2 relaxation_time / period - 1 there means that the rest is not
-/// stable. What adapts to its gain (LoopGain) and what is not `enabled` gives no warning; neither
+/// (systems::MapsForces). More than 2 relaxation_time / period - 1 there means that the rest is not
+/// stable. What adapts to its gain and what is not `enabled` gives no warning; neither
 /// does a loop of other make.
 std::vector<std::string> ChatterWarnings(const LoadedDiagram& loaded);
 /// Puts them beside those of the file, where whoever runs, records or shows it finds all.

@@ -16,9 +16,10 @@
 #include "framework/dynamic_port.h"
 #include "framework/error.h"
 #include "framework/nearest.h"
-#include "framework/plan.h"
+#include "framework/schedule.h"
 #include "models/opened_files.h"
-#include "systems/obstacle_source.h"
+#include "systems/motion_metrics_value.h"
+#include "systems/roles.h"
 
 namespace oca::diagrams {
 
@@ -31,9 +32,30 @@ const Value::Map& SectionOf(const Value& root, const char* key, Problems& proble
   return kEmpty;
 }
 
+std::string ExportedName(std::string port) {
+  std::replace(port.begin(), port.end(), '.', '_');
+  return port;
+}
+
+std::vector<std::string> InsideOf(const Diagram& whole) {
+  std::vector<std::string> inside;
+  for (const auto& [path, system] : whole.systems()) {
+    if (system->role<systems::Boundary>() == nullptr) inside.push_back(path);
+  }
+  return inside;
+}
+
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Whether a system of a type says by its parameters where obstacles are.
+bool SaysObstacles(const std::string& type) {
+  const auto& rows = Catalogue();
+  return std::any_of(rows.begin(), rows.end(), [&](const CatalogueRow& row) {
+    return row.type == type && row.says_obstacles;
+  });
+}
 
 /// Walks the resolved tree section by section and collects every problem on the way.
 class Loader {
@@ -258,11 +280,11 @@ class Loader {
   }
 
   void KeepWarnings(const System& system, const std::string& where, const Location& location) {
-    const auto* const source = dynamic_cast<const systems::ObstacleSource*>(&system);
-    if (source == nullptr) return;
-    for (const std::string& line : source->warnings()) {
-      loaded_.warnings.push_back(
-          fmt::format("{}: warning: {}: {}", location.ToString(), where, line));
+    for (const auto* const remarks : system.roles<systems::Remarks>()) {
+      for (const std::string& line : remarks->warnings) {
+        loaded_.warnings.push_back(
+            fmt::format("{}: warning: {}: {}", location.ToString(), where, line));
+      }
     }
   }
 
@@ -275,7 +297,7 @@ class Loader {
       for (const Value::Entry& system : Map("systems")) {
         const Value* const type = system.value.Find("type");
         if (type == nullptr || type->string() == nullptr) continue;
-        if (*type->string() != "ObstacleSource") continue;
+        if (!SaysObstacles(*type->string())) continue;
         Value::Map source = *system.value.map();
         std::erase_if(source, [](const Value::Entry& entry) { return entry.key == "type"; });
         sources.emplace_back(std::move(source), system.value.location());
@@ -388,8 +410,8 @@ class Loader {
               const Location& location) {
     const SignalType& got = TypeOfPort(output);
     const SignalType& expected = TypeOfPort(input);
-    const std::string name = from.system + "_" + from.port;
     const std::string port = from.system + "." + from.port;
+    const std::string name = ExportedName(port);
     const auto [imported, fresh] = imports_.emplace(name, port);
     if (!fresh && imported->second != port) {
       problems_.Add(location, fmt::format("part: {} and {} would both become the input {}",
@@ -407,18 +429,25 @@ class Loader {
     for (const auto& block : loaded_.systems) {
       const System& system = *systems_.at(block.name);
       for (const System::OutputInfo& output : system.outputs()) {
-        builder_.ExportOutput(block.name + "_" + output.name, system.FindOutput(output.name));
+        builder_.ExportOutput(ExportedName(block.name + "." + output.name),
+                              system.FindOutput(output.name));
       }
     }
   }
 
   void ExportOffsets() {
     for (const auto& block : loaded_.systems) {
-      if (block.type != "ObstacleSource") continue;
-      const InputHandle offsets = systems_.at(block.name)->FindInput("offsets");
-      const bool driven = connection_locations_.contains(block.name + ".offsets");
-      if (!driven) builder_.ExportInput(block.name + "_offsets", offsets);
+      const auto* const holds = systems_.at(block.name)->role<systems::HoldsObstacles>();
+      if (holds == nullptr || holds->offsets.system == nullptr) continue;
+      const std::string port = block.name + "." + NameOfPort(holds->offsets);
+      if (!connection_locations_.contains(port)) {
+        builder_.ExportInput(ExportedName(port), holds->offsets);
+      }
     }
+  }
+
+  static const std::string& NameOfPort(const InputHandle& input) {
+    return input.system->inputs()[static_cast<std::size_t>(input.index)].name;
   }
 
   void Build() {
@@ -426,15 +455,23 @@ class Loader {
       if (!part_.empty()) ExportOutputs();
       if (movable_) ExportOffsets();
       loaded_.diagram = builder_.Build();
-      loaded_.diagram->plan().CheckStart(loaded_.diagram->MakeContext(), false);
+      loaded_.diagram->schedule().CheckStart(loaded_.diagram->MakeContext(), false);
     } catch (const SimulationError& error) {  // a state starts where it cannot be
       problems_.Add(locations_.at(error.system), error.what());
     } catch (const WiringError& error) {
       for (const std::string& problem : error.problems) problems_.Add(Place(problem), problem);
     }
-    for (const auto& block : loaded_.systems) {
-      if (block.type != "MotionMetrics") continue;
-      loaded_.metrics.emplace_back(block.name, systems_.at(block.name)->FindOutput("metrics"));
+    for (const auto& block : loaded_.systems) AddMetricsOf(block.name);
+  }
+
+  void AddMetricsOf(const std::string& name) {
+    const auto* const judges = systems_.at(name)->role<systems::Judges>();
+    if (judges == nullptr) return;
+    try {
+      Typed<systems::MotionMetricsValue>(judges->metrics);
+      loaded_.metrics.emplace_back(name, judges->metrics);
+    } catch (const WiringError& error) {
+      problems_.Add(locations_.at(name), fmt::format("systems.{}: judge: {}", name, error.what()));
     }
   }
 
@@ -480,6 +517,12 @@ class Loader {
 };
 
 }  // namespace
+
+const LoadedDiagram::Block& LoadedDiagram::BlockOf(const System& system) const {
+  const std::string path = diagram->PathOf(system);
+  return *std::find_if(systems.begin(), systems.end(),
+                       [&](const Block& block) { return block.name == path; });
+}
 
 LoadedDiagram LoadDiagram(const fs::path& file, const std::vector<Override>& overrides,
                           const Catalogue& catalogue) {

@@ -43,8 +43,11 @@ struct LoadedDiagram {
   std::vector<RecordedSignal> record;
   Period scene_period{1, 60};  ///< of the scene in a record
   std::vector<Expectation> expectations;
-  /// Outputs of type MotionMetrics, with the names of their systems.
+  /// Outputs of the systems that judge (systems::Judges), with the names of those.
   NamedOutputs metrics;
+
+  /// The block that a system of the diagram is.
+  const Block& BlockOf(const System& system) const;
 };
 
 /// Reads, checks and builds a diagram file.
@@ -57,11 +60,18 @@ LoadedDiagram LoadDiagram(const std::filesystem::path& file,
                           const std::vector<Override>& overrides = {},
                           const Catalogue& catalogue = Catalogue::Standard());
 
-/// As LoadDiagram; obstacles can be moved: each ObstacleSource whose `offsets` nothing drives has
-/// them exported as `NAME_offsets`, which must be fixed before a run.
+/// As LoadDiagram; obstacles can be moved: each system that holds obstacles (HoldsObstacles) whose
+/// `offsets` nothing drives has them exported as `NAME_offsets`, which must be fixed before a run.
 LoadedDiagram LoadMovable(const std::filesystem::path& file,
                           const std::vector<Override>& overrides = {},
                           const Catalogue& catalogue = Catalogue::Standard());
+
+/// The name under which a part exports a port: `plant_position` for `plant.position`.
+std::string ExportedName(std::string port);
+
+/// The systems that stand for nothing outside (systems::Boundary), by path: the part that a robot's
+/// own loop runs.
+std::vector<std::string> InsideOf(const Diagram& whole);
 
 /// The named systems of a diagram file alone, for a program that takes the place of the others, as
 /// a robot's control loop does with the plant; the whole file is checked all the same.

@@ -119,7 +119,7 @@ class ExpectationReader {
   }
 
   bool AimAtMetric(const NamedOutputs& metrics) {
-    if (metrics.empty()) return Fail(": a metric needs a system of type MotionMetrics");
+    if (metrics.empty()) return Fail(": a metric needs a system that judges the run");
     result_.output = metrics.front().second;
     result_.member = entry_.key;
     result_.metric = true;
@@ -144,7 +144,7 @@ class ExpectationReader {
     result_.output = *output;
     if (&TypeOfPort(*output) != &kVectorType) return CheckMember();
     if (diagram_ == nullptr) return false;
-    const int size = VectorSize(*output, diagram_->MakeContext());
+    const int size = diagram_->SizeOf(*output);
     if (result_.index < 0 && size == 1 && result_.member.empty()) result_.index = 0;
     if (result_.index >= 0 && result_.index < size) return true;
     return Fail(fmt::format(": expected {}[i] with i from 0 to {}", port, size - 1));

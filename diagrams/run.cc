@@ -12,7 +12,7 @@
 #include "diagrams/signal_recorder.h"
 #include "framework/dynamic_port.h"
 #include "framework/error.h"
-#include "framework/plan.h"
+#include "framework/schedule.h"
 
 namespace oca::diagrams {
 namespace {
@@ -193,7 +193,8 @@ class Runner {
   /// Without events a run is one step, after which alone an interrupt would be seen.
   bool AdvanceTo(double stop) {
     constexpr double kSlice = 1.0;  // s
-    while (loaded_.diagram->plan().groups.empty() && stop - simulator_.context().time() > kSlice) {
+    while (loaded_.diagram->schedule().groups.empty() &&
+           stop - simulator_.context().time() > kSlice) {
       if (!simulator_.AdvanceTo(simulator_.context().time() + kSlice)) return false;
     }
     return simulator_.AdvanceTo(stop);

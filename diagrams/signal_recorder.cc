@@ -11,13 +11,13 @@ namespace oca::diagrams {
 SignalRecorder::SignalRecorder(const std::filesystem::path& folder, const LoadedDiagram& loaded,
                                Simulator& simulator) {
   MakeFolder(folder);
-  const SignalFacts facts(loaded, simulator.context());
+  const SignalFacts facts(loaded);
   for (const RecordedSignal& signal : loaded.record) {
     std::optional<std::vector<std::string>> columns;
     const bool vector = &TypeOfPort(signal.output) == &kVectorType;
     if (vector) {
       columns = SignalTable::Columns(signal.name.substr(signal.name.find('.') + 1),
-                                     VectorSize(signal.output, simulator.context()),
+                                     loaded.diagram->SizeOf(signal.output),
                                      facts.JointsOf(signal.output));
     }
     files_.emplace_back(

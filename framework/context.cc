@@ -12,7 +12,7 @@
 
 #include "framework/error.h"
 #include "framework/log.h"
-#include "framework/plan.h"
+#include "framework/schedule.h"
 
 namespace oca {
 namespace {
@@ -23,16 +23,17 @@ constexpr std::align_val_t kAlignment{64};
 
 void Context::FreeArena::operator()(std::byte* arena) const { operator delete(arena, kAlignment); }
 
-Context::Context(const Plan* plan)
-    : plan_(plan), arena_(static_cast<std::byte*>(operator new(plan->arena_size, kAlignment))) {
-  std::memset(arena_.get(), 0, plan->arena_size);
+Context::Context(const Schedule* schedule)
+    : schedule_(schedule),
+      arena_(static_cast<std::byte*>(operator new(schedule->arena_size, kAlignment))) {
+  std::memset(arena_.get(), 0, schedule->arena_size);
   header().log = &SilentLog();
   header().epoch = 1;
-  plan->versions(*this)[Plan::kTimeSource] = 1;
-  plan->versions(*this)[Plan::kContinuousSource] = 1;
-  for (const Plan::Object& object : plan->objects)
+  schedule->versions(*this)[Schedule::kTimeSource] = 1;
+  schedule->versions(*this)[Schedule::kContinuousSource] = 1;
+  for (const Schedule::Object& object : schedule->objects)
     object.type->construct(arena_.get() + object.offset);
-  for (const Plan::StateEntry& state : plan->states) {
+  for (const Schedule::StateEntry& state : schedule->states) {
     std::byte* const at = arena_.get() + state.slot.offset;
     if (state.type == &kVectorType) {
       for (std::uint32_t i = 0; i < state.slot.size; ++i) {
@@ -42,35 +43,36 @@ Context::Context(const Plan* plan)
       state.info->initial_value(at);
       state.type->assign(arena_.get() + state.next.offset, at);
     }
-    plan->versions(*this)[state.source] = 1;
+    schedule->versions(*this)[state.source] = 1;
   }
   // An exported input that nobody fixes must not pass as zero.
-  for (const Plan::InputEntry& input : plan->exported_inputs) {
+  for (const Schedule::InputEntry& input : schedule->exported_inputs) {
     auto* values = reinterpret_cast<double*>(arena_.get() + input.slot.offset);
     std::fill_n(values, input.slot.size, std::numeric_limits<double>::quiet_NaN());
   }
 }
 
 Context::Context(const Context& other)
-    : plan_(other.plan_),
-      arena_(static_cast<std::byte*>(operator new(other.plan_->arena_size, kAlignment))) {
-  std::memcpy(arena_.get(), other.arena_.get(), plan_->plain_size);
+    : schedule_(other.schedule_),
+      arena_(static_cast<std::byte*>(operator new(other.schedule_->arena_size, kAlignment))) {
+  std::memcpy(arena_.get(), other.arena_.get(), schedule_->plain_size);
   header().profile = nullptr;
-  for (const Plan::Object& object : plan_->objects) {
+  for (const Schedule::Object& object : schedule_->objects) {
     object.type->construct(arena_.get() + object.offset);
     object.type->assign(arena_.get() + object.offset, other.arena_.get() + object.offset);
   }
 }
 
-Context::Context(Context&& other) noexcept : plan_(other.plan_), arena_(std::move(other.arena_)) {}
+Context::Context(Context&& other) noexcept
+    : schedule_(other.schedule_), arena_(std::move(other.arena_)) {}
 
 Context& Context::operator=(const Context& other) {
   if (this == &other) return *this;
-  if (plan_ != other.plan_ || !arena_) return *this = Context(other);
+  if (schedule_ != other.schedule_ || !arena_) return *this = Context(other);
   Profile* const profile = header().profile;
-  std::memcpy(arena_.get(), other.arena_.get(), plan_->plain_size);
+  std::memcpy(arena_.get(), other.arena_.get(), schedule_->plain_size);
   header().profile = profile;
-  for (const Plan::Object& object : plan_->objects) {
+  for (const Schedule::Object& object : schedule_->objects) {
     object.type->assign(arena_.get() + object.offset, other.arena_.get() + object.offset);
   }
   return *this;
@@ -79,7 +81,7 @@ Context& Context::operator=(const Context& other) {
 Context& Context::operator=(Context&& other) noexcept {
   if (this != &other) {
     DestroyObjects();
-    plan_ = other.plan_;
+    schedule_ = other.schedule_;
     arena_ = std::move(other.arena_);
   }
   return *this;
@@ -89,7 +91,7 @@ Context::~Context() { DestroyObjects(); }
 
 void Context::DestroyObjects() {
   if (!arena_) return;
-  for (const Plan::Object& object : plan_->objects)
+  for (const Schedule::Object& object : schedule_->objects)
     object.type->destroy(arena_.get() + object.offset);
 }
 
@@ -99,21 +101,21 @@ void Context::SetTime(double time) {
   }
   if (time == header().time) return;
   header().time = time;
-  plan_->MarkChanged(*this, Plan::kTimeSource);
+  schedule_->MarkChanged(*this, Schedule::kTimeSource);
 }
 
 VectorView Context::continuous_state() const {
-  return {plan_->continuous(*this), plan_->continuous_size};
+  return {schedule_->continuous(*this), schedule_->continuous_size};
 }
 
 void Context::SetContinuousState(const Eigen::Ref<const Eigen::VectorXd>& state) {
-  if (state.size() != plan_->continuous_size || !state.allFinite()) {
+  if (state.size() != schedule_->continuous_size || !state.allFinite()) {
     throw ConfigError(fmt::format(
         "context: continuous state; got {} numbers{}; expected {} finite numbers", state.size(),
-        state.allFinite() ? "" : ", not all finite", plan_->continuous_size));
+        state.allFinite() ? "" : ", not all finite", schedule_->continuous_size));
   }
-  MutableVectorView(plan_->continuous(*this), plan_->continuous_size) = state;
-  plan_->MarkChanged(*this, Plan::kContinuousSource);
+  MutableVectorView(schedule_->continuous(*this), schedule_->continuous_size) = state;
+  schedule_->MarkChanged(*this, Schedule::kContinuousSource);
 }
 
 }  // namespace oca

@@ -38,8 +38,8 @@ class Context {
  private:
   friend class ControlLoop;
   friend class Diagram;
-  friend class Plan;
-  friend class PlanCompiler;
+  friend class Schedule;
+  friend class ScheduleCompiler;
   friend class Simulator;
 
   /// The first bytes of the arena.
@@ -52,7 +52,7 @@ class Context {
     Profile* profile;  ///< of the simulator that advances this context now; not copied
   };
 
-  explicit Context(const Plan* plan);
+  explicit Context(const Schedule* schedule);
   const Header& header() const { return *reinterpret_cast<const Header*>(arena_.get()); }
   Header& header() { return *reinterpret_cast<Header*>(arena_.get()); }
   void DestroyObjects();
@@ -61,7 +61,7 @@ class Context {
     void operator()(std::byte* arena) const;
   };
 
-  const Plan* plan_;
+  const Schedule* schedule_;
   std::unique_ptr<std::byte, FreeArena> arena_;
 };
 

@@ -10,7 +10,7 @@
 
 #include "framework/error.h"
 #include "framework/log.h"
-#include "framework/plan.h"
+#include "framework/schedule.h"
 
 namespace oca {
 namespace {
@@ -34,37 +34,37 @@ std::int64_t Ratio(const Period& span, const Period& period, const std::string& 
 }  // namespace
 
 ControlLoop::ControlLoop(const Diagram& diagram, const Period& period)
-    : plan_(diagram.plan()), context_(diagram.MakeContext()), period_(period) {
+    : schedule_(diagram.schedule()), context_(diagram.MakeContext()), period_(period) {
   if (!period.positive()) {
     throw ConfigError(
         fmt::format("control loop: period; got {}; expected > 0 s", period.ToString()));
   }
-  for (const Plan::Derivative& derivative : plan_.derivatives) {
+  for (const Schedule::Derivative& derivative : schedule_.derivatives) {
     throw ConfigError(
         fmt::format("control loop: {}.{}; got a continuous state; expected discrete ones only, "
                     "a Simulator integrates",
-                    plan_.PathOf(*derivative.system), derivative.state));
+                    schedule_.PathOf(*derivative.system), derivative.state));
   }
-  for (const Plan::Witness& witness : plan_.witnesses) {
+  for (const Schedule::Witness& witness : schedule_.witnesses) {
     throw ConfigError(
         fmt::format("control loop: {}.{}; got a witness function; expected none, a Simulator "
                     "locates crossings",
-                    plan_.PathOf(*witness.system), witness.name));
+                    schedule_.PathOf(*witness.system), witness.name));
   }
-  for (std::size_t i = 0; i < plan_.groups.size(); ++i) {
-    const Plan::Group& group = plan_.groups[i];
-    const std::string system = plan_.PathOf(*plan_.events[group.events.front()].system);
+  for (std::size_t i = 0; i < schedule_.groups.size(); ++i) {
+    const Schedule::Group& group = schedule_.groups[i];
+    const std::string system = schedule_.PathOf(*schedule_.events[group.events.front()].system);
     const std::int64_t offset = Ratio(group.every.offset, period, system);
     const std::int64_t multiple = Ratio(group.every.period, period, system);
     beats_.push_back({offset, multiple});
-    plan_.group_counts(context_)[i] = beats_[i].FirstCount(0);
+    schedule_.group_counts(context_)[i] = beats_[i].FirstCount(0);
   }
-  due_.reserve(plan_.events.size());
+  due_.reserve(schedule_.events.size());
 }
 
 void ControlLoop::Watch(const OutputHandle& output) {
-  Plan::Of(output, context_);
-  const int node = plan_.output(output).node;
+  Schedule::Of(output, context_);
+  const int node = schedule_.output(output).node;
   if (node >= 0) watched_.push_back(node);
 }
 
@@ -72,14 +72,16 @@ void ControlLoop::SetLog(Log* log) { context_.header().log = log == nullptr ? &S
 
 void ControlLoop::Initialize() {
   if (initialized_) throw ConfigError("control loop: Initialize; got it twice; expected it once");
-  plan_.CheckInputsFixed(context_);
-  for (const int event : plan_.initializations) plan_.RunEvent(context_, plan_.events[event]);
-  for (const int event : plan_.initializations) plan_.Commit(context_, plan_.events[event]);
-  plan_.CheckStart(context_, true);
-  plan_.TakeCapacity(context_);
-  for (const Plan::Event& event : plan_.events) {
+  schedule_.CheckInputsFixed(context_);
+  for (const int event : schedule_.initializations)
+    schedule_.RunEvent(context_, schedule_.events[event]);
+  for (const int event : schedule_.initializations)
+    schedule_.Commit(context_, schedule_.events[event]);
+  schedule_.CheckStart(context_, true);
+  schedule_.TakeCapacity(context_);
+  for (const Schedule::Event& event : schedule_.events) {
     if (event.stage != System::Stage::kPublish) continue;
-    plan_.PullRange(context_, event.pull_begin, event.pull_end);
+    schedule_.PullRange(context_, event.pull_begin, event.pull_end);
   }
   ComputeWatched();
   context_.header().initialized = 1;
@@ -87,7 +89,7 @@ void ControlLoop::Initialize() {
 }
 
 Status ControlLoop::Refuse(const InputHandle& input, std::string_view what) const noexcept {
-  if (input.system == nullptr || input.system != plan_.root) {
+  if (!schedule_.Imports(input)) {
     return Status::Failure("", "", time(),
                            "control loop: input; got one that the diagram does not export");
   }
@@ -100,14 +102,14 @@ Status ControlLoop::Refuse(const InputHandle& input, std::string_view what) cons
 
 Status ControlLoop::Set(const Input<Vector>& input,
                         const Eigen::Ref<const Eigen::VectorXd>& value) noexcept {
-  if (input.system != plan_.root) return Refuse(input, "");
-  const Plan::InputEntry& entry = plan_.input(input);
-  const internal::Location at{plan_.arena(context_), entry.slot, entry.plausible};
+  if (!schedule_.Imports(input)) return Refuse(input, "");
+  const Schedule::InputEntry& entry = schedule_.input(input);
+  const internal::Storage at{schedule_.arena(context_), entry.slot, entry.plausible};
   if (const Fault fault = internal::CheckVector(value.data(), value.size(), at); !fault.ok()) {
     return Refuse(input, fault.text());
   }
   ViewOf<Vector>::Write(at.arena, at.slot) = value;
-  plan_.MarkChanged(context_, entry.source);
+  schedule_.MarkChanged(context_, entry.source);
   return {};
 }
 
@@ -137,40 +139,40 @@ std::int64_t ControlLoop::Beat::FirstCount(std::int64_t tick) const {
 
 bool ControlLoop::Due(std::size_t group) const {
   const Beat& beat = beats_[group];
-  return beat.offset + plan_.group_counts(context_)[group] * beat.multiple <= ticks_;
+  return beat.offset + schedule_.group_counts(context_)[group] * beat.multiple <= ticks_;
 }
 
 void ControlLoop::RunPublishes() {
   for (std::size_t i = 0; i < beats_.size(); ++i) {
-    const Plan::Group& group = plan_.groups[i];
+    const Schedule::Group& group = schedule_.groups[i];
     if (group.stage != System::Stage::kPublish || !Due(i)) continue;
-    for (const int event : group.events) plan_.RunEvent(context_, plan_.events[event]);
-    plan_.group_counts(context_)[i] = beats_[i].FirstCount(ticks_ + 1);
+    for (const int event : group.events) schedule_.RunEvent(context_, schedule_.events[event]);
+    schedule_.group_counts(context_)[i] = beats_[i].FirstCount(ticks_ + 1);
   }
 }
 
 void ControlLoop::RunStage(System::Stage stage) {
   due_.clear();
   for (std::size_t i = 0; i < beats_.size(); ++i) {
-    const Plan::Group& group = plan_.groups[i];
+    const Schedule::Group& group = schedule_.groups[i];
     if (group.stage != stage || !Due(i)) continue;
     due_.insert(due_.end(), group.events.begin(), group.events.end());
   }
-  for (const int event : due_) plan_.RunEvent(context_, plan_.events[event]);
-  for (const int event : due_) plan_.Commit(context_, plan_.events[event]);
+  for (const int event : due_) schedule_.RunEvent(context_, schedule_.events[event]);
+  for (const int event : due_) schedule_.Commit(context_, schedule_.events[event]);
   // Only now, so that a stage that failed is still due.
   for (std::size_t i = 0; i < beats_.size(); ++i) {
-    if (plan_.groups[i].stage != stage || !Due(i)) continue;
-    plan_.group_counts(context_)[i] = beats_[i].FirstCount(ticks_ + 1);
+    if (schedule_.groups[i].stage != stage || !Due(i)) continue;
+    schedule_.group_counts(context_)[i] = beats_[i].FirstCount(ticks_ + 1);
   }
 }
 
 void ControlLoop::ComputeWatched() {
-  for (const int node : watched_) plan_.Evaluate(context_, node);
+  for (const int node : watched_) schedule_.Evaluate(context_, node);
 }
 
-internal::Location ControlLoop::Locate(const OutputHandle& output) const noexcept {
-  return {plan_.arena(context_), plan_.output(output).slot, {}};
+internal::Storage ControlLoop::Locate(const OutputHandle& output) const noexcept {
+  return {schedule_.arena(context_), schedule_.output(output).slot, {}};
 }
 
 }  // namespace oca

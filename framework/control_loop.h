@@ -74,7 +74,7 @@ class ControlLoop {
   const Context& context() const noexcept { return context_; }
 
  private:
-  /// When the events of a group of the plan are due, in ticks.
+  /// When the events of a group of the schedule are due, in ticks.
   struct Beat {
     std::int64_t offset;
     std::int64_t multiple;
@@ -82,17 +82,17 @@ class ControlLoop {
     std::int64_t FirstCount(std::int64_t tick) const;
   };
 
-  internal::Location Locate(const OutputHandle& output) const noexcept;
+  internal::Storage Locate(const OutputHandle& output) const noexcept;
   Status Refuse(const InputHandle& input, std::string_view what) const noexcept;
   bool Due(std::size_t group) const;
   void RunPublishes();
   void RunStage(System::Stage stage);
   void ComputeWatched();
 
-  const Plan& plan_;
+  const Schedule& schedule_;
   Context context_;
   const Period period_;
-  std::vector<Beat> beats_;   // one a group of the plan
+  std::vector<Beat> beats_;   // one a group of the schedule
   std::vector<int> due_;      // events of the present stage
   std::vector<int> watched_;  // nodes
   std::int64_t ticks_{0};

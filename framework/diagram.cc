@@ -2,14 +2,17 @@
 #include "framework/diagram.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
 #include <utility>
 
 #include "framework/error.h"
-#include "framework/plan.h"
-#include "framework/plan_compiler.h"
+#include "framework/nearest.h"
+#include "framework/schedule.h"
+#include "framework/schedule_compiler.h"
+#include "framework/wiring.h"
 
 namespace oca {
 namespace {
@@ -22,42 +25,51 @@ void CheckName(const std::string& name, const char* what) {
   }
 }
 
+/// Of all systems inside, nested diagrams included.
+void AddPaths(const Diagram& diagram, const std::string& prefix, std::vector<std::string>& paths) {
+  for (const Diagram::Child& child : diagram.children()) {
+    paths.push_back(prefix + child.name);
+    const auto* nested = dynamic_cast<const Diagram*>(child.system.get());
+    if (nested != nullptr) AddPaths(*nested, paths.back() + ".", paths);
+  }
+}
+
 }  // namespace
 
 Diagram::Diagram() = default;
 Diagram::~Diagram() = default;
 
-const Plan& Diagram::plan() const {
-  if (own_plan_ == nullptr) {
+const Schedule& Diagram::schedule() const {
+  if (own_schedule_ == nullptr) {
     throw WiringError({"diagram: it is nested in another one, whose root makes the contexts"});
   }
-  return *own_plan_;
+  return *own_schedule_;
 }
 
-Context Diagram::MakeContext() const { return Context(&plan()); }
+Context Diagram::MakeContext() const { return Context(&schedule()); }
 
-InputHandle Diagram::FindInput(const std::string& name) const { return System::FindInput(name); }
-
-OutputHandle Diagram::FindOutput(const std::string& name) const {
-  return exported_outputs_[System::FindOutput(name).index].second;
+std::pair<const System*, std::string> Diagram::SplitPath(const std::string& path,
+                                                         const char* kind) const {
+  const std::size_t dot = path.rfind('.');
+  if (dot == std::string::npos) return {this, path};
+  const System* const system = FindSystem(path.substr(0, dot));
+  if (system != nullptr) return {system, path.substr(dot + 1)};
+  std::vector<std::string> names;
+  AddPaths(*this, "", names);
+  const std::string got = path.substr(0, dot);
+  throw WiringError({fmt::format("no {} port '{}': no system '{}'{}; systems are: {}", kind, path,
+                                 got, DidYouMean(got, names), fmt::join(names, ", "))});
 }
 
-InputHandle Diagram::CheckedInput(const std::string& name, const SignalType& type) const {
-  const InputHandle handle = System::FindInput(name);
-  if (inputs()[handle.index].type != &type) {
-    throw WiringError({fmt::format("input '{}': type; got {}; expected {}", name, type.name,
-                                   inputs()[handle.index].type->name)});
-  }
-  return handle;
+InputHandle Diagram::FindInput(const std::string& path) const {
+  const auto [system, port] = SplitPath(path, "input");
+  return system == this ? System::FindInput(port) : system->FindInput(port);
 }
 
-OutputHandle Diagram::CheckedOutput(const std::string& name, const SignalType& type) const {
-  const int index = System::FindOutput(name).index;
-  if (outputs()[index].type != &type) {
-    throw WiringError({fmt::format("output '{}': type; got {}; expected {}", name, type.name,
-                                   outputs()[index].type->name)});
-  }
-  return exported_outputs_[index].second;
+OutputHandle Diagram::FindOutput(const std::string& path) const {
+  const auto [system, port] = SplitPath(path, "output");
+  if (system != this) return system->FindOutput(port);
+  return exported_outputs_[System::FindOutput(port).index].second;
 }
 
 const System* Diagram::FindSystem(const std::string& path) const {
@@ -69,6 +81,18 @@ const System* Diagram::FindSystem(const std::string& path) const {
     return nested == nullptr ? nullptr : nested->FindSystem(path.substr(dot + 1));
   }
   return nullptr;
+}
+
+void Diagram::SetRoot(const Diagram* root) {
+  root_ = root;
+  for (const Child& child : children_) {
+    if (auto* nested = dynamic_cast<Diagram*>(child.system.get())) nested->SetRoot(root);
+  }
+}
+
+const Wiring& Diagram::wiring() const {
+  if (root_ != nullptr) return *root_->own_wiring_;
+  throw WiringError({"diagram: it is nested in another one, which has not been built"});
 }
 
 DiagramBuilder::DiagramBuilder() : diagram_(new Diagram) {}
@@ -85,8 +109,10 @@ const System& DiagramBuilder::AddSystem(std::string name, std::unique_ptr<System
     }
   }
   if (auto* nested = dynamic_cast<Diagram*>(system.get())) {
-    nested->own_plan_.reset();
-    nested->plan_ = nullptr;  // another plan may come to lie where that one was
+    nested->SetRoot(nullptr);
+    nested->own_wiring_.reset();
+    nested->own_schedule_.reset();
+    nested->schedule_ = nullptr;  // another schedule may come to lie where that one was
   }
   const System& reference = *system;
   diagram_->children_.push_back({std::move(name), std::move(system)});
@@ -130,7 +156,10 @@ void DiagramBuilder::ExportOutput(std::string name, const OutputHandle& output) 
 }
 
 std::unique_ptr<Diagram> DiagramBuilder::Build() {
-  diagram_->own_plan_ = PlanCompiler::Compile(*diagram_);
+  auto wiring = std::make_unique<Wiring>(*diagram_);
+  diagram_->own_schedule_ = ScheduleCompiler::Compile(*diagram_, *wiring);
+  diagram_->own_wiring_ = std::move(wiring);
+  diagram_->SetRoot(diagram_.get());
   return std::exchange(diagram_, std::unique_ptr<Diagram>(new Diagram));
 }
 

@@ -3,22 +3,33 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "framework/context.h"
+#include "framework/dynamic_port.h"
 #include "framework/system.h"
+#include "framework/upstream.h"
 
 namespace oca {
 
-class Plan;
+class Schedule;
+class Wiring;
 
 /// Systems and the connections between their ports; itself a System, so diagrams nest.
 ///
 /// Made by DiagramBuilder. Nested diagrams are flattened when the root is built: nesting costs
 /// nothing at run time. Only a root diagram makes Contexts.
+///
+/// A path is dotted and goes through nesting: `arm.filter` is the system `filter` in the diagram
+/// `arm`, `arm.filter.velocities` a port of it, and `velocities` alone a port of this diagram.
+///
+/// Whoever wants to know how it is wired asks it. The answers speak of leaves, the systems that
+/// are no diagrams, whatever nesting lies between; a nested diagram answers through its root, which
+/// must have been built. They throw WiringError if a port or a system is of another diagram.
 class Diagram final : public System {
  public:
   struct Child {
@@ -34,6 +45,10 @@ class Diagram final : public System {
     std::vector<InputHandle> to;
     int size{-1};  ///< of a Vector; -1: as the systems behind it settle it
   };
+  struct Leaf {
+    std::string path;  ///< from the root
+    const System* system;
+  };
 
   ~Diagram() override;
 
@@ -41,46 +56,93 @@ class Diagram final : public System {
   /// throws WiringError if this diagram is nested in another one.
   Context MakeContext() const;
 
-  /// Typed ports by name. throw WiringError if there is no such port or its type differs.
+  /// Typed ports by path. throw WiringError if there is no such port or its type differs.
   template <class T>
-  Input<T> GetInput(const std::string& name) const {
-    return {CheckedInput(name, TypeOf<T>())};
+  Input<T> GetInput(const std::string& path) const {
+    return Typed<T>(FindInput(path));
   }
   template <class T>
-  Output<T> GetOutput(const std::string& name) const {
-    return {CheckedOutput(name, TypeOf<T>())};
+  Output<T> GetOutput(const std::string& path) const {
+    return Typed<T>(FindOutput(path));
   }
-  InputHandle FindInput(const std::string& name) const override;
-  /// A handle on the port of the system inside.
-  OutputHandle FindOutput(const std::string& name) const override;
+  /// Ports by path. throw WiringError naming what there is.
+  InputHandle FindInput(const std::string& path) const override;
+  /// A handle on the port of the leaf inside.
+  OutputHandle FindOutput(const std::string& path) const override;
+  /// The system at a path, leaf or diagram; nullptr if there is none.
+  const System* FindSystem(const std::string& path) const;
 
+  /// The leaves in this diagram, in order.
+  std::vector<Leaf> systems() const;
+  /// All that leaves in this diagram declare of a role, in order.
+  template <class Role>
+  struct Declared {
+    std::string path;
+    const System* system;
+    const Role* role;
+  };
+  template <class Role>
+  std::vector<Declared<Role>> FindRoles() const {
+    std::vector<Declared<Role>> found;
+    for (const Leaf& leaf : systems()) {
+      for (const Role* role : leaf.system->template roles<Role>()) {
+        found.push_back({leaf.path, leaf.system, role});
+      }
+    }
+    return found;
+  }
+  /// From the root; of the root itself empty.
+  std::string PathOf(const System& system) const;
+  std::string PathOf(const OutputHandle& output) const;
+  std::string PathOf(const InputHandle& input) const;
+  /// The output that drives an input; none if nothing does or if it comes from outside.
+  std::optional<OutputHandle> DriverOf(const InputHandle& input) const;
+  /// The input of the root through which an input comes from outside; none if it does not.
+  std::optional<InputHandle> ExportOf(const InputHandle& input) const;
+  /// The inputs of leaves that an output drives.
+  std::vector<InputHandle> ReadersOf(const OutputHandle& output) const;
+  /// All that a port depends on.
+  Upstream UpstreamOf(const OutputHandle& output, Through through) const;
+  Upstream UpstreamOf(const InputHandle& input, Through through) const;
+  /// The length of a Vector, as Build settled it; 0 for a port of another type.
+  int SizeOf(const OutputHandle& output) const;
+  int SizeOf(const InputHandle& input) const;
+  /// The unit of a Vector, as Build settled it; any if nothing says it.
+  Unit UnitOf(const OutputHandle& output) const;
+  Unit UnitOf(const InputHandle& input) const;
+
+  // As it was put together, without a look into nested diagrams.
   const std::vector<Child>& children() const { return children_; }
   const std::vector<Connection>& connections() const { return connections_; }
   const std::vector<ExportedInput>& exported_inputs() const { return exported_inputs_; }
   const std::vector<std::pair<std::string, OutputHandle>>& exported_outputs() const {
     return exported_outputs_;
   }
-  /// The system at a dot-separated path; nullptr if there is none.
-  const System* FindSystem(const std::string& path) const;
   /// throws WiringError if this diagram is nested in another one.
-  const Plan& plan() const;
+  const Schedule& schedule() const;
 
  private:
   friend class DiagramBuilder;
-  friend class PlanCompiler;
+  friend class ScheduleCompiler;
   Diagram();
 
-  InputHandle CheckedInput(const std::string& name, const SignalType& type) const;
-  OutputHandle CheckedOutput(const std::string& name, const SignalType& type) const;
+  /// The wiring of the root. throws WiringError unless that was built.
+  const Wiring& wiring() const;
+  /// The system that a port's path leads to, and what is left: the name of the port.
+  std::pair<const System*, std::string> SplitPath(const std::string& path, const char* kind) const;
+  /// To this diagram and those inside, before and after their root is built.
+  void SetRoot(const Diagram* root);
 
   std::vector<Child> children_;
   std::vector<Connection> connections_;
   std::vector<ExportedInput> exported_inputs_;
   std::vector<std::pair<std::string, OutputHandle>> exported_outputs_;
-  std::unique_ptr<Plan> own_plan_;  // of a root
+  const Diagram* root_{nullptr};              // once that is built
+  std::unique_ptr<const Wiring> own_wiring_;  // of a root
+  std::unique_ptr<Schedule> own_schedule_;    // of a root
 };
 
-/// Collects systems and connections; Build checks all of it and compiles the plan.
+/// Collects systems and connections; Build checks all of it and compiles the schedule.
 class DiagramBuilder {
  public:
   DiagramBuilder();

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "framework/error.h"
-#include "framework/plan.h"
+#include "framework/schedule.h"
 #include "framework/sundials_integrator.h"
 
 namespace oca {
@@ -24,11 +24,11 @@ void CheckPositive(double value, const char* name) {
 /// Explicit Runge-Kutta with equal steps no longer than `fixed_step` between two events.
 class FixedStepIntegrator : public Integrator {
  public:
-  FixedStepIntegrator(const Plan& plan, const IntegratorOptions& options)
-      : plan_(plan),
+  FixedStepIntegrator(const Schedule& schedule, const IntegratorOptions& options)
+      : schedule_(schedule),
         fixed_step_(options.fixed_step),
         max_steps_(options.max_steps),
-        start_(plan.continuous_size),
+        start_(schedule.continuous_size),
         at_(start_.size()),
         slope_(start_.size()),
         end_slope_(start_.size()) {}
@@ -46,9 +46,9 @@ class FixedStepIntegrator : public Integrator {
     }
     const double h = (to - from) / count;
     for (std::int64_t i = 0; i < static_cast<std::int64_t>(count); ++i) {
-      std::copy_n(plan_.continuous(context), start_.size(), start_.data());
+      std::copy_n(schedule_.continuous(context), start_.size(), start_.data());
       Advance(context, from + static_cast<double>(i) * h, h);
-      plan_.SetTimeAndState(context, i + 1.0 < count ? from + (i + 1.0) * h : to, at_.data());
+      schedule_.SetTimeAndState(context, i + 1.0 < count ? from + (i + 1.0) * h : to, at_.data());
       ++statistics_.steps;
     }
   }
@@ -57,7 +57,7 @@ class FixedStepIntegrator : public Integrator {
     step_start_ = context.time();
     const double count = StepsTo(step_start_, to);
     step_ = (to - step_start_) / count;
-    std::copy_n(plan_.continuous(context), start_.size(), start_.data());
+    std::copy_n(schedule_.continuous(context), start_.size(), start_.data());
     Advance(context, step_start_, step_);
     Derivatives(context, count > 1.0 ? step_start_ + step_ : to, at_, end_slope_);
     ++statistics_.steps;
@@ -89,12 +89,12 @@ class FixedStepIntegrator : public Integrator {
 
   void Derivatives(Context& context, double t, const std::vector<double>& state,
                    std::vector<double>& derivatives) {
-    plan_.SetTimeAndState(context, t, state.data());
-    plan_.EvaluateDerivatives(context, derivatives.data());
+    schedule_.SetTimeAndState(context, t, state.data());
+    schedule_.EvaluateDerivatives(context, derivatives.data());
     ++statistics_.derivative_calls;
   }
 
-  const Plan& plan_;
+  const Schedule& schedule_;
   const double fixed_step_;
   const int max_steps_;        ///< between two events
   std::vector<double> start_;  // x at the start of a step
@@ -134,8 +134,9 @@ constexpr Tableau<6> kDormandPrince5{
 template <std::size_t S>
 class TableauIntegrator final : public FixedStepIntegrator {
  public:
-  TableauIntegrator(const Plan& plan, const IntegratorOptions& options, const Tableau<S>& tableau)
-      : FixedStepIntegrator(plan, options), tableau_(tableau) {
+  TableauIntegrator(const Schedule& schedule, const IntegratorOptions& options,
+                    const Tableau<S>& tableau)
+      : FixedStepIntegrator(schedule, options), tableau_(tableau) {
     for (auto& stage : stages_) stage.resize(start_.size());
   }
 
@@ -171,7 +172,8 @@ class TableauIntegrator final : public FixedStepIntegrator {
 
 }  // namespace
 
-std::unique_ptr<Integrator> MakeIntegrator(const Plan& plan, const IntegratorOptions& options) {
+std::unique_ptr<Integrator> MakeIntegrator(const Schedule& schedule,
+                                           const IntegratorOptions& options) {
   CheckPositive(options.relative_tolerance, "relative_tolerance");
   CheckPositive(options.absolute_tolerance, "absolute_tolerance");
   CheckPositive(options.max_step, "max_step");
@@ -179,11 +181,11 @@ std::unique_ptr<Integrator> MakeIntegrator(const Plan& plan, const IntegratorOpt
   CheckPositive(options.max_steps, "max_steps");
   switch (options.integrator) {
     case IntegratorKind::kFixedRk4:
-      return std::make_unique<TableauIntegrator<4>>(plan, options, kRk4);
+      return std::make_unique<TableauIntegrator<4>>(schedule, options, kRk4);
     case IntegratorKind::kFixedDp5:
-      return std::make_unique<TableauIntegrator<6>>(plan, options, kDormandPrince5);
+      return std::make_unique<TableauIntegrator<6>>(schedule, options, kDormandPrince5);
     default:
-      return MakeSundialsIntegrator(plan, options);
+      return MakeSundialsIntegrator(schedule, options);
   }
 }
 

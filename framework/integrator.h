@@ -9,7 +9,7 @@
 namespace oca {
 
 class Context;
-class Plan;
+class Schedule;
 
 struct IntegratorStatistics {
   std::int64_t steps{0};
@@ -42,6 +42,7 @@ class Integrator {
 };
 
 /// throws ConfigError if an option is out of bounds.
-std::unique_ptr<Integrator> MakeIntegrator(const Plan& plan, const IntegratorOptions& options);
+std::unique_ptr<Integrator> MakeIntegrator(const Schedule& schedule,
+                                           const IntegratorOptions& options);
 
 }  // namespace oca

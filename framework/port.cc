@@ -3,48 +3,51 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
+#include <string_view>
+
 #include "framework/error.h"
 #include "framework/fixed_text.h"
-#include "framework/plan.h"
 #include "framework/port_access.h"
+#include "framework/schedule.h"
 
 namespace oca {
 namespace internal {
 
-Location Find(const OutputHandle& output, const Context& context) {
-  const Plan& plan = Plan::Of(output, context);
-  const Plan::OutputEntry& entry = plan.output(output);
-  if (entry.node >= 0) plan.Evaluate(context, entry.node);
-  return {plan.arena(context), entry.slot, {}};
+Storage Find(const OutputHandle& output, const Context& context) {
+  const Schedule& schedule = Schedule::Of(output, context);
+  const Schedule::OutputEntry& entry = schedule.output(output);
+  if (entry.node >= 0) schedule.Evaluate(context, entry.node);
+  return {schedule.arena(context), entry.slot, {}};
 }
 
-Location Find(const StateHandle& state, const Context& context) {
-  const Plan& plan = Plan::Of(state, context);
-  return {plan.arena(context), plan.state(state).slot, {}};
+Storage Find(const StateHandle& state, const Context& context) {
+  const Schedule& schedule = Schedule::Of(state, context);
+  return {schedule.arena(context), schedule.state(state).slot, {}};
 }
 
-Location FindExported(const InputHandle& input, const Context& context) {
-  const Plan& plan = Plan::Of(input, context);
-  const Plan::InputEntry& entry = plan.input(input);
+Storage FindExported(const InputHandle& input, const Context& context) {
+  const Schedule& schedule = Schedule::Of(input, context);
+  const Schedule::InputEntry& entry = schedule.input(input);
   if (entry.source < 0) {
     throw WiringError(
         {fmt::format("{}.{}: only an input that the root diagram exports can be fixed",
-                     plan.PathOf(*input.system), input.system->inputs()[input.index].name)});
+                     schedule.PathOf(*input.system), input.system->inputs()[input.index].name)});
   }
-  return {plan.arena(context), entry.slot, entry.plausible};
+  return {schedule.arena(context), entry.slot, entry.plausible};
 }
 
 void MarkChanged(const InputHandle& input, Context& context) {
-  const Plan& plan = Plan::Of(input, context);
-  plan.MarkChanged(context, plan.input(input).source);
+  const Schedule& schedule = Schedule::Of(input, context);
+  schedule.MarkChanged(context, schedule.input(input).source);
 }
 
 void MarkChanged(const StateHandle& state, Context& context) {
-  const Plan& plan = Plan::Of(state, context);
-  plan.MarkChanged(context, plan.state(state).source);
+  const Schedule& schedule = Schedule::Of(state, context);
+  schedule.MarkChanged(context, schedule.state(state).source);
 }
 
-Fault CheckVector(const double* values, Eigen::Index size, const Location& at) {
+Fault CheckVector(const double* values, Eigen::Index size, const Storage& at) {
   if (size != static_cast<Eigen::Index>(at.slot.size)) {
     return FaultOf("got {} numbers; expected {}", size, at.slot.size);
   }
@@ -61,6 +64,24 @@ void ThrowIf(const char* type, const Fault& fault) {
 
 }  // namespace internal
 
+Unit::Unit(std::string text) : base_(std::move(text)) {
+  for (const auto& [ending, rates] : {std::pair("/s", 1), {"/s^2", 2}, {"/s^3", 3}}) {
+    const std::size_t length = std::string_view(ending).size();
+    if (base_.size() <= length || !base_.ends_with(ending)) continue;
+    base_.resize(base_.size() - length);
+    rates_ = rates;
+    return;
+  }
+}
+
+std::string Unit::ToString() const {
+  if (any()) return "";
+  const std::string base = variable_ >= 0 ? "u" : base_;
+  if (rates_ == 0) return base;
+  const std::string power = std::abs(rates_) == 1 ? "s" : fmt::format("s^{}", std::abs(rates_));
+  return rates_ > 0 ? base + "/" + power : base + " " + power;
+}
+
 Fault Plausible::Check(const double* values) const {
   for (Eigen::Index i = 0; i < lower.size(); ++i) {
     if (values[i] >= lower[i] && values[i] <= upper[i]) continue;
@@ -71,12 +92,12 @@ Fault Plausible::Check(const double* values) const {
 }
 
 VectorView ContinuousState::Get(const Context& context) const {
-  const internal::Location at = internal::Find(*this, context);
+  const internal::Storage at = internal::Find(*this, context);
   return ViewOf<Vector>::Read(at.arena, at.slot);
 }
 
 void ContinuousState::Set(Context& context, const Eigen::Ref<const Eigen::VectorXd>& value) const {
-  const internal::Location at = internal::Find(*this, context);
+  const internal::Storage at = internal::Find(*this, context);
   internal::ThrowIf("vector", internal::CheckVector(value.data(), value.size(), at));
   ViewOf<Vector>::Write(at.arena, at.slot) = value;
   internal::MarkChanged(*this, context);

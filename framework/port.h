@@ -12,7 +12,7 @@ namespace oca {
 
 class Context;
 class Log;
-class Plan;
+class Schedule;
 class System;
 
 /// The length of a vector port or state: a number, or a variable that Build settles from what is
@@ -36,27 +36,29 @@ class Size {
 /// The unit of a port, `any` (connects to everything), or a variable that Build settles.
 class Unit {
  public:
-  Unit(const char* text) : text_(text) {}             // NOLINT: a literal is a unit
-  Unit(std::string text) : text_(std::move(text)) {}  // NOLINT: a string is a unit
+  Unit(const char* text) : Unit(std::string(text)) {}  // NOLINT: a literal is a unit
+  Unit(std::string text);                              // NOLINT: a string is a unit
   static Unit Any() { return Unit(std::string()); }
   static Unit Variable(int index) {
     Unit unit = Any();
     unit.variable_ = index;
     return unit;
   }
-  /// This unit per second: rad -> rad/s -> rad/s^2.
-  Unit Rate() const {
+  /// This unit per second, as often as said: rad -> rad/s -> rad/s^2.
+  Unit Rate(int times = 1) const {
     Unit rate = *this;
-    ++rate.rates_;
+    rate.rates_ += times;
     return rate;
   }
-  bool any() const { return variable_ < 0 && text_.empty(); }
-  const std::string& text() const { return text_; }
+  bool any() const { return variable_ < 0 && base_.empty(); }
   int variable() const { return variable_; }
-  int rates() const { return rates_; }
+  int rates() const { return rates_; }  ///< how often the base is taken per second
+  /// As people write it: `rad/s^2`; `u/s` for a variable, nothing for any.
+  std::string ToString() const;
+  friend bool operator==(const Unit&, const Unit&) = default;
 
  private:
-  std::string text_;
+  std::string base_;  ///< of rad/s^2: rad
   int variable_{-1};
   int rates_{0};
 };
@@ -88,44 +90,86 @@ struct PortSpec {
 struct Handle {
   const System* system{nullptr};
   int index{-1};
+  friend bool operator==(const Handle&, const Handle&) = default;
 };
 
 struct InputHandle : Handle {};
 struct OutputHandle : Handle {};
 struct StateHandle : Handle {};
 
+template <class T>
+struct Input;
+template <class T>
+struct Output;
+/// The same port with its type; dynamic_port.h. throws WiringError if it has another one.
+template <class T>
+Input<T> Typed(const InputHandle& input);
+template <class T>
+Output<T> Typed(const OutputHandle& output);
+
+// Typed handles come from System::Declare..., Diagram::Get... and Typed alone: all of them know the
+// type. One that was made by default is no port.
+
 /// An input port. Calculations that name it read what it is connected to.
 template <class T>
 struct Input : InputHandle {
+  Input() = default;
   /// Gives an input that a root diagram exports its value. throws WiringError for other inputs.
   template <class Value>
   void Fix(Context& context, const Value& value) const;
+
+ private:
+  friend class System;
+  friend Input Typed<T>(const InputHandle& input);
+  explicit Input(const InputHandle& handle) : InputHandle(handle) {}
 };
 
 /// An input port that may stay unconnected; calculations then read an empty optional or nullptr.
 template <class T>
-struct OptionalInput : InputHandle {};
+struct OptionalInput : InputHandle {
+  OptionalInput() = default;
+
+ private:
+  friend class System;
+  explicit OptionalInput(const InputHandle& handle) : InputHandle(handle) {}
+};
 
 /// An output port.
 template <class T>
 struct Output : OutputHandle {
+  Output() = default;
   /// The value at the context's time and state; computed only if something it depends on changed.
   /// throws SimulationError if a calculation fails or yields a number that is not finite.
   typename ViewOf<T>::Const Eval(const Context& context) const;
+
+ private:
+  friend class System;
+  friend Output Typed<T>(const OutputHandle& output);
+  explicit Output(const OutputHandle& handle) : OutputHandle(handle) {}
 };
 
 /// A part of the state that updates change at discrete times.
 template <class T>
 struct DiscreteState : StateHandle {
+  DiscreteState() = default;
   typename ViewOf<T>::Const Get(const Context& context) const;
   template <class Value>
   void Set(Context& context, const Value& value) const;
+
+ private:
+  friend class System;
+  explicit DiscreteState(const StateHandle& handle) : StateHandle(handle) {}
 };
 
 /// A part of the state that a derivative drives.
 struct ContinuousState : StateHandle {
+  ContinuousState() = default;
   VectorView Get(const Context& context) const;
   void Set(Context& context, const Eigen::Ref<const Eigen::VectorXd>& value) const;
+
+ private:
+  friend class System;
+  explicit ContinuousState(const StateHandle& handle) : StateHandle(handle) {}
 };
 
 /// Which sign changes of a witness function count: any, from below, or from above.

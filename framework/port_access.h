@@ -10,32 +10,33 @@
 namespace oca {
 namespace internal {
 
-struct Location {
+/// Where the value of a port or a state lies in a context.
+struct Storage {
   std::byte* arena;
   Slot slot;
   std::span<const Plausible* const> plausible;  ///< of an exported input
 };
 
-Location Find(const OutputHandle& output, const Context& context);
-Location Find(const StateHandle& state, const Context& context);
-Location FindExported(const InputHandle& input, const Context& context);
+Storage Find(const OutputHandle& output, const Context& context);
+Storage Find(const StateHandle& state, const Context& context);
+Storage FindExported(const InputHandle& input, const Context& context);
 void MarkChanged(const InputHandle& input, Context& context);
 void MarkChanged(const StateHandle& state, Context& context);
 /// What is wrong with a vector: its length, its numbers.
-Fault CheckVector(const double* values, Eigen::Index size, const Location& at);
+Fault CheckVector(const double* values, Eigen::Index size, const Storage& at);
 /// throws ConfigError `type: what` if anything is wrong.
 void ThrowIf(const char* type, const Fault& fault);
 
 /// Keeps a value from outside that is good.
 template <class T>
-void Store(const Location& at, const T& value) {
+void Store(const Storage& at, const T& value) {
   T& kept = ViewOf<T>::Write(at.arena, at.slot);
   kept = value;
   if constexpr (requires { Signal<T>::FromOutside(kept); }) Signal<T>::FromOutside(kept);
 }
 
 template <class T, class Value>
-void Assign(Location at, const Value& value) {
+void Assign(Storage at, const Value& value) {
   if constexpr (std::is_same_v<T, Vector>) {
     const Eigen::Ref<const Eigen::VectorXd> vector(value);
     ThrowIf("vector", CheckVector(vector.data(), vector.size(), at));
@@ -58,13 +59,13 @@ void Input<T>::Fix(Context& context, const Value& value) const {
 
 template <class T>
 typename ViewOf<T>::Const Output<T>::Eval(const Context& context) const {
-  const internal::Location at = internal::Find(*this, context);
+  const internal::Storage at = internal::Find(*this, context);
   return ViewOf<T>::Read(at.arena, at.slot);
 }
 
 template <class T>
 typename ViewOf<T>::Const DiscreteState<T>::Get(const Context& context) const {
-  const internal::Location at = internal::Find(*this, context);
+  const internal::Storage at = internal::Find(*this, context);
   return ViewOf<T>::Read(at.arena, at.slot);
 }
 

@@ -16,7 +16,7 @@ struct SystemTime {
   double seconds;
 };
 
-/// Sums up the time that each system of a plan takes.
+/// Sums up the time that each system of a schedule takes.
 class Profile {
  public:
   struct Entry {

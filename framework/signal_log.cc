@@ -7,6 +7,7 @@
 #include <cassert>
 #include <utility>
 
+#include "framework/diagram.h"
 #include "framework/dynamic_port.h"
 #include "framework/error.h"
 #include "framework/simulator.h"
@@ -22,7 +23,7 @@ SignalLog::SignalLog(Simulator& simulator, std::vector<OutputHandle> outputs, co
   }
   begin_.push_back(1);
   for (const OutputHandle& output : outputs_) {
-    const int size = VectorSize(output, simulator.context());
+    const int size = simulator.diagram().SizeOf(output);
     if (&TypeOfPort(output) != &kVectorType) {
       throw WiringError(
           {fmt::format("signal log: output '{}'; got a {}; expected a Vector",

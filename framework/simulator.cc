@@ -13,7 +13,7 @@
 
 #include "framework/error.h"
 #include "framework/log.h"
-#include "framework/plan.h"
+#include "framework/schedule.h"
 #include "framework/witness_locator.h"
 
 namespace oca {
@@ -108,13 +108,13 @@ Simulator::Simulator(const Diagram& diagram, const IntegratorOptions& options)
 
 Simulator::Simulator(const Diagram& diagram, Context context, const IntegratorOptions& options)
     : diagram_(diagram), context_(std::move(context)), clock_(std::make_unique<Clock>()) {
-  const Plan& plan = diagram_.plan();
+  const Schedule& schedule = diagram_.schedule();
   CheckContext();
-  for (const Plan::Group& group : plan.groups) clock_->Add(group.every);
-  integrator_ = MakeIntegrator(plan, options);
-  if (!plan.witnesses.empty()) locator_ = std::make_unique<WitnessLocator>(plan, options);
-  due_.reserve(plan.events.size());
-  saved_state_.resize(plan.continuous_size);
+  for (const Schedule::Group& group : schedule.groups) clock_->Add(group.every);
+  integrator_ = MakeIntegrator(schedule, options);
+  if (!schedule.witnesses.empty()) locator_ = std::make_unique<WitnessLocator>(schedule, options);
+  due_.reserve(schedule.events.size());
+  saved_state_.resize(schedule.continuous_size);
 }
 
 Simulator::~Simulator() = default;
@@ -141,7 +141,7 @@ void Simulator::SetRealtimeFactor(double factor, WallClock& clock) {
 }
 
 void Simulator::EnableProfile() {
-  profile_ = std::make_unique<Profile>(diagram_.plan().systems.size());
+  profile_ = std::make_unique<Profile>(diagram_.schedule().systems.size());
 }
 
 std::vector<SystemTime> Simulator::profile() const {
@@ -149,8 +149,8 @@ std::vector<SystemTime> Simulator::profile() const {
   if (!profile_) return times;
   for (std::size_t i = 0; i < profile_->entries().size(); ++i) {
     const Profile::Entry& entry = profile_->entries()[i];
-    times.push_back(
-        {diagram_.plan().paths[i], entry.calls, std::chrono::duration<double>(entry.time).count()});
+    times.push_back({diagram_.schedule().paths[i], entry.calls,
+                     std::chrono::duration<double>(entry.time).count()});
   }
   return times;
 }
@@ -158,48 +158,51 @@ std::vector<SystemTime> Simulator::profile() const {
 void Simulator::ConnectLog() { context_.header().log = log_ == nullptr ? &SilentLog() : log_; }
 
 void Simulator::CheckContext() const {
-  if (context_.plan_ == &diagram_.plan() && context_.arena_ != nullptr) return;
+  if (context_.schedule_ == &diagram_.schedule() && context_.arena_ != nullptr) return;
   throw WiringError({"simulator: context; got one of another diagram; expected one of its own"});
 }
 
 void Simulator::Initialize() {
-  const Plan& plan = diagram_.plan();
+  const Schedule& schedule = diagram_.schedule();
   CheckContext();
   ConnectLog();
-  plan.CheckInputsFixed(context_);
+  schedule.CheckInputsFixed(context_);
   initialized_ = true;
   const double start = context_.time();
   const bool resumed = context_.header().initialized != 0;
   for (std::size_t i = 0; i < publishes_.size(); ++i) {
-    publishes_[i].count = clock_->FirstCount(plan.groups.size() + i, start);
+    publishes_[i].count = clock_->FirstCount(schedule.groups.size() + i, start);
     if (resumed) SkipPublished(i);
   }
   if (resumed) return;
-  for (std::size_t i = 0; i < plan.groups.size(); ++i) {
-    plan.group_counts(context_)[i] = clock_->FirstCount(i, start);
+  for (std::size_t i = 0; i < schedule.groups.size(); ++i) {
+    schedule.group_counts(context_)[i] = clock_->FirstCount(i, start);
   }
-  for (const int event : plan.initializations) plan.RunEvent(context_, plan.events[event]);
-  for (const int event : plan.initializations) plan.Commit(context_, plan.events[event]);
-  plan.CheckStart(context_, true);
-  plan.TakeCapacity(context_);
+  for (const int event : schedule.initializations)
+    schedule.RunEvent(context_, schedule.events[event]);
+  for (const int event : schedule.initializations)
+    schedule.Commit(context_, schedule.events[event]);
+  schedule.CheckStart(context_, true);
+  schedule.TakeCapacity(context_);
   context_.header().initialized = 1;
   RunPublishes();
 }
 
 void Simulator::SkipPublished(std::size_t i) {
-  const std::size_t beat = diagram_.plan().groups.size() + i;
+  const std::size_t beat = diagram_.schedule().groups.size() + i;
   if (clock_->Time(beat, publishes_[i].count) == context_.time()) ++publishes_[i].count;
 }
 
 void Simulator::FollowTime() {
-  const Plan& plan = diagram_.plan();
+  const Schedule& schedule = diagram_.schedule();
   const double now = context_.time();
-  for (std::size_t i = 0; i < plan.groups.size(); ++i) {
-    std::int64_t& count = plan.group_counts(context_)[i];
+  for (std::size_t i = 0; i < schedule.groups.size(); ++i) {
+    std::int64_t& count = schedule.group_counts(context_)[i];
     count = clock_->Follow(i, count, now);
   }
   for (std::size_t i = 0; i < publishes_.size(); ++i) {
-    const std::int64_t followed = clock_->Follow(plan.groups.size() + i, publishes_[i].count, now);
+    const std::int64_t followed =
+        clock_->Follow(schedule.groups.size() + i, publishes_[i].count, now);
     if (followed == publishes_[i].count) continue;
     publishes_[i].count = followed;
     SkipPublished(i);
@@ -216,7 +219,7 @@ bool Simulator::AdvanceTo(double time) {
     Initialize();
   } else {
     ConnectLog();
-    diagram_.plan().CheckInputsFixed(context_);
+    diagram_.schedule().CheckInputsFixed(context_);
   }
   context_.header().profile = profile_.get();
   try {
@@ -266,26 +269,26 @@ void Simulator::Pace() {
 }
 
 void Simulator::RunStage(System::Stage stage) {
-  const Plan& plan = diagram_.plan();
-  std::int64_t* const counts = plan.group_counts(context_);
+  const Schedule& schedule = diagram_.schedule();
+  std::int64_t* const counts = schedule.group_counts(context_);
   const double now = context_.time();
   due_.clear();
-  for (std::size_t i = 0; i < plan.groups.size(); ++i) {
-    const Plan::Group& group = plan.groups[i];
+  for (std::size_t i = 0; i < schedule.groups.size(); ++i) {
+    const Schedule::Group& group = schedule.groups[i];
     if (group.stage != stage || clock_->Time(i, counts[i]) > now) continue;
     due_.insert(due_.end(), group.events.begin(), group.events.end());
   }
   AddPending(stage);
   if (due_.empty()) return;
-  for (const int event : due_) plan.RunEvent(context_, plan.events[event]);
+  for (const int event : due_) schedule.RunEvent(context_, schedule.events[event]);
   for (const int event : due_) {
-    const Plan::Change change = plan.Commit(context_, plan.events[event]);
-    restart_ |= change != Plan::Change::kNone;
-    jumped_ |= change == Plan::Change::kState;
+    const Schedule::Change change = schedule.Commit(context_, schedule.events[event]);
+    restart_ |= change != Schedule::Change::kNone;
+    jumped_ |= change == Schedule::Change::kState;
   }
   // Only now, so that a stage that failed is still due.
-  for (std::size_t i = 0; i < plan.groups.size(); ++i) {
-    if (plan.groups[i].stage == stage && clock_->Time(i, counts[i]) <= now) ++counts[i];
+  for (std::size_t i = 0; i < schedule.groups.size(); ++i) {
+    if (schedule.groups[i].stage == stage && clock_->Time(i, counts[i]) <= now) ++counts[i];
   }
   ForgetPending(stage);
   statistics_.updates += static_cast<std::int64_t>(due_.size());
@@ -293,36 +296,36 @@ void Simulator::RunStage(System::Stage stage) {
 
 void Simulator::AddPending(System::Stage stage) {
   if (stage != System::Stage::kReset) return;
-  const Plan& plan = diagram_.plan();
-  for (std::size_t i = 0; i < plan.witnesses.size(); ++i) {
-    if (plan.witness_states(context_)[i].pending == 0) continue;
-    const std::vector<int>& events = plan.witnesses[i].events;
+  const Schedule& schedule = diagram_.schedule();
+  for (std::size_t i = 0; i < schedule.witnesses.size(); ++i) {
+    if (schedule.witness_states(context_)[i].pending == 0) continue;
+    const std::vector<int>& events = schedule.witnesses[i].events;
     due_.insert(due_.end(), events.begin(), events.end());
   }
 }
 
 void Simulator::ForgetPending(System::Stage stage) {
   if (stage != System::Stage::kReset) return;
-  const Plan& plan = diagram_.plan();
-  for (std::size_t i = 0; i < plan.witnesses.size(); ++i) {
-    plan.witness_states(context_)[i].pending = 0;
+  const Schedule& schedule = diagram_.schedule();
+  for (std::size_t i = 0; i < schedule.witnesses.size(); ++i) {
+    schedule.witness_states(context_)[i].pending = 0;
   }
 }
 
 void Simulator::RunPublishes() {
-  const Plan& plan = diagram_.plan();
-  std::int64_t* const counts = plan.group_counts(context_);
+  const Schedule& schedule = diagram_.schedule();
+  std::int64_t* const counts = schedule.group_counts(context_);
   const double now = context_.time();
-  for (std::size_t i = 0; i < plan.groups.size(); ++i) {
-    const Plan::Group& group = plan.groups[i];
+  for (std::size_t i = 0; i < schedule.groups.size(); ++i) {
+    const Schedule::Group& group = schedule.groups[i];
     if (group.stage != System::Stage::kPublish || clock_->Time(i, counts[i]) > now) continue;
-    for (const int event : group.events) plan.RunEvent(context_, plan.events[event]);
+    for (const int event : group.events) schedule.RunEvent(context_, schedule.events[event]);
     ++counts[i];
     statistics_.publishes += static_cast<std::int64_t>(group.events.size());
   }
   for (std::size_t i = 0; i < publishes_.size(); ++i) {
     OwnPublish& own = publishes_[i];
-    if (clock_->Time(plan.groups.size() + i, own.count) > now) continue;
+    if (clock_->Time(schedule.groups.size() + i, own.count) > now) continue;
     own.publish(context_);
     ++own.count;
     ++statistics_.publishes;
@@ -330,20 +333,20 @@ void Simulator::RunPublishes() {
 }
 
 double Simulator::NextEventTime() const {
-  const Plan& plan = diagram_.plan();
-  const std::int64_t* const counts = plan.group_counts(context_);
+  const Schedule& schedule = diagram_.schedule();
+  const std::int64_t* const counts = schedule.group_counts(context_);
   double next = kInfinity;
-  for (std::size_t i = 0; i < plan.groups.size(); ++i) {
+  for (std::size_t i = 0; i < schedule.groups.size(); ++i) {
     next = std::min(next, clock_->Time(i, counts[i]));
   }
   for (std::size_t i = 0; i < publishes_.size(); ++i) {
-    next = std::min(next, clock_->Time(plan.groups.size() + i, publishes_[i].count));
+    next = std::min(next, clock_->Time(schedule.groups.size() + i, publishes_[i].count));
   }
   return next;
 }
 
 void Simulator::Integrate(double to) {
-  const Plan& plan = diagram_.plan();
+  const Schedule& schedule = diagram_.schedule();
   const double from = context_.time();
   // A step so small is the rounding of an event's time, not motion; integrators refuse it.
   const double smallest = 4.0 * (std::nextafter(std::fabs(from), kInfinity) - std::fabs(from));
@@ -363,7 +366,7 @@ void Simulator::Integrate(double to) {
     }
   } catch (...) {
     statistics_.integrator = integrator_->statistics();  // what was spent in vain counts
-    plan.SetTimeAndState(context_, from, saved_state_.data());
+    schedule.SetTimeAndState(context_, from, saved_state_.data());
     ForgetPending(System::Stage::kReset);
     restart_ = true;
     throw;

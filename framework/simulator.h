@@ -60,6 +60,7 @@ class Simulator {
   Simulator(const Simulator&) = delete;
   Simulator& operator=(const Simulator&) = delete;
 
+  const Diagram& diagram() const { return diagram_; }
   /// May be assigned a saved Context of the same diagram, or given another time; events that lie
   /// before the new time are skipped.
   Context& context() { return context_; }

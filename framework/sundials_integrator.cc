@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "framework/error.h"
-#include "framework/plan.h"
+#include "framework/schedule.h"
 #include "framework/stiffness.h"
 #include "framework/sundials_vector.h"
 
@@ -35,11 +35,11 @@ constexpr int kMostRejections = 40;
 /// What both families share: the vector, the tolerances, and the right-hand side.
 class SundialsIntegrator : public Integrator {
  public:
-  SundialsIntegrator(const Plan& plan, const IntegratorOptions& options)
-      : plan_(plan),
-        relative_(plan.continuous_size, options.relative_tolerance),
-        absolute_(plan.continuous_size, options.absolute_tolerance),
-        state_(plan.continuous_size),
+  SundialsIntegrator(const Schedule& schedule, const IntegratorOptions& options)
+      : schedule_(schedule),
+        relative_(schedule.continuous_size, options.relative_tolerance),
+        absolute_(schedule.continuous_size, options.absolute_tolerance),
+        state_(schedule.continuous_size),
         max_steps_(options.max_steps) {
     SetTolerances(options);
 #if SUNDIALS_VERSION_MAJOR >= 7
@@ -70,7 +70,7 @@ class SundialsIntegrator : public Integrator {
 
   void LoadState(Context& context) {
     context_ = &context;
-    std::copy_n(plan_.continuous(context), state_.size(), state_.data());
+    std::copy_n(schedule_.continuous(context), state_.size(), state_.data());
   }
 
   void CountAll() {
@@ -94,8 +94,8 @@ class SundialsIntegrator : public Integrator {
       return 0;
     }
     try {
-      integrator.plan_.SetTimeAndState(*integrator.context_, t, NV_DATA_S(y));
-      integrator.plan_.EvaluateDerivatives(*integrator.context_, NV_DATA_S(ydot));
+      integrator.schedule_.SetTimeAndState(*integrator.context_, t, NV_DATA_S(y));
+      integrator.schedule_.EvaluateDerivatives(*integrator.context_, NV_DATA_S(ydot));
       return 0;
     } catch (...) {
       integrator.failure_ = std::current_exception();
@@ -161,8 +161,8 @@ class SundialsIntegrator : public Integrator {
     const double step = (time - from_) / max_steps_;  // on average
     const double rate = internal::FastestRate(state_, [&](const double* x, double* derivative) {
       try {
-        plan_.SetTimeAndState(*context_, time, x);
-        plan_.EvaluateDerivatives(*context_, derivative);
+        schedule_.SetTimeAndState(*context_, time, x);
+        schedule_.EvaluateDerivatives(*context_, derivative);
         return true;
       } catch (const std::exception&) {
         return false;
@@ -180,7 +180,7 @@ class SundialsIntegrator : public Integrator {
         max_steps_, step);
   }
 
-  const Plan& plan_;
+  const Schedule& schedule_;
   std::vector<double> relative_, absolute_;
   std::vector<double> state_;  // y_ lies over it
   const int max_steps_;        // between two events
@@ -195,8 +195,8 @@ class SundialsIntegrator : public Integrator {
  private:
   void SetTolerances(const IntegratorOptions& options) {
     std::vector<std::string> used;
-    for (const auto& derivative : plan_.derivatives) {
-      const auto found = options.tolerances.find(plan_.PathOf(*derivative.system));
+    for (const auto& derivative : schedule_.derivatives) {
+      const auto found = options.tolerances.find(schedule_.PathOf(*derivative.system));
       if (found == options.tolerances.end()) continue;
       used.push_back(found->first);
       if (!(found->second.relative > 0.0) || !(found->second.absolute > 0.0)) {
@@ -204,7 +204,8 @@ class SundialsIntegrator : public Integrator {
                                       found->first, found->second.relative,
                                       found->second.absolute));
       }
-      const std::size_t begin = (derivative.out.offset - plan_.derivative_offset) / sizeof(double);
+      const std::size_t begin =
+          (derivative.out.offset - schedule_.derivative_offset) / sizeof(double);
       std::fill_n(relative_.begin() + begin, derivative.out.size, found->second.relative);
       std::fill_n(absolute_.begin() + begin, derivative.out.size, found->second.absolute);
     }
@@ -223,8 +224,8 @@ void Silence(int, const char*, const char*, char*, void*) {}
 /// ARKODE's explicit Runge-Kutta with error control.
 class ErkIntegrator final : public SundialsIntegrator {
  public:
-  ErkIntegrator(const Plan& plan, const IntegratorOptions& options, const char* table)
-      : SundialsIntegrator(plan, options) {
+  ErkIntegrator(const Schedule& schedule, const IntegratorOptions& options, const char* table)
+      : SundialsIntegrator(schedule, options) {
     memory_ = ERKStepCreate(RightHandSide, 0.0, y_, sundials_);
     if (memory_ == nullptr) Check(-1, "ERKStepCreate", "no memory");
     static_cast<void>(ERKStepSetUserData(memory_, static_cast<SundialsIntegrator*>(this)));
@@ -239,7 +240,7 @@ class ErkIntegrator final : public SundialsIntegrator {
       CheckFlag(ERKStepSetMaxStep(memory_, options.max_step), "ERKStepSetMaxStep");
     }
     // Every step ends with an interpolation at its end, which a straight line gives as exactly.
-    if (plan.witnesses.empty()) {
+    if (schedule.witnesses.empty()) {
       CheckFlag(ERKStepSetInterpolantDegree(memory_, 1), "ERKStepSetInterpolantDegree");
     }
     WarmUp();
@@ -250,8 +251,8 @@ class ErkIntegrator final : public SundialsIntegrator {
     LoadState(context);
     // What follows must depend on the Context alone, so that a resumed run gives the same bits: the
     // step is the one that the Context keeps, and the controller looks at no earlier errors.
-    const double step = jumped ? 0.0 : plan_.integrator_step(context);
-    plan_.integrator_step(context) = step;
+    const double step = jumped ? 0.0 : schedule_.integrator_step(context);
+    schedule_.integrator_step(context) = step;
     // A long integration has the controller that SUNDIALS prefers, which looks at two errors.
     const int controller = step == 0.0 ? ARK_ADAPT_PI : ARK_ADAPT_I;
     if (controller != controller_) {
@@ -298,10 +299,10 @@ class ErkIntegrator final : public SundialsIntegrator {
     const int flag = ERKStepEvolve(memory_, to, y_, &reached, mode);
     CountAll();
     CheckFlag(flag, "ERKStepEvolve");
-    plan_.SetTimeAndState(context, mode == ARK_NORMAL ? to : reached, state_.data());
+    schedule_.SetTimeAndState(context, mode == ARK_NORMAL ? to : reached, state_.data());
     double next = 0.0;
     ERKStepGetCurrentStep(memory_, &next);
-    plan_.integrator_step(context) = next;
+    schedule_.integrator_step(context) = next;
   }
 
   /// The first step takes memory; it is made here, at rest, so that no later one does.
@@ -328,8 +329,8 @@ class ErkIntegrator final : public SundialsIntegrator {
 /// CVODE: Adams with fixed-point iteration, or BDF with Newton and a dense Jacobian.
 class CvodeIntegrator final : public SundialsIntegrator {
  public:
-  CvodeIntegrator(const Plan& plan, const IntegratorOptions& options, int method)
-      : SundialsIntegrator(plan, options) {
+  CvodeIntegrator(const Schedule& schedule, const IntegratorOptions& options, int method)
+      : SundialsIntegrator(schedule, options) {
     memory_ = CVodeCreate(method, sundials_);
     if (memory_ == nullptr) Check(-1, "CVodeCreate", "no memory");
     CVodeSetUserData(memory_, static_cast<SundialsIntegrator*>(this));
@@ -399,7 +400,7 @@ class CvodeIntegrator final : public SundialsIntegrator {
     const int flag = CVode(memory_, to, y_, &reached, mode);
     CountAll();
     CheckFlag(flag, "CVode");
-    plan_.SetTimeAndState(context, mode == CV_NORMAL ? to : reached, state_.data());
+    schedule_.SetTimeAndState(context, mode == CV_NORMAL ? to : reached, state_.data());
   }
 
   /// The first step takes memory; it is made here, at rest, so that no later one does.
@@ -427,18 +428,18 @@ class CvodeIntegrator final : public SundialsIntegrator {
 
 }  // namespace
 
-std::unique_ptr<Integrator> MakeSundialsIntegrator(const Plan& plan,
+std::unique_ptr<Integrator> MakeSundialsIntegrator(const Schedule& schedule,
                                                    const IntegratorOptions& options) {
   switch (options.integrator) {
     // Tables by name: their defaults differ between versions of SUNDIALS.
     case IntegratorKind::kErkDp5:
-      return std::make_unique<ErkIntegrator>(plan, options, "ARKODE_DORMAND_PRINCE_7_4_5");
+      return std::make_unique<ErkIntegrator>(schedule, options, "ARKODE_DORMAND_PRINCE_7_4_5");
     case IntegratorKind::kErkBs3:
-      return std::make_unique<ErkIntegrator>(plan, options, "ARKODE_BOGACKI_SHAMPINE_4_2_3");
+      return std::make_unique<ErkIntegrator>(schedule, options, "ARKODE_BOGACKI_SHAMPINE_4_2_3");
     case IntegratorKind::kCvodeAdams:
-      return std::make_unique<CvodeIntegrator>(plan, options, CV_ADAMS);
+      return std::make_unique<CvodeIntegrator>(schedule, options, CV_ADAMS);
     case IntegratorKind::kCvodeBdf:
-      return std::make_unique<CvodeIntegrator>(plan, options, CV_BDF);
+      return std::make_unique<CvodeIntegrator>(schedule, options, CV_BDF);
     default:
       throw ConfigError("simulator: the integrator is not one of SUNDIALS'");
   }

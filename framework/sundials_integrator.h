@@ -9,7 +9,7 @@ namespace oca {
 
 /// The adaptive integrators of SUNDIALS: ARKODE's ERKStep with a named table, or CVODE.
 /// throws ConfigError for a kind that is not SUNDIALS', SimulationError if memory runs out.
-std::unique_ptr<Integrator> MakeSundialsIntegrator(const Plan& plan,
+std::unique_ptr<Integrator> MakeSundialsIntegrator(const Schedule& schedule,
                                                    const IntegratorOptions& options);
 
 }  // namespace oca

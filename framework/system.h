@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <any>
 #include <functional>
 #include <initializer_list>
 #include <string>
@@ -15,7 +16,7 @@
 
 namespace oca {
 
-class Plan;
+class Schedule;
 
 /// A discrete event that repeats: at offset, offset + period, offset + 2 period, ...
 struct Every {
@@ -98,6 +99,25 @@ class System {
   int size_variables() const { return size_variables_; }
   int unit_variables() const { return unit_variables_; }
 
+  /// What the system is for others, beyond its ports: a role is a struct of any type that a
+  /// constructor declares. nullptr if it has none of that type; the first of several.
+  template <class Role>
+  const Role* role() const {
+    for (const std::any& declared : roles_) {
+      if (const auto* const found = std::any_cast<Role>(&declared)) return found;
+    }
+    return nullptr;
+  }
+  /// All of a type, in the order of their declaration.
+  template <class Role>
+  std::vector<const Role*> roles() const {
+    std::vector<const Role*> found;
+    for (const std::any& declared : roles_) {
+      if (const auto* const one = std::any_cast<Role>(&declared)) found.push_back(one);
+    }
+    return found;
+  }
+
   /// Ports by name. throw WiringError naming the ports there are.
   virtual InputHandle FindInput(const std::string& name) const;
   virtual OutputHandle FindOutput(const std::string& name) const;
@@ -111,45 +131,54 @@ class System {
   Size DeclareSize(std::initializer_list<std::pair<const char*, const PerComponent*>> parameters);
   Unit DeclareUnit() { return Unit::Variable(unit_variables_++); }
 
+  template <class Role>
+  void DeclareRole(Role role) {
+    roles_.emplace_back(std::move(role));
+  }
+
   template <class T>
   Input<T> DeclareInput(std::string name, PortSpec spec = {}) {
-    return {AddInput({std::move(name), &TypeOf<T>(), std::move(spec), false})};
+    return Input<T>(AddInput({std::move(name), &TypeOf<T>(), std::move(spec), false}));
   }
   template <class T>
   OptionalInput<T> DeclareOptionalInput(std::string name, PortSpec spec = {}) {
-    return {AddInput({std::move(name), &TypeOf<T>(), std::move(spec), true})};
+    return OptionalInput<T>(AddInput({std::move(name), &TypeOf<T>(), std::move(spec), true}));
   }
 
   /// An output that `kMethod(reads..., T& out)` computes.
   template <class T, auto kMethod, class... Reads>
   Output<T> DeclareOutput(std::string name, PortSpec spec, const Reads&... reads) {
     auto calculation = MakeCalculation<kMethod, WriteOf<T>>(reads...);
-    return {AddOutput({std::move(name), &TypeOf<T>(), std::move(spec), std::move(calculation)})};
+    return Output<T>(
+        AddOutput({std::move(name), &TypeOf<T>(), std::move(spec), std::move(calculation)}));
   }
   /// An output that shows a state; it costs nothing and breaks algebraic loops.
   template <class T>
   Output<T> DeclareStateOutput(std::string name, const DiscreteState<T>& state) {
-    return {AddStateOutput(std::move(name), state)};
+    return Output<T>(AddStateOutput(std::move(name), state));
   }
   Output<Vector> DeclareStateOutput(std::string name, const ContinuousState& state) {
-    return {AddStateOutput(std::move(name), state)};
+    return Output<Vector>(AddStateOutput(std::move(name), state));
   }
 
   /// A vector state, `initial` at the start; a scalar `initial` counts for every component.
   DiscreteState<Vector> DeclareDiscreteState(std::string name, PortSpec spec,
                                              PerComponent initial) {
-    return {AddState({std::move(name), &kVectorType, std::move(spec), false, std::move(initial)})};
+    return DiscreteState<Vector>(
+        AddState({std::move(name), &kVectorType, std::move(spec), false, std::move(initial)}));
   }
   /// A state of another copyable type with a Signal trait.
   template <class T>
   DiscreteState<T> DeclareDiscreteState(std::string name, T initial) {
-    return {AddState({std::move(name), &TypeOf<T>(), {}, false, {}, [initial](void* at) {
-                        *static_cast<T*>(at) = initial;
-                      }})};
+    return DiscreteState<T>(
+        AddState({std::move(name), &TypeOf<T>(), {}, false, {}, [initial](void* at) {
+                    *static_cast<T*>(at) = initial;
+                  }}));
   }
   /// A state that DeclareDerivative's `kMethod(reads..., MutableVectorView derivative)` drives.
   ContinuousState DeclareContinuousState(std::string name, PortSpec spec, PerComponent initial) {
-    return {AddState({std::move(name), &kVectorType, std::move(spec), true, std::move(initial)})};
+    return ContinuousState(
+        AddState({std::move(name), &kVectorType, std::move(spec), true, std::move(initial)}));
   }
   template <auto kMethod, class... Reads>
   void DeclareDerivative(const ContinuousState& state, const Reads&... reads) {
@@ -210,8 +239,8 @@ class System {
 
  private:
   friend class DiagramBuilder;
-  friend class PlanCompiler;
-  friend class Plan;
+  friend class ScheduleCompiler;
+  friend class Schedule;
 
   template <auto kMethod, class... States, class... Reads>
   void DeclareEvent(Stage stage, Every every, const Writes<States...>& writes,
@@ -241,11 +270,12 @@ class System {
   std::vector<StateInfo> states_;
   std::vector<EventInfo> events_;
   std::vector<WitnessInfo> witnesses_;
+  std::vector<std::any> roles_;
   int size_variables_{0};
   int unit_variables_{0};
 
-  // Written when a root diagram is built: where its plan keeps this system.
-  const Plan* plan_{nullptr};
+  // Written when a root diagram is built: where its schedule keeps this system.
+  const Schedule* schedule_{nullptr};
   int first_input_{0};
   int first_output_{0};
   int first_state_{0};

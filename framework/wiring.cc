@@ -4,36 +4,12 @@
 #include <fmt/format.h>
 
 #include <optional>
-#include <tuple>
 #include <utility>
+
+#include "framework/error.h"
 
 namespace oca {
 namespace {
-
-/// A unit split into a base and the number of times it is taken per second: rad/s^2 = (rad, 2).
-struct RatedUnit {
-  std::string base;
-  int rates;
-  friend bool operator==(const RatedUnit&, const RatedUnit&) = default;
-
-  static RatedUnit Parse(const Unit& unit) {
-    std::string text = unit.text();
-    int rates = unit.rates();
-    if (text.ends_with("/s^2")) {
-      text.resize(text.size() - 4);
-      rates += 2;
-    } else if (text.ends_with("/s")) {
-      text.resize(text.size() - 2);
-      rates += 1;
-    }
-    return {std::move(text), rates};
-  }
-  std::string text() const {
-    if (rates == 0) return base;
-    if (rates < 0) return rates == -1 ? base + " s" : fmt::format("{} s^{}", base, -rates);
-    return rates == 1 ? base + "/s" : fmt::format("{}/s^{}", base, rates);
-  }
-};
 
 /// One side of a constraint: a value, or a variable that is the value plus a shift.
 template <class Value>
@@ -45,12 +21,9 @@ struct Term {
 };
 
 int Shift(int value, int /*shift*/) { return value; }
-RatedUnit Shift(RatedUnit value, int shift) {
-  value.rates += shift;
-  return value;
-}
+Unit Shift(const Unit& value, int shift) { return value.Rate(shift); }
 std::string Show(int value) { return std::to_string(value); }
-std::string Show(const RatedUnit& value) { return value.text(); }
+std::string Show(const Unit& value) { return value.ToString(); }
 
 /// Settles variables from equalities by propagation and reports each equality that fails.
 template <class Value>
@@ -149,7 +122,7 @@ void Wiring::Flatten(const Diagram& diagram, const std::string& prefix) {
       continue;
     }
     index_[child.system.get()] = static_cast<int>(leaves_.size());
-    leaves_.push_back({child.system.get(), path, {}, {}});
+    leaves_.push_back({child.system.get(), path, {}, {}, {}});
     leaves_.back().drivers.resize(child.system->inputs().size());
   }
 }
@@ -304,14 +277,14 @@ void Wiring::SettleUnits() {
     first.push_back(count);
     count += leaf.system->unit_variables();
   }
-  Equalities<RatedUnit> units(count);
+  Equalities<Unit> units(count);
   const auto term = [&](const PortSpec& spec, int leaf, std::string port) {
-    Term<RatedUnit> result{{}, -1, 0, std::move(port)};
+    Term<Unit> result{{}, -1, 0, std::move(port)};
     if (spec.unit.variable() >= 0) {
       result.variable = first[leaf] + spec.unit.variable();
       result.shift = spec.unit.rates();
     } else if (!spec.unit.any()) {
-      result.value = RatedUnit::Parse(spec.unit);
+      result.value = spec.unit;
     }
     return result;
   };
@@ -321,6 +294,12 @@ void Wiring::SettleUnits() {
   });
   units.Settle();
   units.Report("unit", problems_);
+  for (std::size_t leaf = 0; leaf < leaves_.size(); ++leaf) {
+    const int variables = leaves_[leaf].system->unit_variables();
+    for (int i = 0; i < variables; ++i) {
+      leaves_[leaf].units.push_back(units[first[leaf] + i].value_or(Unit::Any()));
+    }
+  }
 }
 
 void Wiring::CheckInitialValues() {
@@ -349,6 +328,28 @@ void Wiring::CheckInitialValues() {
 
 int Wiring::SizeOf(int leaf, const Size& size) const {
   return size.variable() < 0 ? size.number() : leaves_[leaf].sizes[size.variable()];
+}
+
+Unit Wiring::UnitOf(int leaf, const Unit& unit) const {
+  if (unit.variable() < 0) return unit;
+  const Unit& settled = leaves_[leaf].units[unit.variable()];
+  return settled.any() ? settled : settled.Rate(unit.rates());
+}
+
+int Wiring::LeafOf(const Handle& port) const {
+  const auto found = index_.find(port.system);
+  if (found != index_.end()) return found->second;
+  throw WiringError({"port: its system is not part of the diagram that was asked"});
+}
+
+std::string Wiring::PathOf(const System& system) const {
+  if (const auto leaf = index_.find(&system); leaf != index_.end()) {
+    return leaves_[leaf->second].path;
+  }
+  if (const auto nested = diagram_paths_.find(&system); nested != diagram_paths_.end()) {
+    return nested->second;
+  }
+  throw WiringError({"system: it is not part of the diagram that was asked"});
 }
 
 const System::InputInfo& Wiring::InfoOf(const Target& target) const {

@@ -10,7 +10,8 @@
 namespace oca {
 
 /// A diagram with its nesting resolved: leaf systems, what drives each of their inputs, and the
-/// settled length of every vector. All wiring problems are collected, none throws.
+/// settled length and unit of every vector. All wiring problems are collected, none throws. The
+/// root keeps it, to answer by.
 class Wiring {
  public:
   /// What an input reads: an output of a leaf, an input that the root exports, or nothing.
@@ -25,20 +26,33 @@ class Wiring {
     std::string path;
     std::vector<Driver> drivers;  ///< one an input
     std::vector<int> sizes;       ///< of the size variables
+    std::vector<Unit> units;      ///< of the unit variables; any: nothing settles it
   };
 
   explicit Wiring(const Diagram& root);
 
+  const Diagram& root() const { return root_; }
   const std::vector<Leaf>& leaves() const { return leaves_; }
   std::vector<Leaf>& leaves() { return leaves_; }
+  /// The number of a leaf; throws WiringError if the port is of none.
+  int LeafOf(const Handle& port) const;
   /// Length of a vector port or state of a leaf.
   int SizeOf(int leaf, const Size& size) const;
-  /// The leaf input that settles the type and length of an exported input.
+  /// Unit of a port or state of a leaf.
+  Unit UnitOf(int leaf, const Unit& unit) const;
+  /// An input of a leaf.
   struct Target {
     int leaf;
     int input;
   };
+  /// The leaf inputs behind an input of a leaf or of a diagram, the first of which settles its type
+  /// and length; none: of no system inside.
+  std::vector<Target> TargetsOf(const InputHandle& input) const;
+  const System::InputInfo& InfoOf(const Target& target) const;
   const std::vector<std::vector<Target>>& exported() const { return exported_; }
+  /// The dotted path of a leaf or a nested diagram, empty of the root; throws WiringError if it is
+  /// not inside.
+  std::string PathOf(const System& system) const;
   std::vector<std::string>& problems() { return problems_; }
 
   std::string NameOfInput(int leaf, int input) const;
@@ -56,10 +70,7 @@ class Wiring {
   void SettleUnits();
   void CheckInitialValues();
 
-  /// The leaf inputs behind an input of a leaf or of a nested diagram.
-  std::vector<Target> TargetsOf(const InputHandle& input) const;
   std::string NameOfDriver(const Driver& driver) const;
-  const System::InputInfo& InfoOf(const Target& target) const;
 
   const Diagram& root_;
   std::vector<Leaf> leaves_;

@@ -42,15 +42,15 @@ bool SameSign(double a, double b) { return (a > 0.0 && b > 0.0) || (a < 0.0 && b
 
 }  // namespace
 
-WitnessLocator::WitnessLocator(const Plan& plan, const IntegratorOptions& options)
-    : plan_(plan),
+WitnessLocator::WitnessLocator(const Schedule& schedule, const IntegratorOptions& options)
+    : schedule_(schedule),
       max_steps_(options.max_steps),
-      end_state_(plan.continuous_size),
-      at_(plan.continuous_size),
-      start_value_(plan.witnesses.size()),
-      end_value_(plan.witnesses.size()),
-      scale_(plan.witnesses.size()),
-      crossing_(plan.witnesses.size()) {}
+      end_state_(schedule.continuous_size),
+      at_(schedule.continuous_size),
+      start_value_(schedule.witnesses.size()),
+      end_value_(schedule.witnesses.size()),
+      scale_(schedule.witnesses.size()),
+      crossing_(schedule.witnesses.size()) {}
 
 bool WitnessLocator::Advance(Context& context, Integrator* integrator, double to) {
   integrator_ = integrator;
@@ -84,8 +84,8 @@ void WitnessLocator::Start(Context& context) {
 
 /// The witness at the context's time and state; 0 while it is at rest.
 double WitnessLocator::Value(Context& context, int witness) const {
-  const double w = plan_.EvaluateWitness(context, witness);
-  const Plan::WitnessState& state = plan_.witness_states(context)[witness];
+  const double w = schedule_.EvaluateWitness(context, witness);
+  const Schedule::WitnessState& state = schedule_.witness_states(context)[witness];
   const bool just_crossed =
       state.count > 0 && context.time() - state.last <= 2.0 * Resolution(context.time());
   return just_crossed && std::fabs(w) <= state.rest ? 0.0 : w;
@@ -93,7 +93,7 @@ double WitnessLocator::Value(Context& context, int witness) const {
 
 bool WitnessLocator::FindCrossings(Context& context, double to) {
   end_ = context.time();
-  std::copy_n(plan_.continuous(context), end_state_.size(), end_state_.data());
+  std::copy_n(schedule_.continuous(context), end_state_.size(), end_state_.data());
   double earliest = kNever;
   for (std::size_t i = 0; i < crossing_.size(); ++i) {
     crossing_[i] = FirstCrossing(context, static_cast<int>(i));
@@ -123,7 +123,7 @@ bool WitnessLocator::FindCrossings(Context& context, double to) {
 }
 
 bool WitnessLocator::Fires(int witness, double before, double after) const {
-  const Direction direction = plan_.witnesses[witness].direction;
+  const Direction direction = schedule_.witnesses[witness].direction;
   return (direction != Direction::kRising && before > 0.0 && after <= 0.0) ||
          (direction != Direction::kFalling && before < 0.0 && after >= 0.0);
 }
@@ -288,14 +288,14 @@ WitnessLocator::Look WitnessLocator::LookAt(Context& context, int witness, doubl
 void WitnessLocator::MoveTo(Context& context, double t) {
   if (context.time() == t) return;
   if (integrator_ == nullptr) return context.SetTime(t);
-  if (t == end_) return plan_.SetTimeAndState(context, t, end_state_.data());
+  if (t == end_) return schedule_.SetTimeAndState(context, t, end_state_.data());
   integrator_->Interpolate(context, t, at_.data());
-  plan_.SetTimeAndState(context, t, at_.data());
+  schedule_.SetTimeAndState(context, t, at_.data());
 }
 
 void WitnessLocator::Trigger(Context& context, int witness) {
-  Plan::WitnessState& state = plan_.witness_states(context)[witness];
-  const double left_over = std::fabs(plan_.EvaluateWitness(context, witness));
+  Schedule::WitnessState& state = schedule_.witness_states(context)[witness];
+  const double left_over = std::fabs(schedule_.EvaluateWitness(context, witness));
   state.rest = left_over <= kJump * scale_[witness] ? left_over : 0.0;
   state.pending = 1;
   const double t = context.time();
@@ -309,12 +309,12 @@ void WitnessLocator::Trigger(Context& context, int witness) {
   ++state.count;
 }
 
-double WitnessLocator::IntervalTo(const Plan::WitnessState& state, double t) {
+double WitnessLocator::IntervalTo(const Schedule::WitnessState& state, double t) {
   return state.count == 0 ? 0.0 : t - state.last;
 }
 
 void WitnessLocator::CheckZeno(const Context& context, int witness) const {
-  const Plan::WitnessState& state = plan_.witness_states(context)[witness];
+  const Schedule::WitnessState& state = schedule_.witness_states(context)[witness];
   const double t = context.time(), interval = IntervalTo(state, t);
   const bool crowd =
       state.count >= kZenoCount && t - state.window_start <= Relative(kZenoWindow, t);
@@ -323,7 +323,7 @@ void WitnessLocator::CheckZeno(const Context& context, int witness) const {
   const double rest = sooner ? interval * interval / (state.interval - interval) : 0.0;
   if (!crowd && !(sooner && state.row >= kZenoRow && rest < Relative(kZenoRest, t))) return;
   throw SimulationError(
-      plan_.PathOf(*plan_.witnesses[witness].system), plan_.witnesses[witness].name, t,
+      schedule_.PathOf(*schedule_.witnesses[witness].system), schedule_.witnesses[witness].name, t,
       fmt::format("its events accumulate (Zeno) towards t = {:.12g} s; got {} in a row, the last "
                   "{:.3g} s apart; expected a state that comes to rest, or events further apart",
                   t + rest, crowd ? state.count : state.row, interval));

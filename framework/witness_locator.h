@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "framework/integrator.h"
-#include "framework/plan.h"
+#include "framework/schedule.h"
 
 namespace oca {
 
@@ -20,7 +20,7 @@ namespace oca {
 /// ended, it counts as zero, so that its own rounding is no second crossing.
 class WitnessLocator {
  public:
-  WitnessLocator(const Plan& plan, const IntegratorOptions& options);
+  WitnessLocator(const Schedule& schedule, const IntegratorOptions& options);
 
   /// Integrates from the context's time to `to`, or to the first crossing, whose witnesses are then
   /// pending; true if there was one. `integrator` may be nullptr if nothing moves but the time.
@@ -52,10 +52,10 @@ class WitnessLocator {
   void CheckSteps(const Context& context, int steps) const;
   void CheckZeno(const Context& context, int witness) const;
   /// From the last crossing to `t`, s; 0 for the first.
-  static double IntervalTo(const Plan::WitnessState& state, double t);
+  static double IntervalTo(const Schedule::WitnessState& state, double t);
   bool Fires(int witness, double before, double after) const;
 
-  const Plan& plan_;
+  const Schedule& schedule_;
   const int max_steps_;
   Integrator* integrator_{nullptr};
   double begin_{0.0}, end_{0.0};        // s; of the present step

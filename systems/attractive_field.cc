@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "framework/error.h"
+#include "systems/roles.h"
 
 namespace oca::systems {
 namespace {
@@ -39,7 +40,12 @@ AttractiveField::AttractiveField(const Params& params)
       link_(params_.link),
       target_name_("target"),
       links(DeclareInput<LinkPoses>("links")),
-      forces(DeclareOutput<LinkForceSet, &AttractiveField::CalcForces>("forces", {}, links)) {}
+      forces(DeclareOutput<LinkForceSet, &AttractiveField::CalcForces>("forces", {}, links)) {
+  DeclareRole(Limits{.shown = Limits::Shown::kListed,
+                     .signal = forces,
+                     .member = "forces",
+                     .how = "pulled to its target"});
+}
 
 void AttractiveField::CalcForces(const LinkPoses& poses, LinkForceSet& force_set) const {
   const int index = poses.Find(link_);

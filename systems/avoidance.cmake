@@ -14,8 +14,8 @@ set(avoidance
   signals
   tip_error
   wrench_transform)
-set(avoidance_headers geometry_params.h link_colliders.h model_links.h motion_metrics_value.h
+set(avoidance_headers distance_blind_spots.h geometry_params.h link_colliders.h model_links.h motion_metrics_value.h
     rotation.h)
-set(avoidance_sources bullet_distance_scope.cc geometry_params.cc json_fields.cc link_colliders.cc
+set(avoidance_sources bullet_distance_scope.cc distance_blind_spots.cc geometry_params.cc json_fields.cc link_colliders.cc
     model_links.cc motion_certificate.cc motion_metrics_value.cc motion_tally.cc rotation.cc
     signal_checks.cc waypoint_table.cc)

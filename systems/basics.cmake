@@ -16,6 +16,7 @@ set(basics
   pose_goal
   ramp_source
   require
+  roles
   saturation
   sine_source
   spline_generator

@@ -10,7 +10,9 @@
 #include "framework/error.h"
 #include "models/error.h"
 #include "models/robot/kinematics.h"
+#include "systems/distance_blind_spots.h"
 #include "systems/model_links.h"
+#include "systems/roles.h"
 
 namespace oca::systems {
 namespace {
@@ -94,7 +96,30 @@ BulletDistance::BulletDistance(const Params& params, const ModelSet& models)
       links_of_others(DeclareOtherLinks()),
       scene(DeclareOutput<ObstacleScene, &BulletDistance::CalcScene>("scene", {}, obstacles)),
       near(DeclareOutput<NearObstacles, &BulletDistance::CalcNear>("near", {}, links, scene)),
-      proximities(DeclareProximities(link_forces_ ? moving_others_ : 0)) {}
+      proximities(DeclareProximities(link_forces_ ? moving_others_ : 0)) {
+  DeclareRoles(params, models);
+}
+
+void BulletDistance::DeclareRoles(const Params& params, const ModelSet& models) {
+  MeasuresDistances measures{.proximities = proximities,
+                             .obstacles = obstacles,
+                             .model = name_,
+                             .own_links = self_collision_};
+  for (const std::string& name : link_forces_ ? params.others : std::vector<std::string>()) {
+    std::size_t i = 0;
+    while (others_[i].name != name) ++i;
+    const bool moves = i < links_of_others.size();
+    measures.others.push_back({name, moves ? InputHandle(links_of_others[i]) : InputHandle{}});
+  }
+  for (const auto& pair : params.ignore) measures.ignored.emplace_back(pair[0], pair[1]);
+  DeclareRole(std::move(measures));
+  DeclareRole(BlindSpots{.spots =
+                             [params, models](const std::string& own_name) {
+                               return DistanceBlindSpots(params, models, own_name);
+                             },
+                         .behind = obstacles});
+  DeclareRole(Plots{.id = "distance", .title = "Distances", .signal = proximities, .unit = "m"});
+}
 
 std::vector<BulletDistance::Neighbour> BulletDistance::MakeNeighbours(
     const std::string& name, const models::RobotModel& model) {

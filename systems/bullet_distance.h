@@ -93,6 +93,7 @@ class BulletDistance final : public System {
   std::vector<Input<LinkPoses>> DeclareOtherLinks();
   template <std::size_t kMoving = 0>
   Output<ProximitySet> DeclareProximities(std::size_t moving);
+  void DeclareRoles(const Params& params, const ModelSet& models);
 
   void CalcScene(const ObstacleSet& set, ObstacleScene& result) const { result.Follow(set); }
   void CalcNear(const LinkPoses& poses, const ObstacleScene& of, NearObstacles& result) const;

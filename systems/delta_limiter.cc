@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "systems/roles.h"
+
 namespace oca::systems {
 void DeltaLimiter::Params::Describe(Fields<Params>& fields) {
   fields
@@ -22,6 +24,13 @@ DeltaLimiter::DeltaLimiter(const Params& params)
       delta(DeclareInput<Vector>("delta", {size_, unit_})),
       limited_delta(DeclareStateOutput("limited_delta", x_)) {
   DeclareUpdate<&DeltaLimiter::Update>(Every{params_.period}, Writes(x_), delta, x_);
+  DeclareRole(CarriesDelta{.in = delta, .out = limited_delta});
+  if (!params_.enabled) return;
+  const Eigen::VectorXd& bound = params_.max_joint_velocity.values();
+  DeclareRole(Limits{.shown = Limits::Shown::kRate,
+                     .signal = limited_delta,
+                     .bound = {bound.begin(), bound.end()},
+                     .period = params_.period});
 }
 
 void DeltaLimiter::Shrink(VectorView delta_value, VectorView x, MutableVectorView next) const {

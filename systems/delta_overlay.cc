@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "systems/delta_overlay.h"
 
+#include "systems/roles.h"
+
 namespace oca::systems {
 void DeltaOverlay::Params::Describe(Fields<Params>& fields) {
   fields
@@ -24,6 +26,10 @@ DeltaOverlay::DeltaOverlay(const Params& params)
                                                                   velocity_in, delta, x_)),
       applied_delta(DeclareOutput<Vector, &DeltaOverlay::CalcApplied>("applied_delta",
                                                                       {size_, unit_}, delta)) {
+  if (params_.enabled) {
+    DeclareRole(PassesOn{.in = delta, .out = applied_delta});
+    DeclareRole(AddsDelta{.delta = delta, .request = position_in, .period = params_.period});
+  }
   if (!params_.period.positive()) return;
   DeclareUpdate<&DeltaOverlay::Update>(Every{params_.period}, Writes(x_), delta);
 }

@@ -41,8 +41,6 @@ class DeltaOverlay final : public System {
 
   explicit DeltaOverlay(const Params& params);
 
-  const Params& params() const { return params_; }
-
  private:
   const Params params_;
   const Size size_;

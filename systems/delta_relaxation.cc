@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "systems/roles.h"
+
 namespace oca::systems {
 void DeltaRelaxation::Params::Describe(Fields<Params>& fields) {
   fields
@@ -23,6 +25,10 @@ DeltaRelaxation::DeltaRelaxation(const Params& params)
       relaxed_delta(DeclareOutput<Vector, &DeltaRelaxation::CalcRelaxed>(
           "relaxed_delta", {size_, unit_}, delta, relaxation_time, held, x_)) {
   DeclareUpdate<&DeltaRelaxation::Update>(Every{params.period}, Writes(x_), relaxed_delta);
+  DeclareRole(CarriesDelta{.in = delta,
+                           .out = relaxed_delta,
+                           .relaxation_time = params_.relaxation_time,
+                           .adapts = relaxation_time});
 }
 
 void DeltaRelaxation::CalcRelaxed(VectorView delta_value, OptionalVector time, OptionalVector left,

@@ -42,8 +42,6 @@ class DeltaRelaxation final : public System {
 
   explicit DeltaRelaxation(const Params& params);
 
-  const Params& params() const { return params_; }
-
  private:
   const Params params_;
   const Size size_;

@@ -11,6 +11,7 @@
 #include "models/robot/robot_model.h"
 #include "systems/model_links.h"
 #include "systems/require.h"
+#include "systems/roles.h"
 
 namespace oca::systems {
 namespace {
@@ -178,6 +179,13 @@ ElasticBand::ElasticBand(const Params& params, const ModelSet& models)
       Every{params_.period}, Writes(position_, velocity_, acceleration_), kTime, ahead, memory_);
   DeclareUpdate<&ElasticBand::Plan>(Every{params_.plan_period}, Writes(memory_), kTime, kLog, ahead,
                                     obstacles, measured_position, measured_velocity);
+  if (!params_.enabled) return;
+  DeclareRole(Limits{.shown = Limits::Shown::kBelow,
+                     .signal = plan,
+                     .bound = {params_.margin},
+                     .member = "nearest",
+                     .how = "bent around what is near",
+                     .period = params_.plan_period});
 }
 
 void ElasticBand::Start(VectorView measured, MutableVectorView position_out) const {

@@ -10,6 +10,7 @@
 #include "systems/model_links.h"
 #include "systems/motion_limiter.h"
 #include "systems/require.h"
+#include "systems/roles.h"
 #include "systems/velocity_methods.h"
 
 namespace oca::systems {
@@ -68,7 +69,13 @@ FlaccoDeLuca::FlaccoDeLuca(const Params& params, const ModelSet& models)
       solution(DeclareOutput<AvoidanceVelocity, &FlaccoDeLuca::CalcSolution>(
           "solution", {}, proximities, links, wish)),
       velocity(DeclareOutput<Vector, &FlaccoDeLuca::CalcVelocity>("velocity", RateSpec(*model_),
-                                                                  solution)) {}
+                                                                  solution)) {
+  DeclareRole(Limits{.shown = Limits::Shown::kAbove,
+                     .signal = solution,
+                     .bound = {0.0},
+                     .member = "rows",
+                     .how = "repulsed or held back"});
+}
 
 double FlaccoDeLuca::Risk(double distance) const {
   return 1.0 / (1.0 + std::exp(params_.alpha * (2.0 * distance / params_.influence_distance - 1)));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "systems/force_sum.h"
 
+#include "systems/roles.h"
+
 namespace oca::systems {
 
 void ForceSum::Params::Describe(Fields<Params>& /*fields*/) {}
@@ -8,7 +10,9 @@ void ForceSum::Params::Describe(Fields<Params>& /*fields*/) {}
 ForceSum::ForceSum(const Params& /*params*/)
     : forces0(DeclareInput<LinkForceSet>("forces0")),
       forces1(DeclareInput<LinkForceSet>("forces1")),
-      forces(DeclareOutput<LinkForceSet, &ForceSum::CalcForces>("forces", {}, forces0, forces1)) {}
+      forces(DeclareOutput<LinkForceSet, &ForceSum::CalcForces>("forces", {}, forces0, forces1)) {
+  DeclareRole(NotDrawn{forces});
+}
 
 void ForceSum::CalcForces(const LinkForceSet& first, const LinkForceSet& second,
                           LinkForceSet& sum) const {

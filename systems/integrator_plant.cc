@@ -6,6 +6,7 @@
 
 #include "framework/error.h"
 #include "systems/require.h"
+#include "systems/roles.h"
 
 namespace oca::systems {
 namespace {
@@ -67,6 +68,9 @@ IntegratorPlant::IntegratorPlant(const Params& params)
     DeclareDerivative<kFree>(position_, velocity_, position_);
     DeclareDerivative<kFree>(velocity_, command, position_);
   }
+  DeclareRole(Boundary{"the joints"});
+  DeclareRole(Plant{.command = command, .position = position, .velocity = velocity});
+  DeclareRole(Plots{.id = "speed", .title = "Joint speeds", .signal = velocity});
 }
 
 ContinuousState IntegratorPlant::DeclareVelocity() {

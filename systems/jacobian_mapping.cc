@@ -7,8 +7,10 @@
 
 #include "framework/error.h"
 #include "systems/json_fields.h"
+#include "systems/loop_gain.h"
 #include "systems/model_links.h"
 #include "systems/require.h"
+#include "systems/roles.h"
 
 namespace oca::systems {
 namespace {
@@ -50,7 +52,17 @@ JacobianMapping::JacobianMapping(const Params& params, const ModelSet& models)
       solution(DeclareOutput<MappingSolution, &JacobianMapping::CalcSolution>("solution", {},
                                                                               wrenches, links)),
       delta(DeclareOutput<Vector, &JacobianMapping::CalcDelta>("delta", DeltaSpec(*model_),
-                                                               solution)) {}
+                                                               solution)) {
+  DeclareRole(MapsForces{
+      .links = links, .delta = delta, .make_gain = [params, models](const Period& period) {
+        LoopGain::Params gain{.period = period};
+        gain.model = params.model;
+        gain.alpha = params.alpha;
+        gain.method = params.method;
+        gain.damping = params.damping;
+        return std::make_unique<LoopGain>(gain, models);
+      }});
+}
 
 void JacobianMapping::CalcSolution(const WrenchSet& wrench_set, const LinkPoses& poses,
                                    MappingSolution& result) const {

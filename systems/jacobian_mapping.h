@@ -68,8 +68,6 @@ class JacobianMapping final : public System {
 
   JacobianMapping(const Params& params, const ModelSet& models);
 
-  const Params& params() const { return params_; }
-
  private:
   const Params params_;
   const std::shared_ptr<const models::RobotModel> model_;

@@ -39,8 +39,6 @@ LoopGain::LoopGain(const Params& params, const ModelSet& models)
       relaxation_time(
           DeclareOutput<Vector, &LoopGain::CalcTime>("relaxation_time", {1, "s"}, estimate)) {}
 
-int LoopGain::num_positions() const { return model_->num_positions(); }
-
 void LoopGain::AddContacts(const ContactSlopes& from,
                            std::vector<models::GainContact>& contacts) const {
   const double rate_weight = 2.0 / params_.period.seconds();

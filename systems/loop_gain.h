@@ -71,8 +71,6 @@ class LoopGain final : public System {
 
   LoopGain(const Params& params, const ModelSet& models);
 
-  int num_positions() const;
-
  private:
   const Params params_;
   const std::shared_ptr<const models::RobotModel> model_;

@@ -11,6 +11,7 @@
 #include "models/robot/robot_model.h"
 #include "systems/json_fields.h"
 #include "systems/model_links.h"
+#include "systems/roles.h"
 
 namespace oca::systems {
 namespace {
@@ -72,6 +73,11 @@ MotionLimiter::MotionLimiter(const Params& params, const ModelSet& models)
   DeclareInitialization<&MotionLimiter::Start>(Writes(c_, r_), position_in, measured_position);
   DeclareUpdate<&MotionLimiter::Update>(Every{params_.period}, Writes(c_, r_, v_, a_, started_),
                                         position_in, position, velocity);
+  if (!params_.enabled) return;
+  DeclareRole(Limits{.shown = Limits::Shown::kListed,
+                     .signal = clips,
+                     .member = "clips",
+                     .period = params_.period});
 }
 
 void MotionLimiter::Start(VectorView request, std::optional<VectorView> measured,

@@ -2,6 +2,7 @@
 #include "systems/motion_metrics.h"
 
 #include "systems/model_links.h"
+#include "systems/roles.h"
 
 namespace oca::systems {
 
@@ -30,6 +31,16 @@ MotionMetrics::MotionMetrics(const Params& params, const ModelSet& models)
           "metrics", {}, kTime, position, request, goal, delta, proximities, tally)) {
   DeclareUpdate<&MotionMetrics::Update>(Every{params.period}, Writes(x_), kTime, position, request,
                                         goal, delta, proximities);
+  DeclareRole(Boundary{"the judge"});
+  DeclareRole(Judges{.metrics = metrics,
+                     .position = position,
+                     .request = request,
+                     .delta = delta,
+                     .proximities = proximities,
+                     .model = params.model});
+  DeclareRole(Plots{.id = "requested", .title = "Requested joints", .signal = request});
+  DeclareRole(Plots{.id = "delta", .title = "Deltas of the avoidance", .signal = delta});
+  DeclareRole(Plots{.id = "final", .title = "Final joints", .signal = position});
 }
 
 PortSpec MotionMetrics::MakeSpec() {

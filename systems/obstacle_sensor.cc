@@ -8,6 +8,7 @@
 
 #include "framework/error.h"
 #include "models/random.h"
+#include "systems/roles.h"
 
 namespace oca::systems {
 namespace {
@@ -73,6 +74,12 @@ ObstacleSensor::ObstacleSensor(const Params& params)
       in(DeclareInput<ObstacleSet>("in")),
       obstacles(DeclareObstacles()) {
   DeclareUpdate<&ObstacleSensor::Sample>(Every{params_.period}, Writes(line_), kTime, in);
+  DeclareRole(BlindSpots{.spots =
+                             [](const std::string& own_name) {
+                               return std::vector<std::string>{
+                                   fmt::format("obstacles but as '{}' reports them", own_name)};
+                             },
+                         .behind = in});
 }
 
 Output<ObstacleSet> ObstacleSensor::DeclareObstacles() {

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
 
 #include "framework/error.h"
+#include "systems/roles.h"
 #include "systems/signal_limits.h"
 
 namespace oca::systems {
@@ -97,6 +99,19 @@ Eigen::Isometry3d StartPose(const ObstacleSource::ObstacleParams& params,
   return pose.Pose(where);
 }
 
+/// What has its place in the world and stays there.
+std::vector<HoldsObstacles::Standing> StandingOf(const ObstacleSource::Params& params) {
+  std::vector<HoldsObstacles::Standing> standing;
+  for (int i = 0; i < std::ssize(params.obstacles); ++i) {
+    const ObstacleSource::ObstacleParams& obstacle = params.obstacles[static_cast<std::size_t>(i)];
+    if (obstacle.motion || !obstacle.frame.empty() || !obstacle.pose) continue;
+    const Eigen::Vector3d& xyz = obstacle.pose->xyz;
+    standing.push_back(
+        {obstacle.id, fmt::format("obstacles.{}.pose.xyz", i), {xyz.x(), xyz.y(), xyz.z()}, 3 * i});
+  }
+  return standing;
+}
+
 }  // namespace
 
 void ObstacleSource::Frame::Describe(Fields<Frame>& fields) {
@@ -139,7 +154,18 @@ ObstacleSource::ObstacleSource(const Params& params)
       changes_(MakeChanges()),
       layout_(NewLayouts(changes_.size() + 1)),
       offsets(DeclareOptionalInput<Vector>("offsets", OffsetsSpec(params))),
-      obstacles(DeclareObstacles(params)) {}
+      obstacles(DeclareObstacles(params)) {
+  DeclareRole(Boundary{"the camera"});
+  DeclareRole(HoldsObstacles{.obstacles = obstacles,
+                             .offsets = offsets,
+                             .standing = StandingOf(params),
+                             .unsampled = [params]() -> std::unique_ptr<System> {
+                               Params always = params;
+                               always.period = Period();
+                               return std::make_unique<ObstacleSource>(always);
+                             }});
+  DeclareRole(Remarks{.warnings = warnings_});
+}
 
 std::vector<ObstacleSource::Entry> ObstacleSource::MakeEntries(const Params& params) {
   Validated(params);

@@ -38,6 +38,8 @@ class ObstacleSource final : public System {
       "holds obstacles that stand or move by script",
       "pose = motion(s) for appear <= s < disappear, s = period floor(t / period)",
       "Jain, Sixt, Exner 2016, Algorithm 1"};
+  /// The parameter `obstacles` of this type says where they are before it is made.
+  static constexpr bool kSaysObstacles = true;
   struct Frame {
     std::string name{};
     PoseParams pose{};
@@ -64,9 +66,6 @@ class ObstacleSource final : public System {
 
   explicit ObstacleSource(const Params& params);
 
-  /// What to know of the files that obstacles come from, a line each.
-  const std::vector<std::string>& warnings() const { return warnings_; }
-
  private:
   struct Entry {
     std::shared_ptr<const ObstacleBody> body;
@@ -84,7 +83,7 @@ class ObstacleSource final : public System {
   Entry MakeEntry(const ObstacleParams& params, const Eigen::Isometry3d& X_WF);
 
   const Period period_;
-  std::vector<std::string> warnings_;  ///< MakeEntries adds to it
+  std::vector<std::string> warnings_;  ///< of the files that obstacles come from; by MakeEntries
   const std::vector<Entry> entries_;
   const std::vector<int> moving_;      ///< places in entries_ of those that do not stand
   const std::vector<double> changes_;  ///< times at which bodies come or go, ascending

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "framework/error.h"
+#include "systems/roles.h"
 
 namespace oca::systems {
 namespace {
@@ -38,6 +39,9 @@ RepulsiveField::RepulsiveField(const Params& params)
       proximities(DeclareInput<ProximitySet>("proximities")),
       forces(DeclareOutput<LinkForceSet, &RepulsiveField::CalcForces>("forces", {}, proximities)),
       slopes(DeclareOutput<ContactSlopes, &RepulsiveField::CalcSlopes>("slopes", {}, proximities)) {
+  DeclareRole(Repels{params_.max_distance});
+  DeclareRole(Limits{
+      .shown = Limits::Shown::kBelow, .signal = proximities, .bound = {params_.max_distance}});
 }
 
 double RepulsiveField::Magnitude(double distance) const {

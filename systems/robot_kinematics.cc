@@ -5,6 +5,7 @@
 #include "models/robot/joint_limits.h"
 #include "models/robot/kinematics.h"
 #include "systems/model_links.h"
+#include "systems/roles.h"
 
 namespace oca::systems {
 
@@ -19,6 +20,7 @@ RobotKinematics::RobotKinematics(const Params& params, const ModelSet& models)
       links(
           DeclareOutput<LinkPoses, &RobotKinematics::CalcLinks>("links", {}, position, velocity)) {
   DeclareInitialization<&RobotKinematics::CheckStart>(Writes<>(), position);
+  DeclareRole(Kinematics{.position = position, .velocity = velocity, .links = links});
 }
 
 void RobotKinematics::CheckStart(VectorView q) const {

@@ -11,6 +11,7 @@
 #include "models/robot/robot_model.h"
 #include "systems/json_fields.h"
 #include "systems/model_links.h"
+#include "systems/roles.h"
 
 namespace oca::systems {
 namespace {
@@ -130,6 +131,25 @@ SafetyFilter::SafetyFilter(const Params& params, const ModelSet& models)
   DeclareInitialization<&SafetyFilter::Start>(Writes(c_), measured_position);
   DeclareUpdate<&SafetyFilter::Update>(Every{params_.period}, Writes(c_, u_, l_, activity_),
                                        solution, command, velocity);
+  DeclareRole(Limits{.shown = Limits::Shown::kListed,
+                     .signal = activity,
+                     .member = "bounds",
+                     .period = params_.period});
+  DeclareRole(Remarks{.notes = [this] { return std::vector<std::string>{DescribeMargin()}; }});
+}
+
+std::string SafetyFilter::DescribeMargin() const {
+  const double reach = Reach();
+  const double fastest = model_->velocity_limits().sum();
+  std::string text = fmt::format(
+      "keeps {} m, less {:.3g} m while its joint speeds add up to 1 rad/s, {:.3g} m with obstacles "
+      "at 1 m/s besides",
+      params_.safe_distance, TickMargin(1.0, reach, 0.0), TickMargin(1.0, reach, 1.0));
+  if (std::isfinite(fastest)) {
+    text +=
+        fmt::format(", {:.3g} m with all joints at their limits", TickMargin(fastest, reach, 0.0));
+  }
+  return text;
 }
 
 void SafetyFilter::Start(VectorView measured, MutableVectorView c) const { c = measured; }

@@ -147,8 +147,6 @@ class SafetyFilter final : public System {
   double TickMargin(double turn, double reach, double obstacle_speed) const;
   /// No point of the arm is farther than this from a joint before it, m.
   double Reach() const;
-  const Params& params() const { return params_; }
-  const models::RobotModel& model() const { return *model_; }
 
  private:
   using OptionalVector = std::optional<VectorView>;
@@ -161,6 +159,7 @@ class SafetyFilter final : public System {
   const DiscreteState<Vector> l_;
   const DiscreteState<FilterActivity> activity_;
 
+  std::string DescribeMargin() const;
   double Approach(double headroom) const;
   int FindLink(models::Name name) const;
   void FillBox(FilterSolution& result) const;

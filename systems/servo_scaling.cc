@@ -9,6 +9,7 @@
 #include "framework/error.h"
 #include "models/robot/robot_model.h"
 #include "systems/model_links.h"
+#include "systems/roles.h"
 #include "systems/velocity_methods.h"
 
 namespace oca::systems {
@@ -51,6 +52,11 @@ ServoScaling::ServoScaling(const Params& params, const ModelSet& models)
       path_time(DeclareStateOutput("path_time", s_)) {
   DeclareInitialization<&ServoScaling::Start>(Writes(s_), kTime);
   DeclareUpdate<&ServoScaling::Update>(Every{params_.period}, Writes(s_), kTime, scale);
+  DeclareRole(Limits{.shown = Limits::Shown::kBelow,
+                     .signal = scale,
+                     .bound = {1.0},
+                     .how = "slowed",
+                     .period = params_.period});
 }
 
 double ServoScaling::Law(double distance, bool own) const {

@@ -7,6 +7,7 @@
 #include "models/robot/robot_model.h"
 #include "systems/model_links.h"
 #include "systems/require.h"
+#include "systems/roles.h"
 #include "systems/velocity_methods.h"
 
 namespace oca::systems {
@@ -78,7 +79,13 @@ TaskPriority::TaskPriority(const Params& params, const ModelSet& models)
       solution(DeclareOutput<AvoidanceVelocity, &TaskPriority::CalcSolution>(
           "solution", {}, proximities, links, wish)),
       velocity(DeclareOutput<Vector, &TaskPriority::CalcVelocity>("velocity", RateSpec(*model_),
-                                                                  solution)) {}
+                                                                  solution)) {
+  DeclareRole(Limits{.shown = Limits::Shown::kAbove,
+                     .signal = solution,
+                     .bound = {0.0},
+                     .member = "rows",
+                     .how = "evading"});
+}
 
 models::JointMatrix TaskPriority::TipTaskMatrix(std::span<const Eigen::Isometry3d> X_WL) const {
   Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, models::kMostFilteredJoints> J(

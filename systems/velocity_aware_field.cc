@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "framework/error.h"
+#include "systems/roles.h"
 
 namespace oca::systems {
 namespace {
@@ -73,7 +74,13 @@ VelocityAwareField::VelocityAwareField(const Params& params)
       forces(DeclareOutput<LinkForceSet, &VelocityAwareField::CalcForces>("forces", {}, proximities,
                                                                           links)),
       slopes(DeclareOutput<ContactSlopes, &VelocityAwareField::CalcSlopes>("slopes", {},
-                                                                           proximities, links)) {}
+                                                                           proximities, links)) {
+  DeclareRole(Repels{params_.max_distance});
+  DeclareRole(Limits{.shown = Limits::Shown::kListed,
+                     .signal = forces,
+                     .member = "forces",
+                     .how = "pushed, approaching"});
+}
 
 double VelocityAwareField::Potential(const Eigen::Vector3d& x, const Eigen::Vector3d& v) const {
   const double p = x.norm();

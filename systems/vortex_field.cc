@@ -7,6 +7,7 @@
 #include "models/robot/kinematics.h"
 #include "systems/json_fields.h"
 #include "systems/model_links.h"
+#include "systems/roles.h"
 
 namespace oca::systems {
 namespace {
@@ -54,6 +55,9 @@ VortexField::VortexField(const Params& params, const ModelSet& models)
       slopes(
           DeclareOutput<ContactSlopes, &VortexField::CalcSlopes>("slopes", {}, proximities, axes)) {
   DeclareUpdate<&VortexField::Update>(Every{params_.period}, Writes(held_), axes);
+  DeclareRole(Repels{params_.max_distance});
+  DeclareRole(Limits{
+      .shown = Limits::Shown::kBelow, .signal = proximities, .bound = {params_.max_distance}});
 }
 
 double VortexField::Angle(double distance) const {

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "framework/error.h"
+#include "systems/roles.h"
 
 namespace oca::systems {
 
@@ -17,7 +18,9 @@ WrenchTransform::WrenchTransform(const Params& /*params*/)
       wrenches(
           DeclareOutput<WrenchSet, &WrenchTransform::CalcWrenches>("wrenches", {}, forces, links)),
       wrenches_in_link(DeclareOutput<WrenchSet, &WrenchTransform::CalcInLink>(
-          "wrenches_in_link", {}, wrenches, links)) {}
+          "wrenches_in_link", {}, wrenches, links)) {
+  DeclareRole(NotDrawn{wrenches_in_link});
+}
 
 void WrenchTransform::CalcWrenches(const LinkForceSet& force_set, const LinkPoses& poses,
                                    WrenchSet& wrench_set) const {

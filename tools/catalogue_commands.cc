@@ -8,6 +8,7 @@
 #include "diagrams/catalogue.h"
 #include "diagrams/diagram_file.h"
 #include "diagrams/diagram_schema.h"
+#include "systems/roles.h"
 #include "tools/catalogue_text.h"
 #include "tools/commands.h"
 #include "tools/terminal.h"
@@ -41,6 +42,9 @@ int DescribeCommand(const std::string& type, const diagrams::Catalogue& catalogu
   Print("\nports\n");
   PrintPorts("input", example->inputs());
   PrintPorts("output", example->outputs());
+  const auto roles = systems::DescribeRoles(*example);
+  if (!roles.empty()) Print("\nroles\n");
+  for (const std::string& role : roles) Print("  {}\n", role);
   Print("\nparameters\n");
   const auto defaults = row.new_params();
   for (const Field& field : row.fields()) {

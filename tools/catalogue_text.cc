@@ -9,17 +9,12 @@
 namespace oca::tools {
 namespace {
 
-std::string UnitText(const Unit& unit) {
-  if (unit.any()) return "any unit";
-  std::string text = unit.variable() >= 0 ? "u" : unit.text();
-  if (unit.rates() == 0) return text;
-  return unit.rates() == 1 ? text + "/s" : fmt::format("{}/s^{}", text, unit.rates());
-}
-
 template <class Info>
 std::string TypeAndUnit(const Info& port) {
   std::string text = port.type->name;
-  return port.type == &kVectorType ? text + ", " + UnitText(port.spec.unit) : text;
+  return port.type == &kVectorType
+             ? text + ", " + (port.spec.unit.any() ? "any unit" : port.spec.unit.ToString())
+             : text;
 }
 
 }  // namespace

@@ -20,6 +20,7 @@
 
 #include "diagrams/loader.h"
 #include "framework/control_loop.h"
+#include "systems/roles.h"
 #include "systems/signals.h"
 
 namespace {
@@ -27,7 +28,10 @@ namespace {
 using oca::Status;
 using oca::Vector;
 using oca::diagrams::Override;
+using oca::systems::HoldsObstacles;
+using oca::systems::Judges;
 using oca::systems::ObstacleSet;
+using oca::systems::Plant;
 
 constexpr double kPeriod = 1e-3;  // s
 constexpr const char* kUsage =
@@ -63,24 +67,24 @@ bool Read(const std::vector<std::string>& words, Arguments& arguments) {
   return true;
 }
 
-/// What the program takes the place of: the names of all other systems.
-std::vector<std::string> Inside(const oca::diagrams::LoadedDiagram& whole) {
-  std::vector<std::string> names;
-  for (const auto& block : whole.systems) {
-    const bool outside = block.type == "IntegratorPlant" || block.type == "ObstacleSource" ||
-                         block.type == "MotionMetrics";
-    if (!outside) names.push_back(block.name);
-  }
-  return names;
+/// The one system of a role. throws if there is not one.
+template <class Role>
+const Role& TheOne(const oca::diagrams::LoadedDiagram& whole, const char* what) {
+  const auto found = whole.diagram->FindRoles<Role>();
+  if (found.size() == 1) return *found[0].role;
+  throw std::runtime_error(whole.file + ": systems; got " + std::to_string(found.size()) + " of " +
+                           what + "; expected one");
 }
 
-template <class T>
-oca::Output<T> OutputOf(const oca::diagrams::LoadedDiagram& whole, const char* system,
-                        const char* port) {
-  const oca::System* const found = whole.diagram->FindSystem(system);
-  if (found != nullptr) return {found->FindOutput(port)};
-  throw std::runtime_error(whole.file + ": systems; got no '" + system +
-                           "'; expected those of parts/loop.yaml");
+/// The name under which the part exports an output, or the input that it drives.
+std::string NameOf(const oca::Diagram& whole, const oca::OutputHandle& output) {
+  return oca::diagrams::ExportedName(whole.PathOf(output));
+}
+
+/// The same of what drives an input.
+std::string NameOf(const oca::Diagram& whole, const oca::InputHandle& input) {
+  if (const auto driver = whole.DriverOf(input)) return NameOf(whole, *driver);
+  throw std::runtime_error(whole.PathOf(input) + ": driver; got none; expected one");
 }
 
 /// What a robot does about a failure is its own affair; here it holds still, and says why once.
@@ -102,17 +106,21 @@ class Guard {
 int Run(const Arguments& arguments) {
   // Load once: the whole file says where the joints and obstacles are, the part is what we run.
   const auto whole = oca::diagrams::LoadDiagram(arguments.file, arguments.overrides);
-  const oca::Context start_of_all = whole.diagram->MakeContext();
-  const auto part = oca::diagrams::LoadPart(arguments.file, Inside(whole), arguments.overrides);
+  const oca::Diagram& all = *whole.diagram;
+  const auto& plant = TheOne<Plant>(whole, "joints");
+  const auto& camera = TheOne<HoldsObstacles>(whole, "obstacles");
+  const auto& judge = TheOne<Judges>(whole, "judges");
+  const auto part =
+      oca::diagrams::LoadPart(arguments.file, oca::diagrams::InsideOf(all), arguments.overrides);
   const oca::Diagram& diagram = *part.diagram;
-  const auto measured = diagram.GetInput<Vector>("plant_position");
-  const auto obstacles = diagram.GetInput<ObstacleSet>("obstacles_obstacles");
-  const auto command = diagram.GetOutput<Vector>("servo_command");  // joint velocities
-  const auto delta = diagram.GetOutput<Vector>("overlay_applied_delta");
+  const auto measured = diagram.GetInput<Vector>(NameOf(all, plant.position));
+  const auto obstacles = diagram.GetInput<ObstacleSet>(NameOf(all, camera.obstacles));
+  const auto command = diagram.GetOutput<Vector>(NameOf(all, plant.command));  // joint velocities
+  const auto delta = diagram.GetOutput<Vector>(NameOf(all, judge.delta));
 
-  Eigen::VectorXd q = OutputOf<Vector>(whole, "plant", "position").Eval(start_of_all);
-  const ObstacleSet first =
-      OutputOf<ObstacleSet>(whole, "obstacles", "obstacles").Eval(start_of_all);
+  const oca::Context start_of_all = all.MakeContext();
+  Eigen::VectorXd q = oca::Typed<Vector>(plant.position).Eval(start_of_all);
+  const ObstacleSet first = oca::Typed<ObstacleSet>(camera.obstacles).Eval(start_of_all);
   ObstacleSet scene = first;
 
   oca::ControlLoop loop(diagram, oca::Period(1, 1000));

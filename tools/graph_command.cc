@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
-#include <map>
+#include <iterator>
 #include <memory>
 
 #include "diagrams/loader.h"
@@ -20,17 +20,18 @@ struct Edge {
   bool state;
 };
 
-std::vector<Edge> EdgesOf(const diagrams::LoadedDiagram& loaded) {
-  std::map<const System*, std::string> names;
-  for (const Diagram::Child& child : loaded.diagram->children()) {
-    names[child.system.get()] = child.name;
-  }
+/// All connections between leaves, reader by reader.
+std::vector<Edge> EdgesOf(const Diagram& diagram) {
   std::vector<Edge> edges;
-  for (const Diagram::Connection& connection : loaded.diagram->connections()) {
-    edges.push_back(
-        {names[connection.from.system],
-         connection.from.system->outputs()[connection.from.index].name, names[connection.to.system],
-         connection.to.system->inputs()[connection.to.index].name, ShowsState(connection.from)});
+  for (const Diagram::Leaf& leaf : diagram.systems()) {
+    const auto& inputs = leaf.system->inputs();
+    for (int i = 0; i < std::ssize(inputs); ++i) {
+      const auto driver = diagram.DriverOf({{leaf.system, i}});
+      if (!driver) continue;
+      edges.push_back({diagram.PathOf(*driver->system),
+                       driver->system->outputs()[static_cast<std::size_t>(driver->index)].name,
+                       leaf.path, inputs[static_cast<std::size_t>(i)].name, ShowsState(*driver)});
+    }
   }
   return edges;
 }
@@ -59,7 +60,7 @@ std::string Dot(const diagrams::LoadedDiagram& loaded) {
         "  \"{}\" [label=<<b>{}</b><br/><font point-size=\"10\" color=\"#555555\">{}</font>>];\n",
         block.name, block.name, block.type);
   }
-  for (const Edge& edge : EdgesOf(loaded)) {
+  for (const Edge& edge : EdgesOf(*loaded.diagram)) {
     const std::string label =
         edge.output == edge.input ? edge.output : edge.output + " → " + edge.input;
     dot += fmt::format("  \"{}\" -> \"{}\" [label=\"{}\"{}];\n", edge.from, edge.to, label,
@@ -68,14 +69,23 @@ std::string Dot(const diagrams::LoadedDiagram& loaded) {
   return dot + "}\n";
 }
 
+/// A name that Mermaid takes; its own has dots where diagrams nest.
+std::string Id(std::string path) {
+  for (std::size_t dot = path.find('.'); dot != std::string::npos; dot = path.find('.', dot)) {
+    path.replace(dot, 1, "__");
+  }
+  return "s_" + path;
+}
+
 std::string Mermaid(const diagrams::LoadedDiagram& loaded) {
   std::string text = "flowchart LR\n";
   for (const auto& block : loaded.systems) {
-    text += fmt::format("  s_{0}[\"{0}<br/><small>{1}</small>\"]\n", block.name, block.type);
+    text +=
+        fmt::format("  {}[\"{}<br/><small>{}</small>\"]\n", Id(block.name), block.name, block.type);
   }
-  for (const Edge& edge : EdgesOf(loaded)) {
-    text += fmt::format("  s_{} {}|{} → {}| s_{}\n", edge.from, edge.state ? "-.->" : "-->",
-                        edge.output, edge.input, edge.to);
+  for (const Edge& edge : EdgesOf(*loaded.diagram)) {
+    text += fmt::format("  {} {}|{} → {}| {}\n", Id(edge.from), edge.state ? "-.->" : "-->",
+                        edge.output, edge.input, Id(edge.to));
   }
   return text;
 }

@@ -18,7 +18,9 @@ long StepsOf(double duration) { return static_cast<long>(duration / kStep) + 1; 
 }  // namespace
 
 ObstacleScript::ObstacleScript(std::shared_ptr<const Diagram> diagram, const OutputHandle& output)
-    : diagram_(std::move(diagram)), output_{output}, context_(diagram_->MakeContext()) {}
+    : diagram_(std::move(diagram)),
+      output_(Typed<systems::ObstacleSet>(output)),
+      context_(diagram_->MakeContext()) {}
 
 std::vector<models::BandBody> ObstacleScript::Bodies(const std::shared_ptr<ObstacleScript>& script,
                                                      double duration) {

@@ -90,7 +90,7 @@ const char* PlanFooter() {
   jerk_judged          false, if the model has limits of the jerk: they are not looked at
   start                what the motion was made from: request, pause, detour, random, path
   tries                motions that it took; 0: the request itself is clear
-  model, judge         the robot, and the MotionMetrics by which a run of the file is judged
+  model, judge         the robot, and the system by which a run of the file is judged
   sees                 what was looked at: all that the judge's distance block sees, and no more
   not_seen             what that block does not look at: links without collision shapes, other models
   seconds              of computing

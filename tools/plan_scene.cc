@@ -9,16 +9,16 @@
 
 #include "framework/dynamic_port.h"
 #include "framework/error.h"
-#include "systems/motion_metrics.h"
-#include "systems/obstacle_source.h"
-#include "systems/robot_kinematics.h"
+#include "tools/motion_ahead.h"
 #include "tools/plan_bodies.h"
-#include "tools/plan_wiring.h"
 
 namespace oca::tools {
 namespace {
 
 using Eigen::VectorXd;
+using systems::HoldsObstacles;
+using systems::Judges;
+using systems::MeasuresDistances;
 
 /// An empty name stands for the only model there is.
 std::string FullName(const systems::ModelSet& models, const std::string& name) {
@@ -36,129 +36,137 @@ int LowestMovable(const models::RobotModel& model) {
 PlanScene::PlanScene(const diagrams::LoadedDiagram& loaded, const std::string& model,
                      double duration)
     : loaded_(loaded), duration_(duration) {
-  const System& judge = FindJudge(model);
-  FindMotion(judge);
+  FindMotion(FindJudge(model));
   AddObstacles();
-  if (params_.self_collision) sees_.push_back("own links");
-  if (params_.calculate_link_forces) {
-    for (const std::string& other : params_.others) AddOther(other);
-  }
+  if (distances_->own_links) sees_.push_back("own links");
+  for (const MeasuresDistances::Other& other : distances_->others) AddOther(other);
   Ignore();
 }
 
-const System& PlanScene::FindJudge(const std::string& model) {
-  const PlanWiring wiring(loaded_);
-  std::vector<std::pair<std::string, const System*>> judges;  // model, system
+const Judges& PlanScene::FindJudge(const std::string& model) {
+  const Diagram& diagram = *loaded_.diagram;
+  std::vector<Diagram::Declared<Judges>> judges;
   std::vector<std::string> judged;
-  for (const auto& block : loaded_.systems) {
-    if (block.type != "MotionMetrics") continue;
-    const auto params = ReadParams<systems::MotionMetrics::Params>(block.params);
-    const std::string of = FullName(loaded_.models, params.model);
+  for (const auto& judge : diagram.FindRoles<Judges>()) {
+    const std::string of = FullName(loaded_.models, judge.role->model);
     if (!model.empty() && of != model) continue;
-    judges.emplace_back(of, loaded_.diagram->FindSystem(block.name));
-    judged.push_back(fmt::format("'{}' by {}", of, block.name));
+    judges.push_back(judge);
+    judged.push_back(fmt::format("'{}' by {}", of, judge.path));
   }
   if (judges.size() != 1) {
     throw ConfigError(fmt::format(
-        "plan: judge; got {}; expected one MotionMetrics of {}",
+        "plan: judge; got {}; expected one of {}",
         judged.empty() ? "none" : fmt::format("{}", fmt::join(judged, ", ")),
         model.empty() ? "one model, or --model NAME" : fmt::format("the model '{}'", model)));
   }
-  name_ = judges[0].first;
-  const System& judge = *judges[0].second;
-  judge_ = wiring.NameOf(judge);
+  const Judges& judge = *judges[0].role;
+  name_ = FullName(loaded_.models, judge.model);
+  judge_ = judges[0].path;
   model_ = loaded_.models.Get(name_);
-  distance_ = wiring.DriverOf(judge, "proximities").system;
-  const std::string got = distance_ == nullptr ? "nothing" : wiring.BlockOf(*distance_).type;
-  if (got != "BulletDistance") {
-    throw ConfigError(
-        fmt::format("{}.proximities: driver; got {}; expected a BulletDistance, which says what "
-                    "there is to see",
-                    judge_, got));
-  }
-  const auto& block = wiring.BlockOf(*distance_);
-  params_ = ReadParams<systems::BulletDistance::Params>(block.params);
-  if (FullName(loaded_.models, params_.model) != name_) {
-    throw ConfigError(fmt::format("{}.model: got '{}'; expected '{}', which {} judges", block.name,
-                                  params_.model, name_, judge_));
-  }
+  FindDistances(judge);
   return judge;
 }
 
-void PlanScene::FindMotion(const System& judge) {
-  const PlanWiring wiring(loaded_);
-  const OutputHandle request = wiring.DriverOf(judge, "request");
-  const OutputHandle position = wiring.DriverOf(judge, "position");
+void PlanScene::FindDistances(const Judges& judge) {
+  const Diagram& diagram = *loaded_.diagram;
+  const auto proximities = DriverOf(judge.proximities);
+  distances_ = proximities ? proximities->system->role<MeasuresDistances>() : nullptr;
+  if (distances_ == nullptr) {
+    throw ConfigError(fmt::format(
+        "{}.proximities: driver; got {}; expected a system that measures distances and says what "
+        "there is to see",
+        judge_, proximities ? Described(*proximities->system) : "nothing"));
+  }
+  distance_ = diagram.PathOf(*proximities->system);
+  if (distances_->model != name_) {
+    throw ConfigError(fmt::format("{}.model: got '{}'; expected '{}', which {} judges", distance_,
+                                  distances_->model, name_, judge_));
+  }
+}
+
+std::optional<OutputHandle> PlanScene::DriverOf(const InputHandle& input) const {
+  return systems::RolePort(input).In(*loaded_.diagram);
+}
+
+std::string PlanScene::Described(const System& system) const {
+  const auto& block = loaded_.BlockOf(system);
+  return fmt::format("'{}', a {}", block.name, block.type);
+}
+
+void PlanScene::FindMotion(const Judges& judge) {
+  const Diagram& diagram = *loaded_.diagram;
+  const auto request = DriverOf(judge.request);
+  const auto position = DriverOf(judge.position);
   for (const auto& [port, driver] : {std::pair("request", request), {"position", position}}) {
-    if (driver.system != nullptr) continue;
+    if (driver) continue;
     throw ConfigError(fmt::format("{}.{}: driver; got nothing; expected one", judge_, port));
   }
   const std::string where = judge_ + ".request";
-  request_ = wiring.AheadOf(request, where).first;
+  request_ = MotionAheadOf(diagram, *request, where).motion;
   if (request_->size() != model_->num_positions()) {
     throw ConfigError(fmt::format("{}: length; got {} joints; expected {}", where, request_->size(),
                                   model_->num_positions()));
   }
-  const Context context = loaded_.diagram->MakeContext();
-  const auto start = EvalVector(position, context);
+  const Context context = diagram.MakeContext();
+  const auto start = EvalVector(*position, context);
   start_ = Eigen::Map<const VectorXd>(start.data(), static_cast<Eigen::Index>(start.size()));
 }
 
 void PlanScene::AddObstacles() {
-  const PlanWiring wiring(loaded_);
-  const OutputHandle driver = wiring.DriverOf(*distance_, "obstacles");
-  const std::string where = wiring.NameOf(*distance_) + ".obstacles";
-  const auto& block = wiring.BlockOf(*driver.system);
-  if (!wiring.TimeAlone(driver)) {
+  const auto driver = DriverOf(distances_->obstacles);
+  if (!driver) return;
+  const System& source = *driver->system;
+  if (!loaded_.diagram->UpstreamOf(*driver, Through::kInstant).of_time_alone()) {
     throw ConfigError(fmt::format(
-        "{}: driver; got '{}', a {}, which depends on the run; expected a source that time alone "
-        "moves, as an ObstacleSource",
-        where, block.name, block.type));
+        "{}.obstacles: driver; got {}, which depends on the run; expected a source that time alone "
+        "moves",
+        distance_, Described(source)));
   }
   std::shared_ptr<ObstacleScript> script;
-  if (block.type == "ObstacleSource" &&
-      wiring.DriverOf(*driver.system, "offsets").system == nullptr) {
-    auto params = ReadParams<systems::ObstacleSource::Params>(block.params);
-    params.period = Period();  // what it does between its samples counts too
-    const std::shared_ptr<const Diagram> own =
-        MakeDiagramOf(std::make_unique<systems::ObstacleSource>(params));
-    script = std::make_shared<ObstacleScript>(own, own->FindOutput("obstacles"));
+  const auto* const holds = source.role<HoldsObstacles>();
+  // What it does between its samples counts too, unless it is moved by others.
+  if (holds != nullptr && holds->unsampled && !DriverOf(holds->offsets)) {
+    const std::shared_ptr<const Diagram> own = MakeDiagramOf(holds->unsampled());
+    const auto always = own->FindRoles<HoldsObstacles>();
+    script = std::make_shared<ObstacleScript>(own, always.at(0).role->obstacles);
   } else {
     const std::shared_ptr<const Diagram> shared(std::shared_ptr<void>(), loaded_.diagram.get());
-    script = std::make_shared<ObstacleScript>(shared, driver);
+    script = std::make_shared<ObstacleScript>(shared, *driver);
   }
   bodies_ = ObstacleScript::Bodies(script, duration_);
-  sees_.push_back(block.name);
+  sees_.push_back(loaded_.diagram->PathOf(source));
 }
 
-void PlanScene::AddOther(const std::string& name) {
+void PlanScene::AddOther(const MeasuresDistances::Other& of) {
+  const std::string& name = of.model;
   const auto other = loaded_.models.Get(name);
   if (!Moves(*other)) {
     AddLinks(name, other, [](double) { return VectorXd(0); });
     sees_.push_back(name);
     return;
   }
-  const PlanWiring wiring(loaded_);
-  const std::string port = "links_" + name;
-  const std::string where = wiring.NameOf(*distance_) + "." + port;
-  const System* const kinematics = wiring.DriverOf(*distance_, port).system;
-  const auto& block = wiring.BlockOf(*kinematics);
-  if (block.type != "RobotKinematics") {
-    throw ConfigError(fmt::format("{}: driver; got '{}', a {}; expected a RobotKinematics", where,
-                                  block.name, block.type));
+  const Diagram& diagram = *loaded_.diagram;
+  const auto links = DriverOf(of.links);
+  const auto* const kinematics = links ? links->system->role<systems::Kinematics>() : nullptr;
+  const auto positions = kinematics != nullptr ? DriverOf(kinematics->position) : std::nullopt;
+  const std::string where =
+      of.links.system != nullptr ? diagram.PathOf(of.links) : distance_ + "." + name;
+  if (!positions) {
+    throw ConfigError(fmt::format("{}: driver; got {}; expected the kinematics of a robot", where,
+                                  links ? Described(*links->system) : "nothing"));
   }
-  const OutputHandle positions = wiring.DriverOf(*kinematics, "position");
-  if (wiring.TimeAlone(positions)) {
-    const auto context = std::make_shared<Context>(loaded_.diagram->MakeContext());
-    AddLinks(name, other, [context, positions](double time) {
+  if (diagram.UpstreamOf(*positions, Through::kInstant).of_time_alone()) {
+    const auto context = std::make_shared<Context>(diagram.MakeContext());
+    AddLinks(name, other, [context, at = *positions](double time) {
       context->SetTime(time);
-      const auto q = EvalVector(positions, *context);
+      const auto q = EvalVector(at, *context);
       return VectorXd(Eigen::Map<const VectorXd>(q.data(), static_cast<Eigen::Index>(q.size())));
     });
-    sees_.push_back(fmt::format("{} along {}", name, wiring.NameOf(*positions.system)));
+    sees_.push_back(fmt::format("{} along {}", name, diagram.PathOf(*positions->system)));
     return;
   }
-  const auto [motion, source] = wiring.AheadOf(positions, where);
+  const auto [motion, known_by] = MotionAheadOf(diagram, *positions, where);
+  const std::string source = diagram.PathOf(*known_by);
   if (motion->size() != other->num_positions()) {
     throw ConfigError(fmt::format("{}: length of '{}'; got {} joints; expected {}", where, source,
                                   motion->size(), other->num_positions()));
@@ -182,7 +190,7 @@ void PlanScene::AddLinks(const std::string& name,
   }
 }
 
-// As BulletDistance has it: the lowest pair of two arms cannot part.
+// As the distance block has it: the lowest pair of two arms cannot part.
 void PlanScene::IgnoreLowest(const models::RobotModel& other, int other_link,
                              std::size_t first_body) {
   if (!Moves(other)) return;
@@ -199,14 +207,13 @@ void PlanScene::IgnoreLowest(const models::RobotModel& other, int other_link,
 void PlanScene::Ignore() {
   auto disabled = model_->disabled_pairs();
   const std::size_t before = disabled.size();
-  for (const auto& pair : params_.ignore) {
-    const int link = model_->FindLink(pair[0]);
+  for (const auto& [own, other] : distances_->ignored) {
+    const int link = model_->FindLink(own);
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
-      if (bodies_[b].name == models::Name(pair[1]))
-        ignored_.emplace_back(link, static_cast<int>(b));
+      if (bodies_[b].name == models::Name(other)) ignored_.emplace_back(link, static_cast<int>(b));
     }
-    if (pair[1].starts_with(name_ + "/")) {
-      disabled.emplace_back(link, model_->FindLink(pair[1].substr(name_.size() + 1)));
+    if (other.starts_with(name_ + "/")) {
+      disabled.emplace_back(link, model_->FindLink(other.substr(name_.size() + 1)));
     }
   }
   if (disabled.size() == before) return;
@@ -223,7 +230,7 @@ models::ClairvoyantTask PlanScene::Task() const {
   task.duration = duration_;
   task.start = start_;
   task.bodies = bodies_;
-  task.self_collision = params_.self_collision;
+  task.self_collision = distances_->own_links;
   task.ignored = ignored_;
   task.seed = static_cast<std::uint64_t>(loaded_.simulator.seed);
   return task;

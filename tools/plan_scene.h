@@ -2,13 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "diagrams/loader.h"
 #include "models/planning/clairvoyant.h"
-#include "systems/bullet_distance.h"
+#include "systems/roles.h"
 #include "systems/trajectory.h"
 
 namespace oca::tools {
@@ -16,16 +17,17 @@ namespace oca::tools {
 /// What a loaded file says about one robot for all its time: what is requested of it, and
 /// everything that the distance block sees by which a run of the file is judged.
 ///
-/// - judge: the MotionMetrics of the model, and the BulletDistance that drives its `proximities`
+/// - judge: the system that Judges the model, and the one that MeasuresDistances for it and drives
+///   its `proximities`
 /// - request: the nearest system up the line from the judge's `request` that knows it ahead
 /// - start: where the judge's `position` is at time 0
-/// - obstacles: what drives the distance block's `obstacles`, at every time; an ObstacleSource
+/// - obstacles: what drives the distance block's `obstacles`, at every time; a HoldsObstacles
 ///   between its samples too
-/// - own links, if the block has `self_collision`
-/// - links of `others`, if it has `calculate_link_forces`: where they stand, along what their
-///   kinematics are given, or else along what is requested of them
+/// - own links, if the block looks at them
+/// - links of other models that it looks at: where they stand, along what their kinematics are
+///   given, or else along what is requested of them
 ///
-/// Left out is what the block leaves out: pairs of `ignore`, and the lowest pair of two arms.
+/// Left out is what the block leaves out: pairs that it ignores, and the lowest pair of two arms.
 /// Whatever nobody can know beforehand is refused by name.
 class PlanScene {
  public:
@@ -44,13 +46,16 @@ class PlanScene {
   models::ClairvoyantTask Task() const;
 
  private:
-  const System& FindJudge(const std::string& model);
-  void FindMotion(const System& judge);
+  const systems::Judges& FindJudge(const std::string& model);
+  void FindDistances(const systems::Judges& judge);
+  void FindMotion(const systems::Judges& judge);
   void AddObstacles();
-  void AddOther(const std::string& name);
+  void AddOther(const systems::MeasuresDistances::Other& of);
   void AddLinks(const std::string& name, const std::shared_ptr<const models::RobotModel>& other,
                 std::function<Eigen::VectorXd(double time)> positions);
   void Ignore();
+  std::optional<OutputHandle> DriverOf(const InputHandle& input) const;
+  std::string Described(const System& system) const;
   void IgnoreLowest(const models::RobotModel& other, int other_link, std::size_t first_body);
 
   const diagrams::LoadedDiagram& loaded_;
@@ -58,8 +63,8 @@ class PlanScene {
   std::string name_;
   std::shared_ptr<const models::RobotModel> model_;
   std::string judge_;
-  const System* distance_{nullptr};
-  systems::BulletDistance::Params params_;
+  std::string distance_;  ///< the block that measures distances for it
+  const systems::MeasuresDistances* distances_{nullptr};
   std::shared_ptr<const systems::Trajectory> request_;
   Eigen::VectorXd start_;
   std::vector<models::BandBody> bodies_;

@@ -6,17 +6,17 @@
 #include <cstring>
 
 #include "framework/error.h"
-#include "framework/plan.h"
+#include "framework/schedule.h"
 
 namespace oca::live {
 namespace {
 
-bool Alike(const Plan::StateEntry& a, const Plan::StateEntry& b) {
+bool Alike(const Schedule::StateEntry& a, const Schedule::StateEntry& b) {
   return a.type == b.type && a.continuous == b.continuous && a.slot.size == b.slot.size &&
          a.info->name == b.info->name;
 }
 
-void CheckAlike(const Plan& previous, const Plan& next) {
+void CheckAlike(const Schedule& previous, const Schedule& next) {
   bool alike = previous.paths == next.paths && previous.states.size() == next.states.size();
   for (std::size_t i = 0; alike && i < next.states.size(); ++i) {
     alike = Alike(previous.states[i], next.states[i]);
@@ -30,19 +30,19 @@ void CheckAlike(const Plan& previous, const Plan& next) {
 }  // namespace
 
 void AdoptStates(const Diagram& previous, const Context& from, const Diagram& next, Context& to) {
-  const Plan& old_plan = previous.plan();
-  const Plan& plan = next.plan();
-  CheckAlike(old_plan, plan);
-  for (std::size_t i = 0; i < plan.states.size(); ++i) {
-    const Plan::StateEntry& entry = plan.states[i];
-    std::byte* const at = plan.arena(to) + entry.slot.offset;
-    const std::byte* const old = old_plan.arena(from) + old_plan.states[i].slot.offset;
+  const Schedule& old_schedule = previous.schedule();
+  const Schedule& schedule = next.schedule();
+  CheckAlike(old_schedule, schedule);
+  for (std::size_t i = 0; i < schedule.states.size(); ++i) {
+    const Schedule::StateEntry& entry = schedule.states[i];
+    std::byte* const at = schedule.arena(to) + entry.slot.offset;
+    const std::byte* const old = old_schedule.arena(from) + old_schedule.states[i].slot.offset;
     if (entry.type == &kVectorType) {
       std::memcpy(at, old, entry.slot.size * sizeof(double));
     } else {
       entry.type->assign(at, old);
     }
-    plan.MarkChanged(to, entry.source);
+    schedule.MarkChanged(to, entry.source);
   }
 }
 

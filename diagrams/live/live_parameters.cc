@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "framework/error.h"
+#include "systems/roles.h"
 
 namespace oca::live {
 namespace {
@@ -72,29 +73,15 @@ std::string PositionName(const std::string& id) { return "obstacles." + id + ".p
 
 std::vector<std::pair<std::string, Standing>> StandingObstacles(const LoadedDiagram& loaded) {
   std::vector<std::pair<std::string, Standing>> found;
-  for (const LoadedDiagram::Block& block : loaded.systems) {
-    const Value* const list =
-        block.type == "ObstacleSource" ? block.params.Find("obstacles") : nullptr;
-    if (list == nullptr || list->list() == nullptr) continue;
-    for (std::size_t i = 0; i < list->list()->size(); ++i) {
-      const Value& obstacle = (*list->list())[i];
-      const Value* const id = obstacle.Find("id");
-      const Value* const pose = obstacle.Find("pose");
-      const Value* const xyz = pose == nullptr ? nullptr : pose->Find("xyz");
-      const bool in_world = obstacle.Find("motion") == nullptr && obstacle.Find("frame") == nullptr;
-      if (!in_world || id == nullptr || id->string() == nullptr || xyz == nullptr ||
-          xyz->list() == nullptr) {
-        continue;
-      }
-      Standing standing{fmt::format("systems.{}.obstacles.{}.pose.xyz", block.name, i),
-                        {},
-                        block.name + "_offsets",
-                        3 * i};
-      for (const Value& number : *xyz->list()) {
-        double value = 0.0;
-        if (number.number(value)) standing.position.push_back(value);
-      }
-      if (standing.position.size() == 3) found.emplace_back(*id->string(), standing);
+  const Diagram& diagram = *loaded.diagram;
+  for (const auto& [path, system, holds] : diagram.FindRoles<systems::HoldsObstacles>()) {
+    const bool movable = holds->offsets.system != nullptr;
+    for (const auto& standing : holds->standing) {
+      found.emplace_back(
+          standing.id,
+          Standing{fmt::format("systems.{}.{}", path, standing.parameter), standing.position,
+                   movable ? diagrams::ExportedName(diagram.PathOf(holds->offsets)) : "",
+                   static_cast<std::size_t>(standing.first)});
     }
   }
   return found;

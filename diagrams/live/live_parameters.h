@@ -11,7 +11,8 @@
 
 namespace oca::live {
 
-/// An obstacle that stands still: where the file has its position, and what moves it.
+/// An obstacle that stands still (systems::HoldsObstacles): where the file has its position, and
+/// what moves it.
 struct Standing {
   std::string path;
   std::vector<double> position;  ///< m, as the file has it

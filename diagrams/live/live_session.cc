@@ -51,9 +51,8 @@ void LiveSession::End(diagrams::RunResult result) {
 
 void LiveSession::Place(const Moves& moves) {
   std::map<std::string, Eigen::VectorXd> offsets;
-  for (const Diagram::ExportedInput& input : loaded_->diagram->exported_inputs()) {
-    const auto& ports = input.to.front().system->inputs();
-    const int size = ports[static_cast<std::size_t>(input.to.front().index)].spec.size.number();
+  for (const System::InputInfo& input : loaded_->diagram->inputs()) {
+    const int size = loaded_->diagram->SizeOf(loaded_->diagram->FindInput(input.name));
     offsets[input.name] = Eigen::VectorXd::Zero(size);
   }
   for (const auto& [id, standing] : StandingObstacles(*loaded_)) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "diagrams/signal_facts.h"
+#include "diagrams/loader.h"
 
 namespace oca::record {
 
@@ -18,31 +18,32 @@ struct PlotHint {
   std::optional<double> limit{};
 };
 
-/// The plots that a diagram's systems suggest: requested joints, deltas and final joints (what
-/// MotionMetrics judges), distances (with the range of RepulsiveField), speeds of plants. Where
-/// several signals would do, one that is recorded already.
-std::vector<PlotHint> PlotHintsOf(const diagrams::LoadedDiagram& loaded,
-                                  const diagrams::SignalFacts& facts);
+/// The plots that a diagram's systems declare (systems::Plots), with the range of its fields as the
+/// limit of `distance`. Where several signals would do, one that is recorded already.
+std::vector<PlotHint> PlotHintsOf(const diagrams::LoadedDiagram& loaded);
 
 /// A system that may hold a motion back, and the signal that shows when it does.
 struct LimitHint {
   std::string system;
   std::string type;
-  /// How the signal shows it: `rate` of change at `bound`, `below` the bound, `clips` or `bounds`
-  /// that are listed.
+  /// How the signal shows it: `rate` of change at the bound, `below` or `above` it, or else the
+  /// member that lists what is active.
   std::string kind;
   OutputHandle output;
   std::vector<double> bound{};  ///< one number, or one a joint
+  std::string member{};         ///< that is compared, of a signal that is no Vector
+  std::string how{};            ///< what the system does then, if it says so
   Period period{};              ///< of the signal, made coarser than 10 ms; 0: the scene's
 };
 
-/// The systems of a diagram that limit: DeltaLimiter, RepulsiveField, SafetyFilter, MotionLimiter,
-/// without those that are switched off. Where several signals would do, one that is recorded.
-std::vector<LimitHint> LimitHintsOf(const diagrams::LoadedDiagram& loaded,
-                                    const diagrams::SignalFacts& facts);
+/// The systems of a diagram that limit (systems::Limits). Where several signals would do, one that
+/// is recorded.
+std::vector<LimitHint> LimitHintsOf(const diagrams::LoadedDiagram& loaded);
 
 /// As JSON lists, for metadata `oca.plots`.
-std::string PlotHintsJson(const std::vector<PlotHint>& hints, const diagrams::SignalFacts& facts);
-std::string LimitHintsJson(const std::vector<LimitHint>& hints, const diagrams::SignalFacts& facts);
+std::string PlotHintsJson(const diagrams::LoadedDiagram& loaded,
+                          const std::vector<PlotHint>& hints);
+std::string LimitHintsJson(const diagrams::LoadedDiagram& loaded,
+                           const std::vector<LimitHint>& hints);
 
 }  // namespace oca::record

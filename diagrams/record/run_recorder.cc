@@ -60,21 +60,21 @@ int RunRecorder::AddChannel(RecordChannel channel) {
   return static_cast<int>(channels_.size()) - 1;
 }
 
-SignalFormat RunRecorder::FormatOf(const OutputHandle& output, const Context& context) const {
-  const std::string name = facts_->NameOf(output);
+SignalFormat RunRecorder::FormatOf(const OutputHandle& output) const {
+  const std::string name = loaded_.diagram->PathOf(output);
   SignalFormat format;
-  format.system = name.substr(0, name.find('.'));
-  format.port = name.substr(name.find('.') + 1);
+  format.system = name.substr(0, name.rfind('.'));
+  format.port = name.substr(name.rfind('.') + 1);
   format.type = &TypeOfPort(output);
   format.brief = options_.brief;
-  format.length = format.type == &kVectorType ? VectorSize(output, context) : 0;
+  format.length = loaded_.diagram->SizeOf(output);
   if (format.type != &kVectorType) return format;
-  format.unit = facts_->UnitOf(output);
+  format.unit = loaded_.diagram->UnitOf(output).ToString();
   format.joints = facts_->JointsOf(output);
   return format;
 }
 
-void RunRecorder::AddSignals(const Simulator& simulator, double duration, Groups& groups) {
+void RunRecorder::AddSignals(double duration, Groups& groups) {
   for (const RecordedSignal& signal : loaded_.record) {
     auto same = std::find_if(signals_.begin(), signals_.end(),
                              [&](const auto& group) { return group.period == signal.period; });
@@ -82,7 +82,7 @@ void RunRecorder::AddSignals(const Simulator& simulator, double duration, Groups
       same = signals_.insert(signals_.end(), SignalGroup{signal.period, {}, {}});
       groups.push_back({{}, CapacityFor(duration, signal.period)});
     }
-    same->formats.push_back(FormatOf(signal.output, simulator.context()));
+    same->formats.push_back(FormatOf(signal.output));
     same->channels.push_back(AddChannel(ChannelOf(same->formats.back())));
     groups[static_cast<std::size_t>(same - signals_.begin())].outputs.push_back(signal.output);
   }
@@ -90,9 +90,9 @@ void RunRecorder::AddSignals(const Simulator& simulator, double duration, Groups
 
 /// What shows when a system limits and nobody records, at the system's own instants.
 void RunRecorder::AddLimits(double duration, Groups& groups) {
-  for (const LimitHint& hint : LimitHintsOf(loaded_, *facts_)) {
+  for (const LimitHint& hint : LimitHintsOf(loaded_)) {
     if (!hint.period.positive() || HasChannelOf(hint.output)) continue;
-    const SignalFormat format = FormatOf(hint.output, simulator_->context());
+    const SignalFormat format = FormatOf(hint.output);
     const int channel = AddChannel(ChannelOf(format));
     signals_.push_back({hint.period, {format}, {channel}});
     groups.push_back({{hint.output}, CapacityFor(duration, hint.period)});
@@ -100,24 +100,26 @@ void RunRecorder::AddLimits(double duration, Groups& groups) {
 }
 
 bool RunRecorder::HasChannelOf(const OutputHandle& output) const {
-  const RecordChannel channel = ChannelOf(FormatOf(output, simulator_->context()));
+  const RecordChannel channel = ChannelOf(FormatOf(output));
   return std::any_of(channels_.begin(), channels_.end(),
                      [&](const auto& other) { return other.topic == channel.topic; });
 }
 
-/// The last group: what the scene shows, then what plots need and nobody records.
+/// The last group: what the scene shows, then what plots and limits need and nobody records.
 void RunRecorder::AddScene(double duration, Groups& groups) {
   scene_group_ = static_cast<int>(groups.size());
   SampleQueue::Group group{scene_->sources(), CapacityFor(duration, loaded_.scene_period)};
   SignalGroup extra{loaded_.scene_period, {}, {}};
-  for (const PlotHint& hint : PlotHintsOf(loaded_, *facts_)) {
-    for (const OutputHandle& output : hint.outputs) {
-      if (HasChannelOf(output)) continue;
-      extra.formats.push_back(FormatOf(output, simulator_->context()));
-      extra.channels.push_back(AddChannel(ChannelOf(extra.formats.back())));
-      group.outputs.push_back(output);
-    }
+  const auto add = [&](const OutputHandle& output) {
+    if (HasChannelOf(output)) return;
+    extra.formats.push_back(FormatOf(output));
+    extra.channels.push_back(AddChannel(ChannelOf(extra.formats.back())));
+    group.outputs.push_back(output);
+  };
+  for (const PlotHint& hint : PlotHintsOf(loaded_)) {
+    for (const OutputHandle& output : hint.outputs) add(output);
   }
+  for (const LimitHint& hint : LimitHintsOf(loaded_)) add(hint.output);
   signals_.push_back(std::move(extra));
   groups.push_back(std::move(group));
 }
@@ -126,16 +128,16 @@ void RunRecorder::Attach(Simulator& simulator, bool paced, double duration) {
   simulator_ = &simulator;
   paced_ = paced;
   duration_ = duration;
-  facts_ = std::make_unique<diagrams::SignalFacts>(loaded_, simulator.context());
+  facts_ = std::make_unique<diagrams::SignalFacts>(loaded_);
   scene_ = std::make_unique<Scene>(loaded_, *facts_);
   channels_ = Scene::Channels();
   log_channel_ = AddChannel({"/log", "foxglove.Log", FoxgloveSchema("foxglove.Log")});
   metrics_channel_ = AddChannel({"/metrics", "oca.Metrics", R"({"type":"object"})"});
   Groups groups;
-  AddSignals(simulator, duration, groups);
+  AddSignals(duration, groups);
   AddLimits(duration, groups);
   AddScene(duration, groups);
-  queue_ = std::make_unique<SampleQueue>(std::move(groups), simulator.context());
+  queue_ = std::make_unique<SampleQueue>(std::move(groups), *loaded_.diagram, simulator.context());
   for (int group = 0; group < scene_group_; ++group) {
     simulator.AddPublish(signals_[static_cast<std::size_t>(group)].period,
                          [this, group](const Context& context) { Store(group, context); });
@@ -162,8 +164,8 @@ void RunRecorder::BeginSinks() {
     sink->AddMetadata(MainMetadata("running", nullptr));
     sink->AddMetadata({"oca.parameters", ParameterTexts(loaded_)});
     sink->AddMetadata({"oca.overrides", OverrideTexts(options_.overrides)});
-    const std::string plots = PlotHintsJson(PlotHintsOf(loaded_, *facts_), *facts_);
-    const std::string limits = LimitHintsJson(LimitHintsOf(loaded_, *facts_), *facts_);
+    const std::string plots = PlotHintsJson(loaded_, PlotHintsOf(loaded_));
+    const std::string limits = LimitHintsJson(loaded_, LimitHintsOf(loaded_));
     sink->AddMetadata({"oca.plots", {{"plots", plots}, {"limits", limits}}});
     sink->AddMetadata({"oca.warnings", WarningTexts(warnings_)});
     sink->Begin(channels_);

@@ -66,11 +66,11 @@ class RunRecorder final : public diagrams::RunObserver, public Log {
   };
   using Groups = std::vector<SampleQueue::Group>;
 
-  void AddSignals(const Simulator& simulator, double duration, Groups& groups);
+  void AddSignals(double duration, Groups& groups);
   void AddLimits(double duration, Groups& groups);
   void AddScene(double duration, Groups& groups);
   bool HasChannelOf(const OutputHandle& output) const;
-  SignalFormat FormatOf(const OutputHandle& output, const Context& context) const;
+  SignalFormat FormatOf(const OutputHandle& output) const;
   int AddChannel(RecordChannel channel);
   void Store(int group, const Context& context);
   void WaitFor(const std::function<bool()>& room);

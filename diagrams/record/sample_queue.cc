@@ -47,13 +47,14 @@ const void* LiveValue(const OutputHandle& output, const Context& context) {
 
 }  // namespace
 
-SampleQueue::SampleQueue(const std::vector<Group>& groups, const Context& context) {
+SampleQueue::SampleQueue(const std::vector<Group>& groups, const Diagram& diagram,
+                         const Context& context) {
   std::size_t room = kTexts;
   for (const Group& group : groups) {
     auto lane = std::make_unique<Lane>();
     lane->slots.capacity = static_cast<std::uint64_t>(group.capacity);
     for (const OutputHandle& output : group.outputs) {
-      lane->columns.push_back(MakeColumn(output, group.capacity, context));
+      lane->columns.push_back(MakeColumn(output, group.capacity, diagram, context));
     }
     lane->values.resize(lane->columns.size());
     lanes_.push_back(std::move(lane));
@@ -65,11 +66,11 @@ SampleQueue::SampleQueue(const std::vector<Group>& groups, const Context& contex
 }
 
 SampleQueue::Column SampleQueue::MakeColumn(const OutputHandle& output, int capacity,
-                                            const Context& context) {
+                                            const Diagram& diagram, const Context& context) {
   Column column{output, &TypeOfPort(output), 0, 0, nullptr, nullptr};
   const auto count = static_cast<std::size_t>(capacity);
   if (column.type == &kVectorType) {
-    column.length = static_cast<std::size_t>(VectorSize(output, context));
+    column.length = static_cast<std::size_t>(diagram.SizeOf(output));
     column.stride = column.length * sizeof(double);
     column.memory = std::make_unique<std::byte[]>(count * column.stride);
     column.first = column.memory.get();

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "framework/context.h"
+#include "framework/diagram.h"
 #include "framework/port.h"
 #include "framework/signal.h"
 
@@ -39,8 +40,8 @@ class SampleQueue {
     std::string_view text;
   };
 
-  /// `context` settles the lengths of vectors and the capacity of lists.
-  SampleQueue(const std::vector<Group>& groups, const Context& context);
+  /// The outputs are those of `diagram`; `context` settles the capacity of lists.
+  SampleQueue(const std::vector<Group>& groups, const Diagram& diagram, const Context& context);
   ~SampleQueue();
   SampleQueue(const SampleQueue&) = delete;
   SampleQueue& operator=(const SampleQueue&) = delete;
@@ -92,7 +93,8 @@ class SampleQueue {
     double time;
   };
 
-  static Column MakeColumn(const OutputHandle& output, int capacity, const Context& context);
+  static Column MakeColumn(const OutputHandle& output, int capacity, const Diagram& diagram,
+                           const Context& context);
   void Announce(int group, double time);
   bool Drop();
 

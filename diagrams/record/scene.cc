@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "diagrams/record/json_text.h"
 #include "diagrams/record/robot_drawing.h"
+#include "framework/dynamic_port.h"
 #include "models/geometry/collider.h"
 #include "models/robot/kinematics.h"
+#include "systems/roles.h"
 
 namespace oca::record {
 namespace {
@@ -18,6 +21,7 @@ using systems::LinkForceSet;
 using systems::LinkPoses;
 using systems::ObstacleSet;
 using systems::ProximitySet;
+using systems::RolePort;
 using systems::WrenchSet;
 
 const Colour kRed(0.86, 0.15, 0.13, 1.0);
@@ -60,26 +64,35 @@ void Separate(std::string& list) {
   if (!list.empty()) list += ',';
 }
 
+/// The outputs that hold a signal of a type, without those that show what others do.
+template <class T>
+std::vector<OutputHandle> DrawnOf(const Diagram& diagram) {
+  std::vector<OutputHandle> drawn;
+  for (const Diagram::Leaf& leaf : diagram.systems()) {
+    const auto hidden = leaf.system->roles<systems::NotDrawn>();
+    for (int i = 0; i < std::ssize(leaf.system->outputs()); ++i) {
+      const OutputHandle output{{leaf.system, i}};
+      const bool here = std::none_of(hidden.begin(), hidden.end(),
+                                     [&](const auto* role) { return role->output == output; });
+      if (here && &TypeOfPort(output) == &TypeOf<T>()) drawn.push_back(output);
+    }
+  }
+  return drawn;
+}
+
 }  // namespace
 
 Scene::Scene(const diagrams::LoadedDiagram& loaded, const diagrams::SignalFacts& facts) {
+  const Diagram& diagram = *loaded.diagram;
   AddRobots(loaded, facts);
-  obstacles_ = AddSources(facts.OutputsOf("", Signal<ObstacleSet>::kName));
-  proximities_ = AddSources(facts.OutputsOf("BulletDistance", Signal<ProximitySet>::kName));
-  std::vector<OutputHandle> forces, wrenches;
-  for (const auto& output : facts.OutputsOf("", Signal<LinkForceSet>::kName)) {
-    if (facts.BlockOf(output.system)->type != "ForceSum") forces.push_back(output);
-  }
-  for (const auto& output : facts.OutputsOf("", Signal<WrenchSet>::kName)) {
-    if (!facts.NameOf(output).ends_with("_in_link")) wrenches.push_back(output);
-  }
-  forces_ = AddSources(forces);
-  wrenches_ = AddSources(wrenches);
-  for (const auto& block : loaded.systems) {
-    const Value* const limit =
-        block.type == "RepulsiveField" ? block.params.Find("max_distance") : nullptr;
-    if (limit != nullptr) limit->number(far_);
-  }
+  obstacles_ = AddSources(DrawnOf<ObstacleSet>(diagram));
+  proximities_ = AddSources(DrawnOf<ProximitySet>(diagram));
+  forces_ = AddSources(DrawnOf<LinkForceSet>(diagram));
+  wrenches_ = AddSources(DrawnOf<WrenchSet>(diagram));
+  const auto fields = diagram.FindRoles<systems::Repels>();
+  if (fields.empty()) return;
+  far_ = 0.0;
+  for (const auto& field : fields) far_ = std::max(far_, field.role->range);
 }
 
 std::vector<std::size_t> Scene::AddSources(const std::vector<OutputHandle>& outputs) {
@@ -101,17 +114,16 @@ void Scene::AddRobots(const diagrams::LoadedDiagram& loaded, const diagrams::Sig
     robot.actual = {name + "/actual/", kBlue};
     for (const auto& link : model->links()) robot.frames.push_back(name + "/" + link.name.text());
     robot.X_WL = models::LinkPoses(*model, Eigen::VectorXd::Zero(model->num_positions()));
-    for (const auto& block : loaded.systems) {
-      if (block.type == "RobotKinematics" && !robot.links) {
-        const auto position = facts.DriverOf(block.name, "position");
-        if (!position || facts.RobotOf(*position) != name) continue;
-        robot.links = AddSources({loaded.diagram->FindSystem(block.name)->FindOutput("links")})[0];
-      }
-      if (block.type == "MotionMetrics" && !robot.request) {
-        const auto request = facts.DriverOf(block.name, "request");
-        if (!request || facts.RobotOf(*request) != name) continue;
-        robot.request = AddSources({*request})[0];
-      }
+    const auto of_robot = [&](const InputHandle& input) {
+      const auto driver = RolePort(input).In(*loaded.diagram);
+      return driver && facts.RobotOf(*driver) == name;
+    };
+    for (const auto& [path, system, role] : loaded.diagram->FindRoles<systems::Kinematics>()) {
+      if (!robot.links && of_robot(role->position)) robot.links = AddSources({role->links})[0];
+    }
+    for (const auto& [path, system, role] : loaded.diagram->FindRoles<systems::Judges>()) {
+      if (robot.request || !of_robot(role->request)) continue;
+      robot.request = AddSources({*loaded.diagram->DriverOf(role->request)})[0];
     }
     robots_.push_back(std::move(robot));
   }

@@ -19,8 +19,8 @@ namespace oca::record {
 /// Draws what a diagram's signals show: links, obstacles, distances, forces, torques and the paths
 /// of the tips, as Foxglove messages.
 ///
-/// Which outputs to sample follows from the types of the systems; Draw gets their values in the
-/// order of sources().
+/// Which outputs to sample follows from the types of the signals and the roles of the systems
+/// (systems/roles.h); Draw gets their values in the order of sources().
 class Scene {
  public:
   Scene(const diagrams::LoadedDiagram& loaded, const diagrams::SignalFacts& facts);

@@ -21,6 +21,7 @@
 #include "models/robot/kinematics.h"
 #include "models/robot/urdf.h"
 #include "systems/model_links.h"
+#include "systems/roles.h"
 #include "systems/signals.h"
 #include "tests/allocation_count.h"
 
@@ -147,6 +148,29 @@ TEST_P(ConformanceTest, EachPortHasANameOfItsOwn) {
     EXPECT_TRUE(outputs.insert(output.name).second) << output.name;
   }
   EXPECT_GT(inputs.size() + outputs.size(), 0u);
+}
+
+TEST_P(ConformanceTest, EveryLimitIsShownByASignalThatCanShowIt) {
+  const auto system = row().make_example(models_);
+  for (const auto* limits : system->roles<systems::Limits>()) {
+    const OutputHandle& output = limits->signal.output;
+    if (output.system == nullptr) {
+      EXPECT_EQ(limits->signal.input.system, system.get());
+      continue;
+    }
+    ASSERT_EQ(output.system, system.get());
+    const bool listed = limits->shown == systems::Limits::Shown::kListed;
+    EXPECT_NE(listed, !limits->bound.empty());
+    if (&TypeOfPort(output) == &kVectorType) {
+      EXPECT_TRUE(limits->member.empty());
+      continue;
+    }
+    // As the record has it: a list is an object with the port's name.
+    auto value = ordered_json::parse(Neutral(TypeOfPort(output), models_));
+    if (value.is_array()) value = {{system->outputs()[output.index].name, value}};
+    ASSERT_TRUE(value.contains(limits->member)) << value;
+    EXPECT_EQ(value[limits->member].is_array(), listed);
+  }
 }
 
 TEST_P(ConformanceTest, ReadsItsOwnExample) {

@@ -406,7 +406,7 @@ TEST_F(LoaderTest, ExpectationsThatNothingCanMeetAreRefused) {
   EXPECT_THAT(with("lga.out: {equal: 6}"), HasSubstr("did you mean 'lag.out'?"));
   EXPECT_THAT(with("'lag.*': {equal: 6}"), HasSubstr("no output 'lag.*'"));
   EXPECT_THAT(with("min_distance: {at_least: 0}"),
-              HasSubstr("needs a system of type MotionMetrics"));
+              HasSubstr("needs a system that judges"));
   EXPECT_THAT(with("'lag.out[0]': {}"), HasSubstr("no bound; expected at_least"));
   EXPECT_THAT(with("'lag.out[0]': 3"), HasSubstr("expected a map"));
   EXPECT_THAT(with("'lag.out[0]': {at_lest: 3}"), HasSubstr("did you mean 'at_least'?"));

@@ -45,7 +45,7 @@ class MethodRun {
   }
   template <class T>
   const T& Eval(const std::string& system, const std::string& output) const {
-    return Output<T>{Find(system, output)}.Eval(simulator_.context());
+    return Typed<T>(Find(system, output)).Eval(simulator_.context());
   }
   /// throws std::out_of_range if there is nothing near
   systems::Proximity Nearest() const {

@@ -73,8 +73,8 @@ void Watch(const std::string& name, const Look& look) {
   const auto clips = loaded.diagram->FindSystem("motion_limiter")->FindOutput("clips");
   for (int k = 0; k < 1400; ++k) {
     simulator.AdvanceTo((k + 0.5) * 0.01);
-    look(Output<systems::FilterActivity>{activity}.Eval(simulator.context()),
-         Output<systems::MotionClips>{clips}.Eval(simulator.context()));
+    look(Typed<systems::FilterActivity>(activity).Eval(simulator.context()),
+         Typed<systems::MotionClips>(clips).Eval(simulator.context()));
   }
 }
 

@@ -11,7 +11,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 
 const char* const kAdvice =
-    "; break it with a Delay, a ZeroOrderHold or any system whose output is a state";
+    "; break it with a delay, a hold or any system whose output is a state";
 
 TEST(AlgebraicLoopTest, IsShownAsAPathWithTheAdviceWhereAStateWouldBreakIt) {
   DiagramBuilder builder;

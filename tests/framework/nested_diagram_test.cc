@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "framework/plan.h"
+#include "framework/schedule.h"
 #include "framework/simulator.h"
 #include "tests/framework/blocks.h"
 
@@ -59,12 +59,12 @@ std::unique_ptr<Diagram> Flat() {
   return builder.Build();
 }
 
-TEST(NestedDiagramTest, ThreeDeepGivesTheSameBitsAndTheSamePlanAsFlat) {
+TEST(NestedDiagramTest, ThreeDeepGivesTheSameBitsAndTheSameScheduleAsFlat) {
   const auto nested = Nested();
   const auto flat = Flat();
-  EXPECT_EQ(nested->plan().nodes.size(), flat->plan().nodes.size());
-  EXPECT_EQ(nested->plan().arena_size, flat->plan().arena_size);
-  EXPECT_EQ(nested->plan().slots.size(), flat->plan().slots.size());
+  EXPECT_EQ(nested->schedule().nodes.size(), flat->schedule().nodes.size());
+  EXPECT_EQ(nested->schedule().arena_size, flat->schedule().arena_size);
+  EXPECT_EQ(nested->schedule().slots.size(), flat->schedule().slots.size());
   Simulator a(*nested), b(*flat);
   for (int i = 1; i <= 50; ++i) {
     a.AdvanceTo(0.07 * i);
@@ -83,7 +83,8 @@ TEST(NestedDiagramTest, SystemsInsideAreFoundByPath) {
   EXPECT_EQ(nested->FindSystem("middle.nobody"), nullptr);
   EXPECT_EQ(nested->FindSystem("middle.ode.deeper"), nullptr);
   EXPECT_EQ(nested->FindSystem(""), nullptr);
-  EXPECT_EQ(nested->plan().PathOf(*nested->FindSystem("middle.inner.first")), "middle.inner.first");
+  EXPECT_EQ(nested->schedule().PathOf(*nested->FindSystem("middle.inner.first")),
+            "middle.inner.first");
 }
 
 TEST(NestedDiagramTest, AnExportedInputFansOutThroughAllLevels) {
@@ -126,13 +127,13 @@ TEST(NestedDiagramTest, ANestedDiagramRefusesToMakeAContext) {
   builder.ConnectPorts(source.value, nested.FindInput("u"));
   const auto root = builder.Build();
   EXPECT_THROW(reference.MakeContext(), WiringError);
-  EXPECT_THROW(reference.plan(), WiringError);
+  EXPECT_THROW(reference.schedule(), WiringError);
   EXPECT_THROW(Simulator{reference}, WiringError);
   EXPECT_NO_THROW(root->MakeContext());
 }
 
 TEST(NestedDiagramTest, TheInputOfANestedDiagramCannotBeFixedFromOutside) {
-  // The plan of the root is likely to lie where the nested diagram's own plan lay.
+  // The schedule of the root is likely to lie where the nested one's own lay.
   for (int i = 0; i < 20; ++i) {
     DiagramBuilder builder;
     const auto& source = builder.Add<blocks::Source>("source", Vec({2.0}));
@@ -140,7 +141,7 @@ TEST(NestedDiagramTest, TheInputOfANestedDiagramCannotBeFixedFromOutside) {
     builder.ConnectPorts(source.value, nested.FindInput("u"));
     const auto root = builder.Build();
     Context context = root->MakeContext();
-    const Input<Vector> u{nested.FindInput("u")};
+    const Input<Vector> u = Typed<Vector>(nested.FindInput("u"));
     EXPECT_THROW(u.Fix(context, Vec({1.0})), WiringError);
   }
 }

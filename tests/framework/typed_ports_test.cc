@@ -29,6 +29,13 @@ static_assert(!Connectable<Input<Vector>, Output<Vector>>);
 static_assert(!Connectable<Input<Vector>, Input<Vector>>);
 static_assert(!Connectable<Output<Vector>, Output<Vector>>);
 static_assert(!Connectable<OutputHandle, Input<Vector>>);
+// No typed handle is made of an untyped one without a look at its type.
+static_assert(!std::constructible_from<Output<Label>, OutputHandle>);
+static_assert(!std::constructible_from<Input<Label>, InputHandle>);
+static_assert(!std::constructible_from<OptionalInput<Label>, InputHandle>);
+static_assert(!std::constructible_from<DiscreteState<Label>, StateHandle>);
+static_assert(!std::constructible_from<ContinuousState, StateHandle>);
+static_assert(!std::is_aggregate_v<Output<Label>> && !std::is_aggregate_v<Input<Label>>);
 static_assert(!std::copy_constructible<System> && !std::is_copy_assignable_v<blocks::Map>);
 
 /// Whether a method fits what it is declared to read and write.
@@ -115,6 +122,17 @@ TEST(TypedPortsTest, APortOfAnotherTypeOrNameIsRefusedNamingWhatThereIs) {
               HasSubstr("no output port 'otu'; did you mean 'out'?; output ports are: out"));
   EXPECT_THAT(text_of([&] { diagram->FindInput("nothing_like_it"); }),
               HasSubstr("no input port 'nothing_like_it'; input ports are: in"));
+}
+
+TEST(TypedPortsTest, AHandleIsTypedOnlyAsWhatItIs) {
+  const blocks::Labeller labeller(Every{Period(1, 10)});
+  EXPECT_EQ(Typed<Label>(labeller.FindOutput("text")), labeller.text);
+  EXPECT_EQ(Typed<Vector>(labeller.FindInput("in")), labeller.in);
+  EXPECT_THROW(Typed<Vector>(labeller.FindOutput("text")), WiringError);
+  EXPECT_THROW(Typed<Label>(labeller.FindInput("in")), WiringError);
+  EXPECT_THROW(Typed<Vector>(OutputHandle{}), WiringError);
+  EXPECT_THROW(Typed<Vector>(OutputHandle{{&labeller, 2}}), WiringError);
+  EXPECT_THROW(Typed<Vector>(InputHandle{{&labeller, -1}}), WiringError);
 }
 
 }  // namespace typed_ports_test

@@ -34,7 +34,7 @@ class SampleQueueTest : public testing::Test {
 };
 
 TEST_F(SampleQueueTest, GivesSamplesAndTextsInTheOrderTheyCameIn) {
-  SampleQueue queue({{{value_}, 4}, {{value_}, 4}}, context_);
+  SampleQueue queue({{{value_}, 4}, {{value_}, 4}}, *diagram_, context_);
   SetTime(1.0);
   EXPECT_TRUE(queue.Store(1, context_));
   EXPECT_TRUE(queue.StoreText(2, 1.5, "hello"));
@@ -53,7 +53,7 @@ TEST_F(SampleQueueTest, GivesSamplesAndTextsInTheOrderTheyCameIn) {
 
 TEST_F(SampleQueueTest, CountsWhatFindsNoRoom) {
   SetTime(0.0);
-  SampleQueue queue({{{value_}, 2}}, context_);
+  SampleQueue queue({{{value_}, 2}}, *diagram_, context_);
   EXPECT_TRUE(queue.Store(0, context_));
   EXPECT_TRUE(queue.HasRoom(0));
   EXPECT_TRUE(queue.Store(0, context_));
@@ -66,7 +66,7 @@ TEST_F(SampleQueueTest, CountsWhatFindsNoRoom) {
 }
 
 TEST_F(SampleQueueTest, CutsATextThatIsTooLong) {
-  SampleQueue queue({}, context_);
+  SampleQueue queue({}, *diagram_, context_);
   queue.StoreText(1, 0.0, std::string(SampleQueue::kTextSize + 1, 'x'));
   std::size_t size = 0;
   queue.Take([&](const auto& sample) { size = sample.text.size(); });
@@ -75,7 +75,7 @@ TEST_F(SampleQueueTest, CutsATextThatIsTooLong) {
 
 TEST_F(SampleQueueTest, LosesNothingBetweenTwoThreads) {
   constexpr int kSamples = 20000;
-  SampleQueue queue({{{value_}, 16}}, context_);
+  SampleQueue queue({{{value_}, 16}}, *diagram_, context_);
   int taken = 0;
   bool ordered = true;
   std::thread taker([&] {
@@ -89,7 +89,7 @@ TEST_F(SampleQueueTest, LosesNothingBetweenTwoThreads) {
   for (int i = 0; i < kSamples; ++i) {
     SetTime(i);
     while (!queue.HasRoom(0)) std::this_thread::yield();
-    queue.Store(0, context_);
+    queue.Store(0, *diagram_, context_);
   }
   taker.join();
   EXPECT_TRUE(ordered);

@@ -94,7 +94,7 @@ TEST(JointServoTest, SecondOrderWeighsBothErrors) {
       .mode = ServoMode::kSecondOrder, .natural_frequency = 20.0, .damping_ratio = 0.5});
   bench->position.Fix(bench.context(), One(1.0));
   bench->measured_position.Fix(bench.context(), One(0.9));
-  Input<Vector>{bench->measured_velocity}.Fix(bench.context(), One(0.5));
+  Typed<Vector>(bench->measured_velocity).Fix(bench.context(), One(0.5));
   // 400 * 0.1 + 20 * (0 - 0.5)
   EXPECT_NEAR(bench->command.Eval(bench.context())[0], 30.0, 1e-12);
 }

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "framework/error.h"
+#include "systems/roles.h"
 #include "tests/models/geometry/mesh_files.h"
 #include "tests/system_bench.h"
 #include "tests/temporary_folder.h"
@@ -129,10 +130,11 @@ TEST(ObstacleSourceTest, AMeshIsItsHullWithAWarningOrItsParts) {
   mesh.shape.type = ShapeType::kMesh;
   mesh.shape.file = folder.Write("angle.obj", models::AngleObj()).string();
   const ObstacleSource hull({.obstacles = {mesh}});
-  EXPECT_THAT(hull.warnings(), testing::ElementsAre(HasSubstr("which adds 0.5 m^3 (16.7 %)")));
+  EXPECT_THAT(hull.role<Remarks>()->warnings,
+              testing::ElementsAre(HasSubstr("which adds 0.5 m^3 (16.7 %)")));
   mesh.shape.collision = CollisionMeshes::kDecomposition;
   SystemBench<ObstacleSource> parts(ObstacleSource::Params{.obstacles = {mesh}});
-  EXPECT_THAT(parts->warnings(), testing::IsEmpty());
+  EXPECT_THAT(parts->role<Remarks>()->warnings, testing::IsEmpty());
   const ObstacleBody& body = *parts->obstacles.Eval(parts.context()).obstacles.at(0).body;
   EXPECT_GE(std::get<models::Compound>(body.collider->shape()).parts.size(), 2u);
   const ShapeParams again = ShapeParamsOf(body);

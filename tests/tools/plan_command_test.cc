@@ -201,7 +201,7 @@ TEST_F(PlanCommandTest, RefusesByNameWhatNobodyCanKnowBeforehand) {
   EXPECT_THAT(refusal("diagrams/dual_arm.yaml"),
               HasSubstr("'left' by left_metrics, 'right' by right_metrics"));
   EXPECT_THAT(refusal("diagrams/dual_arm.yaml --model middle"),
-              HasSubstr("plan: judge; got none; expected one MotionMetrics of the model 'middle'"));
+              HasSubstr("plan: judge; got none; expected one of the model 'middle'"));
   EXPECT_THAT(refusal(TwoArms() + "-t 0"), HasSubstr("duration; got 0 s"));
 }
 

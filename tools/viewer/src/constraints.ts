@@ -8,7 +8,9 @@ import type { Recording, Topic } from "./recording";
 export interface Constraint { system: string; what: string; how: string; times: number[]; holds: (row: number) => boolean }
 
 /** An item of `limits` in metadata `oca.plots`, see docs/reference/record_format.md. */
-interface Declared { system: string; type?: string; signal: string; bound?: number | number[]; kind?: string }
+interface Declared {
+  system: string; type?: string; signal: string; bound?: number | number[]; kind?: string; member?: string; how?: string;
+}
 
 function declared(recording: Recording, specs: PlotSpec[]): Declared[] {
   try {
@@ -19,11 +21,11 @@ function declared(recording: Recording, specs: PlotSpec[]): Declared[] {
   const delta = specs.find((spec) => spec.role === "delta")?.signals[0];
   const found: Declared[] = [];
   if (bound > 0 && delta && recording.about("limit_deltas", "oca.parameters") !== "false") {
-    found.push({ system: "DeltaLimiter", signal: delta, bound, kind: "rate" });
+    found.push({ system: "limit of the delta", signal: delta, bound, kind: "rate" });
   }
   for (const spec of specs) {
     if (spec.role !== "distance" || spec.limit === undefined) continue;
-    found.push({ system: "RepulsiveField", signal: spec.signals[0]!, bound: spec.limit, kind: "below" });
+    found.push({ system: "repulsion", signal: spec.signals[0]!, bound: spec.limit, kind: "below" });
   }
   return found;
 }
@@ -33,34 +35,46 @@ const boundOf = (one: Declared, column: number): number =>
 
 function ofColumns(one: Declared, columns: Columns): Constraint[] {
   const { system } = one;
-  return columns.names.map((what, i): Constraint => {
+  return columns.names.flatMap((what, i): Constraint[] => {
+    if (one.member !== undefined && what !== one.member) return [];
     const bound = boundOf(one, i), values = columns.values[i]!;
     if (one.kind === "below") {
-      return { system, what, how: `pushed, nearer than ${bound} ${columns.unit || "m"}`, times: columns.times,
-               holds: (row) => (values[row] ?? Infinity) < bound };
+      return [{ system, what, how: one.how ?? `pushed, nearer than ${bound} ${columns.unit || "m"}`, times: columns.times,
+                holds: (row) => (values[row] ?? Infinity) < bound }];
     }
-    const how = `${one.kind === "value" ? "at its bound" : "change held to"} ${bound} ${columns.unit}`;
-    return { system, what, how, times: columns.times, holds: (row) => Math.abs(values[row] ?? 0) >= bound * 0.999 };
+    if (one.kind === "above") {
+      return [{ system, what, how: one.how ?? `above ${bound} ${columns.unit}`.trim(), times: columns.times,
+                holds: (row) => (values[row] ?? -Infinity) > bound }];
+    }
+    const how = one.how ?? `${one.kind === "value" ? "at its bound" : "change held to"} ${bound} ${columns.unit}`;
+    return [{ system, what, how, times: columns.times, holds: (row) => Math.abs(values[row] ?? 0) >= bound * 0.999 }];
   });
 }
 
-interface Item { kind?: string; link?: string; obstacle?: string; joint?: string | number; limit?: string; yields?: string }
+interface Item {
+  kind?: string; link?: string; obstacle?: string; joint?: string | number; limit?: string; yields?: string; force?: number[];
+}
 
 const kHows: Record<string, string> = { recovery: "moved away", unmovable: "too near, and no joint can change it" };
 
-function nameOf(item: Item): [what: string, how: string] {
-  if (item.link !== undefined) return [`${item.link} – ${item.obstacle ?? ""}`, kHows[item.kind ?? ""] ?? "approach held back"];
+function nameOf(item: Item, said?: string): [what: string, how: string] {
+  if (item.link !== undefined) {
+    return [`${item.link} – ${item.obstacle ?? ""}`, kHows[item.kind ?? ""] ?? said ?? "approach held back"];
+  }
   const joint = typeof item.joint === "number" ? `joint ${item.joint + 1}` : item.joint ?? "";
-  return [`${joint} ${item.limit ?? ""}`.trim(), "held to a limit of the joint"];
+  return [`${joint} ${item.limit ?? ""}`.trim(), said ?? "held to a limit of the joint"];
 }
 
-/** Messages that list what was active: clips of a MotionLimiter, bounds of a SafetyFilter. */
+/** Whether a listed item does anything: a force of nothing does not. */
+const acts = (item: Item): boolean => item.force === undefined || item.force.some((part) => part !== 0);
+
+/** Messages whose member `kind` lists what was active: joints, or links and obstacles. */
 function ofLists(one: Declared, topic: Topic): Constraint[] {
   const rows = new Map<string, { what: string; how: string; active: Set<number> }>();
   for (let row = 0; row < topic.length; ++row) {
     const list = (topic.message(row) as Record<string, unknown>)[one.kind ?? ""];
-    for (const item of Array.isArray(list) ? list as Item[] : []) {
-      const [what, how] = nameOf(item), key = `${how}\n${what}`;
+    for (const item of Array.isArray(list) ? (list as Item[]).filter(acts) : []) {
+      const [what, how] = nameOf(item, one.how), key = `${how}\n${what}`;
       let found = rows.get(key);
       if (!found) rows.set(key, found = { what, how, active: new Set() });
       found.active.add(row);
@@ -72,13 +86,16 @@ function ofLists(one: Declared, topic: Topic): Constraint[] {
     .map(({ what, how, active }) => ({ system, what, how, times, holds: (row: number) => active.has(row) }));
 }
 
+/** What is compared with a bound; any other kind is the name of a list. */
+const kCompared = ["rate", "value", "below", "above"];
+
 export function constraintsOf(recording: Recording, specs: PlotSpec[]): Constraint[] {
   return declared(recording, specs).flatMap((one) => {
     const topic = recording.topics.get(one.signal.startsWith("/") ? one.signal : `/${one.signal.replace(".", "/")}`);
     if (!topic || topic.length === 0) return [];
-    if (one.kind === "clips" || one.kind === "bounds") return ofLists(one, topic);
+    if (!kCompared.includes(one.kind ?? "rate")) return ofLists(one, topic);
     const columns = columnsOf(topic);
-    return ofColumns(one, one.kind === "value" || one.kind === "below" ? columns : rates(columns));
+    return ofColumns(one, (one.kind ?? "rate") === "rate" ? rates(columns) : columns);
   });
 }
 

@@ -19,7 +19,7 @@ namespace oca {
 /// the same set of sources share one *source class*, whose newest change is looked up once an
 /// epoch. A node is up to date when it was computed no earlier than its class changed. Epoch 0 is
 /// before everything: a source still there is an exported input that nobody has fixed.
-class Plan {
+class Schedule {
  public:
   struct Node {
     Calculation::Function function;
@@ -145,8 +145,8 @@ class Plan {
     if (source == kContinuousSource) context.header().integrator_step = 0.0;
     versions(context)[source] = ++context.header().epoch;
   }
-  /// Throws WiringError if the handle's system is not part of this plan or the context not its.
-  static const Plan& Of(const Handle& handle, const Context& context);
+  /// Throws WiringError if the handle's system is not part of this schedule or the context not its.
+  static const Schedule& Of(const Handle& handle, const Context& context);
 
   std::byte* arena(const Context& context) const { return context.arena_.get(); }
   std::uint64_t* versions(const Context& context) const {
@@ -163,6 +163,11 @@ class Plan {
   }
   std::string PathOf(const System& system) const;
   const InputEntry& input(const InputHandle& handle) const;
+  /// Whether an input is one of this diagram, and from outside.
+  bool Imports(const InputHandle& handle) const noexcept {
+    const System* const system = handle.system;
+    return system != nullptr && system->schedule_ == this && input(handle).source >= 0;
+  }
   const OutputEntry& output(const OutputHandle& handle) const {
     return outputs[handle.system->first_output_ + handle.index];
   }

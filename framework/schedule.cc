@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "framework/plan.h"
+#include "framework/schedule.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 
 namespace oca {
 
-std::uint64_t Plan::ClassChanged(const Context& context, std::uint32_t source_class) const {
+std::uint64_t Schedule::ClassChanged(const Context& context, std::uint32_t source_class) const {
   auto& state = reinterpret_cast<ClassState*>(arena(context) + class_states_offset)[source_class];
   if (state.checked != context.header().epoch) {
     const std::uint64_t* version = versions(context);
@@ -27,7 +27,7 @@ std::uint64_t Plan::ClassChanged(const Context& context, std::uint32_t source_cl
   return state.changed;
 }
 
-void Plan::Pull(const Context& context, int node) const {
+void Schedule::Pull(const Context& context, int node) const {
   NodeState& state = node_states(context)[node];
   const Node& target = nodes[node];
   // What the target needs depends on no more sources than the target itself.
@@ -38,7 +38,7 @@ void Plan::Pull(const Context& context, int node) const {
   PullRange(context, target.pull_begin, target.pull_end);
 }
 
-void Plan::PullRange(const Context& context, std::uint32_t begin, std::uint32_t end) const {
+void Schedule::PullRange(const Context& context, std::uint32_t begin, std::uint32_t end) const {
   NodeState* const states_of_nodes = node_states(context);
   std::byte* const memory = arena(context);
   const std::uint64_t epoch = context.header().epoch;
@@ -75,7 +75,7 @@ void Plan::PullRange(const Context& context, std::uint32_t begin, std::uint32_t 
   }
 }
 
-int Plan::PortOf(std::uint32_t node) const {
+int Schedule::PortOf(std::uint32_t node) const {
   const auto& all = nodes[node].system->outputs();
   const int first = nodes[node].system->first_output_;
   for (int i = 0; i < static_cast<int>(all.size()); ++i) {
@@ -84,7 +84,7 @@ int Plan::PortOf(std::uint32_t node) const {
   return 0;
 }
 
-void Plan::FailNode(const Context& context, std::uint32_t index) const {
+void Schedule::FailNode(const Context& context, std::uint32_t index) const {
   const System* const system = nodes[index].system;
   const Node& node = nodes[index];
   const std::string& port = system->outputs()[PortOf(index)].name;
@@ -93,7 +93,7 @@ void Plan::FailNode(const Context& context, std::uint32_t index) const {
   Fail(context, system, port, fmt::format("the value: {}", fault.text()).c_str());
 }
 
-void Plan::FailUnfixed(const Context& context, std::uint32_t source) const {
+void Schedule::FailUnfixed(const Context& context, std::uint32_t source) const {
   for (const System* const system : systems) {
     for (std::size_t i = 0; i < system->inputs().size(); ++i) {
       if (inputs[system->first_input_ + i].source != static_cast<int>(source)) continue;
@@ -102,18 +102,18 @@ void Plan::FailUnfixed(const Context& context, std::uint32_t source) const {
   }
 }
 
-void Plan::CheckInputsFixed(const Context& context) const {
+void Schedule::CheckInputsFixed(const Context& context) const {
   for (const InputEntry& input : exported_inputs) {
     if (versions(context)[input.source] == 0) FailUnfixed(context, input.source);
   }
 }
 
-void Plan::Fail(const Context& context, const System* system, const std::string& port,
-                const char* what) const {
+void Schedule::Fail(const Context& context, const System* system, const std::string& port,
+                    const char* what) const {
   throw SimulationError(PathOf(*system), port, context.time(), what);
 }
 
-void Plan::CheckStart(const Context& context, bool initialized) const {
+void Schedule::CheckStart(const Context& context, bool initialized) const {
   for (const ShownState& shown : shown_states) {
     if (shown.set_at_start && !initialized) continue;
     const auto* values = reinterpret_cast<const double*>(arena(context) + shown.slot.offset);
@@ -123,12 +123,12 @@ void Plan::CheckStart(const Context& context, bool initialized) const {
   }
 }
 
-std::string Plan::PathOf(const System& system) const {
+std::string Schedule::PathOf(const System& system) const {
   const auto found = std::find(systems.begin(), systems.end(), &system);
   return found == systems.end() ? "diagram" : paths[found - systems.begin()];
 }
 
-void Plan::EvaluateDerivatives(Context& context, double* result) const {
+void Schedule::EvaluateDerivatives(Context& context, double* result) const {
   if (derivative_pull_begin != derivative_pull_end) {
     PullRange(context, derivative_pull_begin, derivative_pull_end);
   }
@@ -147,7 +147,7 @@ void Plan::EvaluateDerivatives(Context& context, double* result) const {
   std::memcpy(result, computed, sizeof(double) * static_cast<std::size_t>(continuous_size));
 }
 
-void Plan::FailDerivative(const Context& context) const {
+void Schedule::FailDerivative(const Context& context) const {
   for (const Derivative& derivative : derivatives) {
     const auto* values = reinterpret_cast<const double*>(arena(context) + derivative.out.offset);
     if (!AllFinite(values, derivative.out.size)) {
@@ -157,7 +157,7 @@ void Plan::FailDerivative(const Context& context) const {
   }
 }
 
-void Plan::RunEvent(Context& context, const Event& event) const {
+void Schedule::RunEvent(Context& context, const Event& event) const {
   PullRange(context, event.pull_begin, event.pull_end);
   std::byte* const memory = arena(context);
   for (const int index : event.writes) {
@@ -186,7 +186,8 @@ void Plan::RunEvent(Context& context, const Event& event) const {
   }
 }
 
-void Plan::FailState(const Context& context, const Event& event, const StateEntry& state) const {
+void Schedule::FailState(const Context& context, const Event& event,
+                         const StateEntry& state) const {
   const char* const what = "the new state is not finite (NaN or infinity)";
   if (state.type == &kVectorType) Fail(context, event.system, state.info->name, what);
   const Fault fault = state.type->check(arena(context) + state.next.offset, Look::kFinite);
@@ -194,7 +195,7 @@ void Plan::FailState(const Context& context, const Event& event, const StateEntr
        fmt::format("the new state: {}", fault.text()).c_str());
 }
 
-double Plan::EvaluateWitness(Context& context, int index) const {
+double Schedule::EvaluateWitness(Context& context, int index) const {
   const Witness& witness = witnesses[index];
   PullRange(context, witness.pull_begin, witness.pull_end);
   try {
@@ -213,7 +214,7 @@ double Plan::EvaluateWitness(Context& context, int index) const {
   return value;
 }
 
-Plan::Change Plan::Commit(Context& context, const Event& event) const {
+Schedule::Change Schedule::Commit(Context& context, const Event& event) const {
   Change change = Change::kNone;
   std::byte* const memory = arena(context);
   for (const int index : event.writes) {
@@ -237,7 +238,7 @@ Plan::Change Plan::Commit(Context& context, const Event& event) const {
   return change;
 }
 
-void Plan::SetTimeAndState(Context& context, double time, const double* state) const {
+void Schedule::SetTimeAndState(Context& context, double time, const double* state) const {
   if (state != continuous(context)) {
     std::memcpy(continuous(context), state,
                 sizeof(double) * static_cast<std::size_t>(continuous_size));
@@ -247,7 +248,7 @@ void Plan::SetTimeAndState(Context& context, double time, const double* state) c
   versions(context)[kTimeSource] = versions(context)[kContinuousSource] = ++header.epoch;
 }
 
-void Plan::TakeCapacity(Context& context) const {
+void Schedule::TakeCapacity(Context& context) const {
   for (const Event& event : events) {
     if (event.stage != System::Stage::kUpdate && event.stage != System::Stage::kReset) continue;
     const bool writes_objects = std::any_of(event.writes.begin(), event.writes.end(),
@@ -264,7 +265,7 @@ void Plan::TakeCapacity(Context& context) const {
   }
 }
 
-void Plan::GrowLikeNext(Context& context, const StateEntry& state) const {
+void Schedule::GrowLikeNext(Context& context, const StateEntry& state) const {
   const SignalType& type = *state.type;
   std::byte* const at = arena(context) + state.slot.offset;
   const std::unique_ptr<std::byte, void (*)(std::byte*)> memory(
@@ -277,18 +278,18 @@ void Plan::GrowLikeNext(Context& context, const StateEntry& state) const {
   type.destroy(memory.get());
 }
 
-const Plan::InputEntry& Plan::input(const InputHandle& handle) const {
+const Schedule::InputEntry& Schedule::input(const InputHandle& handle) const {
   if (handle.system == root) return exported_inputs[handle.index];
   return inputs[handle.system->first_input_ + handle.index];
 }
 
-const Plan& Plan::Of(const Handle& handle, const Context& context) {
-  const Plan* const plan = handle.system == nullptr ? nullptr : handle.system->plan_;
-  if (plan == nullptr || plan != context.plan_) {
+const Schedule& Schedule::Of(const Handle& handle, const Context& context) {
+  const Schedule* const schedule = handle.system == nullptr ? nullptr : handle.system->schedule_;
+  if (schedule == nullptr || schedule != context.schedule_) {
     throw WiringError(
         {"port or state: its system is not part of the diagram that made the context"});
   }
-  return *plan;
+  return *schedule;
 }
 
 }  // namespace oca

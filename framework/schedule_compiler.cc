@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "framework/plan_compiler.h"
+#include "framework/schedule_compiler.h"
 
 #include <fmt/format.h>
 
@@ -21,16 +21,16 @@ void AddOnce(std::vector<const Plausible*>& all, const Plausible* one) {
 
 }  // namespace
 
-std::unique_ptr<Plan> PlanCompiler::Compile(Diagram& root) {
-  PlanCompiler compiler(root);
+std::unique_ptr<Schedule> ScheduleCompiler::Compile(Diagram& root, Wiring& wiring) {
+  ScheduleCompiler compiler(root, wiring);
   auto& problems = compiler.wiring_.problems();
   compiler.IndexLeaves();
   compiler.MakeSources();
   compiler.OrderNodes();
   if (!problems.empty()) {
-    // The builder may try again; until then no handle may find a plan that is gone.
-    root.plan_ = nullptr;
-    for (auto& leaf : compiler.wiring_.leaves()) leaf.system->plan_ = nullptr;
+    // The builder may try again; until then no handle may find a schedule that is gone.
+    root.schedule_ = nullptr;
+    for (auto& leaf : compiler.wiring_.leaves()) leaf.system->schedule_ = nullptr;
     throw WiringError(problems);
   }
   compiler.LayOut();
@@ -39,82 +39,82 @@ std::unique_ptr<Plan> PlanCompiler::Compile(Diagram& root) {
   compiler.CompileStates();
   compiler.CompileWitnesses();
   compiler.CompileEvents();
-  return std::move(compiler.plan_);
+  return std::move(compiler.schedule_);
 }
 
-PlanCompiler::PlanCompiler(Diagram& root)
-    : root_(root), wiring_(root), plan_(std::make_unique<Plan>()) {}
+ScheduleCompiler::ScheduleCompiler(Diagram& root, Wiring& wiring)
+    : root_(root), wiring_(wiring), schedule_(std::make_unique<Schedule>()) {}
 
-void PlanCompiler::IndexLeaves() {
+void ScheduleCompiler::IndexLeaves() {
   int inputs = 0, outputs = 0, states = 0;
-  plan_->root = &root_;
-  root_.plan_ = plan_.get();
+  schedule_->root = &root_;
+  root_.schedule_ = schedule_.get();
   for (auto& leaf : wiring_.leaves()) {
     System& system = *leaf.system;
-    system.plan_ = plan_.get();
+    system.schedule_ = schedule_.get();
     system.first_input_ = std::exchange(inputs, inputs + static_cast<int>(system.inputs().size()));
     system.first_output_ =
         std::exchange(outputs, outputs + static_cast<int>(system.outputs().size()));
     system.first_state_ = std::exchange(states, states + static_cast<int>(system.states().size()));
-    system.leaf_ = static_cast<int>(plan_->systems.size());
-    plan_->systems.push_back(&system);
-    plan_->paths.push_back(leaf.path);
+    system.leaf_ = static_cast<int>(schedule_->systems.size());
+    schedule_->systems.push_back(&system);
+    schedule_->paths.push_back(leaf.path);
   }
-  plan_->inputs.resize(inputs);
-  plan_->outputs.resize(outputs);
-  plan_->states.resize(states);
-  plan_->exported_inputs.resize(root_.exported_inputs().size());
+  schedule_->inputs.resize(inputs);
+  schedule_->outputs.resize(outputs);
+  schedule_->states.resize(states);
+  schedule_->exported_inputs.resize(root_.exported_inputs().size());
 }
 
-void PlanCompiler::MakeSources() {
-  plan_->source_names = {"time", "continuous state"};
+void ScheduleCompiler::MakeSources() {
+  schedule_->source_names = {"time", "continuous state"};
   for (std::size_t i = 0; i < wiring_.leaves().size(); ++i) {
     const auto& leaf = wiring_.leaves()[i];
     for (std::size_t k = 0; k < leaf.system->states().size(); ++k) {
       const System::StateInfo& info = leaf.system->states()[k];
-      Plan::StateEntry& entry = plan_->states[leaf.system->first_state_ + k];
+      Schedule::StateEntry& entry = schedule_->states[leaf.system->first_state_ + k];
       entry.info = &info;
       entry.type = info.type;
       entry.continuous = info.continuous;
-      entry.source = Plan::kContinuousSource;
+      entry.source = Schedule::kContinuousSource;
       if (!info.continuous) {
-        entry.source = static_cast<int>(plan_->source_names.size());
-        plan_->source_names.push_back(leaf.path + "." + info.name);
+        entry.source = static_cast<int>(schedule_->source_names.size());
+        schedule_->source_names.push_back(leaf.path + "." + info.name);
       }
     }
   }
-  for (std::size_t i = 0; i < plan_->exported_inputs.size(); ++i) {
-    plan_->exported_inputs[i].source = static_cast<int>(plan_->source_names.size());
-    plan_->source_names.push_back(root_.exported_inputs()[i].name);
+  for (std::size_t i = 0; i < schedule_->exported_inputs.size(); ++i) {
+    schedule_->exported_inputs[i].source = static_cast<int>(schedule_->source_names.size());
+    schedule_->source_names.push_back(root_.exported_inputs()[i].name);
   }
 }
 
-int PlanCompiler::NodeOf(int leaf, const Read& read) const {
+int ScheduleCompiler::NodeOf(int leaf, const Read& read) const {
   if (read.kind == Read::Kind::kOutput) return node_of_[leaf][read.index];
   if (read.kind != Read::Kind::kInput) return -1;
   const Wiring::Driver& driver = wiring_.leaves()[leaf].drivers[read.index];
   return driver.leaf < 0 ? -1 : node_of_[driver.leaf][driver.output];
 }
 
-std::set<std::uint32_t> PlanCompiler::SourcesOf(int leaf, const Read& read) const {
+std::set<std::uint32_t> ScheduleCompiler::SourcesOf(int leaf, const Read& read) const {
   const auto state_source = [&](int of_leaf, int state) -> std::uint32_t {
-    return plan_->states[wiring_.leaves()[of_leaf].system->first_state_ + state].source;
+    return schedule_->states[wiring_.leaves()[of_leaf].system->first_state_ + state].source;
   };
-  if (read.kind == Read::Kind::kOfTime) return {Plan::kTimeSource};
+  if (read.kind == Read::Kind::kOfTime) return {Schedule::kTimeSource};
   if (read.kind == Read::Kind::kState) return {state_source(leaf, read.index)};
   if (const int node = NodeOf(leaf, read); node >= 0) return nodes_[node].sources;
   Wiring::Driver driver;
   if (read.kind == Read::Kind::kInput) driver = wiring_.leaves()[leaf].drivers[read.index];
   if (read.kind == Read::Kind::kOutput) driver = {leaf, read.index, -1};
   if (driver.exported >= 0) {
-    return {static_cast<std::uint32_t>(plan_->exported_inputs[driver.exported].source)};
+    return {static_cast<std::uint32_t>(schedule_->exported_inputs[driver.exported].source)};
   }
   if (driver.leaf < 0) return {};
   return {state_source(driver.leaf,
                        wiring_.leaves()[driver.leaf].system->outputs()[driver.output].state)};
 }
 
-std::vector<int> PlanCompiler::NodesOf(int leaf, const std::vector<Read>& reads) const {
+std::vector<int> ScheduleCompiler::NodesOf(int leaf, const std::vector<Read>& reads) const {
   std::vector<int> nodes;
   for (const Read& read : reads) {
     if (const int node = NodeOf(leaf, read); node >= 0) nodes.push_back(node);
@@ -122,7 +122,7 @@ std::vector<int> PlanCompiler::NodesOf(int leaf, const std::vector<Read>& reads)
   return nodes;
 }
 
-void PlanCompiler::OrderNodes() {
+void ScheduleCompiler::OrderNodes() {
   const auto& leaves = wiring_.leaves();
   std::vector<NodeInfo> unordered;
   for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf) {
@@ -180,8 +180,8 @@ void PlanCompiler::OrderNodes() {
   }
 }
 
-std::vector<int> PlanCompiler::ReportLoop(const std::vector<int>& open_predecessors,
-                                          const std::vector<std::vector<int>>& predecessors) {
+std::vector<int> ScheduleCompiler::ReportLoop(const std::vector<int>& open_predecessors,
+                                              const std::vector<std::vector<int>>& predecessors) {
   int node = 0;
   while (open_predecessors[node] == 0) ++node;
   std::vector<int> walk;
@@ -206,13 +206,13 @@ std::vector<int> PlanCompiler::ReportLoop(const std::vector<int>& open_predecess
     path += (i > 0 ? " -> " : "") + wiring_.NameOfOutput(to.leaf, to.output);
   }
   wiring_.problems().push_back(fmt::format(
-      "algebraic loop: {}; break it with a Delay, a ZeroOrderHold or any system whose output is a "
+      "algebraic loop: {}; break it with a delay, a hold or any system whose output is a "
       "state",
       path));
   return walk;
 }
 
-std::uint32_t PlanCompiler::Allocate(std::size_t bytes, std::size_t align) {
+std::uint32_t ScheduleCompiler::Allocate(std::size_t bytes, std::size_t align) {
   arena_ = (arena_ + align - 1) / align * align;
   const std::size_t offset = arena_;
   arena_ += bytes;
@@ -220,18 +220,18 @@ std::uint32_t PlanCompiler::Allocate(std::size_t bytes, std::size_t align) {
   return static_cast<std::uint32_t>(offset);
 }
 
-void PlanCompiler::LayOutObject(Slot& slot, const SignalType& type) {
+void ScheduleCompiler::LayOutObject(Slot& slot, const SignalType& type) {
   slot = {Allocate(type.size, type.align), 0};
-  plan_->objects.push_back({slot.offset, &type});
+  schedule_->objects.push_back({slot.offset, &type});
 }
 
-void PlanCompiler::LayOut() {
+void ScheduleCompiler::LayOut() {
   const auto& leaves = wiring_.leaves();
   for (const auto& leaf : leaves) {
     for (const System::EventInfo& event : leaf.system->events()) {
       if (event.stage == System::Stage::kInitialization || event.witness >= 0) continue;
-      auto& groups = plan_->groups;
-      const auto same = [&](const Plan::Group& group) {
+      auto& groups = schedule_->groups;
+      const auto same = [&](const Schedule::Group& group) {
         return group.stage == event.stage && group.every.period == event.every.period &&
                group.every.offset == event.every.offset;
       };
@@ -244,32 +244,32 @@ void PlanCompiler::LayOut() {
   for (const NodeInfo& node : nodes_) classes.emplace(node.sources, classes.size());
 
   Allocate(sizeof(Context::Header));
-  plan_->versions_offset = Allocate(8 * plan_->source_names.size());
-  plan_->class_states_offset = Allocate(16 * classes.size());
-  plan_->node_states_offset = Allocate(16 * nodes_.size());
-  plan_->counts_offset = Allocate(8 * plan_->groups.size());
+  schedule_->versions_offset = Allocate(8 * schedule_->source_names.size());
+  schedule_->class_states_offset = Allocate(16 * classes.size());
+  schedule_->node_states_offset = Allocate(16 * nodes_.size());
+  schedule_->counts_offset = Allocate(8 * schedule_->groups.size());
   std::size_t witnesses = 0;
   for (const auto& leaf : leaves) witnesses += leaf.system->witnesses().size();
-  plan_->witnesses_offset = Allocate(sizeof(Plan::WitnessState) * witnesses);
+  schedule_->witnesses_offset = Allocate(sizeof(Schedule::WitnessState) * witnesses);
 
   const auto each_state = [&](bool continuous, const auto& visit) {
     for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf) {
       const auto& states = leaves[leaf].system->states();
       for (std::size_t i = 0; i < states.size(); ++i) {
         if (states[i].continuous != continuous || states[i].type != &kVectorType) continue;
-        visit(plan_->states[leaves[leaf].system->first_state_ + i],
+        visit(schedule_->states[leaves[leaf].system->first_state_ + i],
               static_cast<std::uint32_t>(
                   wiring_.SizeOf(static_cast<int>(leaf), states[i].spec.size)));
       }
     }
   };
-  plan_->continuous_offset = Allocate(0, 32);
-  each_state(true, [&](Plan::StateEntry& state, std::uint32_t size) {
+  schedule_->continuous_offset = Allocate(0, 32);
+  each_state(true, [&](Schedule::StateEntry& state, std::uint32_t size) {
     state.slot = {Allocate(8 * size), size};
-    plan_->continuous_size += static_cast<int>(size);
+    schedule_->continuous_size += static_cast<int>(size);
   });
-  plan_->derivative_offset = Allocate(8 * plan_->continuous_size, 32);
-  const auto hold = [&](Plan::StateEntry& state, std::uint32_t size) {
+  schedule_->derivative_offset = Allocate(8 * schedule_->continuous_size, 32);
+  const auto hold = [&](Schedule::StateEntry& state, std::uint32_t size) {
     if (!state.continuous) state.slot = {Allocate(8 * size, 16), size};
     state.next = {Allocate(8 * size, 16), size};
   };
@@ -278,7 +278,7 @@ void PlanCompiler::LayOut() {
 
   for (const NodeInfo& info : nodes_) {
     const auto& output = leaves[info.leaf].system->outputs()[info.output];
-    Plan::Node node{};
+    Schedule::Node node{};
     node.type = output.type;
     node.vector = output.type == &kVectorType;
     node.source_class = classes.at(info.sources);
@@ -286,67 +286,68 @@ void PlanCompiler::LayOut() {
       node.out.size = static_cast<std::uint32_t>(wiring_.SizeOf(info.leaf, output.spec.size));
       node.out.offset = Allocate(8 * node.out.size, 16);
     }
-    plan_->nodes.push_back(node);
+    schedule_->nodes.push_back(node);
   }
-  for (std::size_t i = 0; i < plan_->exported_inputs.size(); ++i) {
+  for (std::size_t i = 0; i < schedule_->exported_inputs.size(); ++i) {
     if (wiring_.exported()[i].empty()) continue;
     const auto& target = wiring_.exported()[i].front();
     const auto& info = leaves[target.leaf].system->inputs()[target.input];
     if (info.type != &kVectorType) continue;
     const auto size = static_cast<std::uint32_t>(wiring_.SizeOf(target.leaf, info.spec.size));
-    plan_->exported_inputs[i].slot = {Allocate(8 * size, 16), size};
+    schedule_->exported_inputs[i].slot = {Allocate(8 * size, 16), size};
   }
-  plan_->plain_size = Allocate(0, 64);
+  schedule_->plain_size = Allocate(0, 64);
 
-  for (Plan::StateEntry& state : plan_->states) {
+  for (Schedule::StateEntry& state : schedule_->states) {
     if (state.type == &kVectorType) continue;
     LayOutObject(state.slot, *state.type);
     LayOutObject(state.next, *state.type);
   }
-  for (Plan::Node& node : plan_->nodes) {
+  for (Schedule::Node& node : schedule_->nodes) {
     if (node.type != &kVectorType) LayOutObject(node.out, *node.type);
   }
-  for (std::size_t i = 0; i < plan_->exported_inputs.size(); ++i) {
+  for (std::size_t i = 0; i < schedule_->exported_inputs.size(); ++i) {
     if (wiring_.exported()[i].empty()) continue;
     const auto& target = wiring_.exported()[i].front();
     const auto& info = leaves[target.leaf].system->inputs()[target.input];
-    if (info.type != &kVectorType) LayOutObject(plan_->exported_inputs[i].slot, *info.type);
+    if (info.type != &kVectorType) LayOutObject(schedule_->exported_inputs[i].slot, *info.type);
   }
-  plan_->arena_size = Allocate(0, 64);
+  schedule_->arena_size = Allocate(0, 64);
 
-  plan_->classes.resize(classes.size());
+  schedule_->classes.resize(classes.size());
   for (const auto& [sources, index] : classes) {
-    const auto begin = static_cast<std::uint32_t>(plan_->class_sources.size());
-    plan_->class_sources.insert(plan_->class_sources.end(), sources.begin(), sources.end());
-    plan_->classes[index] = {begin, static_cast<std::uint32_t>(plan_->class_sources.size())};
+    const auto begin = static_cast<std::uint32_t>(schedule_->class_sources.size());
+    schedule_->class_sources.insert(schedule_->class_sources.end(), sources.begin(), sources.end());
+    schedule_->classes[index] = {begin,
+                                 static_cast<std::uint32_t>(schedule_->class_sources.size())};
   }
 }
 
-Slot PlanCompiler::SlotOf(int leaf, const Read& read) const {
+Slot ScheduleCompiler::SlotOf(int leaf, const Read& read) const {
   const auto& leaves = wiring_.leaves();
   const auto state_slot = [&](int of_leaf, int state) {
-    return plan_->states[leaves[of_leaf].system->first_state_ + state].slot;
+    return schedule_->states[leaves[of_leaf].system->first_state_ + state].slot;
   };
   if (read.kind == Read::Kind::kOfTime) return {offsetof(Context::Header, time), 0};
   if (read.kind == Read::Kind::kOfLog) return {offsetof(Context::Header, log), 0};
   if (read.kind == Read::Kind::kState) return state_slot(leaf, read.index);
-  if (const int node = NodeOf(leaf, read); node >= 0) return plan_->nodes[node].out;
+  if (const int node = NodeOf(leaf, read); node >= 0) return schedule_->nodes[node].out;
   Wiring::Driver driver{leaf, read.index, -1};
   if (read.kind == Read::Kind::kInput) driver = leaves[leaf].drivers[read.index];
   if (driver.none()) return {};
-  if (driver.exported >= 0) return plan_->exported_inputs[driver.exported].slot;
+  if (driver.exported >= 0) return schedule_->exported_inputs[driver.exported].slot;
   return state_slot(driver.leaf, leaves[driver.leaf].system->outputs()[driver.output].state);
 }
 
-std::uint32_t PlanCompiler::AddSlots(int leaf, const Calculation& calculation,
-                                     const std::vector<Slot>& writes) {
-  const auto first = static_cast<std::uint32_t>(plan_->slots.size());
-  for (const Read& read : calculation.reads) plan_->slots.push_back(SlotOf(leaf, read));
-  plan_->slots.insert(plan_->slots.end(), writes.begin(), writes.end());
+std::uint32_t ScheduleCompiler::AddSlots(int leaf, const Calculation& calculation,
+                                         const std::vector<Slot>& writes) {
+  const auto first = static_cast<std::uint32_t>(schedule_->slots.size());
+  for (const Read& read : calculation.reads) schedule_->slots.push_back(SlotOf(leaf, read));
+  schedule_->slots.insert(schedule_->slots.end(), writes.begin(), writes.end());
   return first;
 }
 
-std::pair<std::uint32_t, std::uint32_t> PlanCompiler::AddPulls(const std::vector<int>& wanted) {
+std::pair<std::uint32_t, std::uint32_t> ScheduleCompiler::AddPulls(const std::vector<int>& wanted) {
   marked_.resize(nodes_.size(), 0);
   std::vector<int> found;
   const auto mark = [&](int node) {
@@ -358,17 +359,17 @@ std::pair<std::uint32_t, std::uint32_t> PlanCompiler::AddPulls(const std::vector
   }
   std::sort(found.begin(), found.end());
   for (const int node : found) marked_[node] = 0;
-  const auto begin = static_cast<std::uint32_t>(plan_->pulls.size());
-  plan_->pulls.insert(plan_->pulls.end(), found.begin(), found.end());
-  return {begin, static_cast<std::uint32_t>(plan_->pulls.size())};
+  const auto begin = static_cast<std::uint32_t>(schedule_->pulls.size());
+  schedule_->pulls.insert(schedule_->pulls.end(), found.begin(), found.end());
+  return {begin, static_cast<std::uint32_t>(schedule_->pulls.size())};
 }
 
-void PlanCompiler::CompileNodes() {
+void ScheduleCompiler::CompileNodes() {
   const auto& leaves = wiring_.leaves();
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const NodeInfo& info = nodes_[i];
     const auto& output = leaves[info.leaf].system->outputs()[info.output];
-    Plan::Node& node = plan_->nodes[i];
+    Schedule::Node& node = schedule_->nodes[i];
     node.function = output.calculation.function;
     node.system = leaves[info.leaf].system;
     node.first_slot = AddSlots(info.leaf, output.calculation, {node.out});
@@ -378,21 +379,21 @@ void PlanCompiler::CompileNodes() {
     const System& system = *leaves[leaf].system;
     for (std::size_t i = 0; i < system.outputs().size(); ++i) {
       const Read self{Read::Kind::kOutput, static_cast<int>(i)};
-      plan_->outputs[system.first_output_ + i] = {SlotOf(static_cast<int>(leaf), self),
-                                                  node_of_[leaf][i]};
+      schedule_->outputs[system.first_output_ + i] = {SlotOf(static_cast<int>(leaf), self),
+                                                      node_of_[leaf][i]};
     }
     for (std::size_t i = 0; i < system.inputs().size(); ++i) {
       const Read self{Read::Kind::kInput, static_cast<int>(i)};
       const int exported = leaves[leaf].drivers[i].exported;
-      plan_->inputs[system.first_input_ + i] = {
+      schedule_->inputs[system.first_input_ + i] = {
           SlotOf(static_cast<int>(leaf), self),
-          exported < 0 ? -1 : plan_->exported_inputs[exported].source,
+          exported < 0 ? -1 : schedule_->exported_inputs[exported].source,
           {}};
     }
   }
 }
 
-void PlanCompiler::CompilePlausible() {
+void ScheduleCompiler::CompilePlausible() {
   const auto& leaves = wiring_.leaves();
   for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf) {
     const auto& inputs = leaves[leaf].system->inputs();
@@ -401,7 +402,7 @@ void PlanCompiler::CompilePlausible() {
       const Wiring::Driver& driver = leaves[leaf].drivers[i];
       if (plausible == nullptr || driver.none()) continue;
       if (driver.exported >= 0) {
-        AddOnce(plan_->exported_inputs[driver.exported].plausible, plausible);
+        AddOnce(schedule_->exported_inputs[driver.exported].plausible, plausible);
       } else if (node_of_[driver.leaf][driver.output] < 0) {
         const System& system = *leaves[driver.leaf].system;
         const int state = system.outputs()[driver.output].state;
@@ -411,14 +412,14 @@ void PlanCompiler::CompilePlausible() {
         };
         const bool set_at_start = std::any_of(system.events().begin(), system.events().end(), sets);
         const Read self{Read::Kind::kOutput, driver.output};
-        plan_->shown_states.push_back({leaves[driver.leaf].system, driver.output,
-                                       SlotOf(driver.leaf, self), plausible, set_at_start});
+        schedule_->shown_states.push_back({leaves[driver.leaf].system, driver.output,
+                                           SlotOf(driver.leaf, self), plausible, set_at_start});
       }
     }
   }
 }
 
-void PlanCompiler::CompileStates() {
+void ScheduleCompiler::CompileStates() {
   const auto& leaves = wiring_.leaves();
   std::vector<int> wanted;
   std::set<std::uint32_t> sources;
@@ -428,30 +429,30 @@ void PlanCompiler::CompileStates() {
       const System::StateInfo& info = system.states()[i];
       if (!info.continuous) continue;
       const int index = static_cast<int>(leaf);
-      Slot out = plan_->states[system.first_state_ + i].slot;
-      out.offset = out.offset - plan_->continuous_offset + plan_->derivative_offset;
-      plan_->derivatives.push_back({info.derivative.function, &system,
-                                    AddSlots(index, info.derivative, {out}), out, info.name});
+      Slot out = schedule_->states[system.first_state_ + i].slot;
+      out.offset = out.offset - schedule_->continuous_offset + schedule_->derivative_offset;
+      schedule_->derivatives.push_back({info.derivative.function, &system,
+                                        AddSlots(index, info.derivative, {out}), out, info.name});
       const auto more = NodesOf(index, info.derivative.reads);
       wanted.insert(wanted.end(), more.begin(), more.end());
       for (const Read& read : info.derivative.reads) sources.merge(SourcesOf(index, read));
     }
   }
-  std::tie(plan_->derivative_pull_begin, plan_->derivative_pull_end) = AddPulls(wanted);
-  for (Plan::StateEntry& state : plan_->states) {
+  std::tie(schedule_->derivative_pull_begin, schedule_->derivative_pull_end) = AddPulls(wanted);
+  for (Schedule::StateEntry& state : schedule_->states) {
     state.in_derivatives = sources.contains(static_cast<std::uint32_t>(state.source));
   }
 }
 
-void PlanCompiler::CompileWitnesses() {
+void ScheduleCompiler::CompileWitnesses() {
   const auto& leaves = wiring_.leaves();
   for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf) {
     const System& system = *leaves[leaf].system;
     for (const System::WitnessInfo& info : system.witnesses()) {
-      const auto offset = plan_->witnesses_offset +
-                          plan_->witnesses.size() * sizeof(Plan::WitnessState) +
-                          offsetof(Plan::WitnessState, value);
-      Plan::Witness witness{};
+      const auto offset = schedule_->witnesses_offset +
+                          schedule_->witnesses.size() * sizeof(Schedule::WitnessState) +
+                          offsetof(Schedule::WitnessState, value);
+      Schedule::Witness witness{};
       witness.function = info.calculation.function;
       witness.system = &system;
       witness.first_slot = AddSlots(static_cast<int>(leaf), info.calculation,
@@ -460,12 +461,12 @@ void PlanCompiler::CompileWitnesses() {
           AddPulls(NodesOf(static_cast<int>(leaf), info.calculation.reads));
       witness.name = info.name;
       witness.direction = info.direction;
-      plan_->witnesses.push_back(std::move(witness));
+      schedule_->witnesses.push_back(std::move(witness));
     }
   }
 }
 
-void PlanCompiler::CompileEvents() {
+void ScheduleCompiler::CompileEvents() {
   const auto& leaves = wiring_.leaves();
   int witnesses = 0;
   for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf) {
@@ -473,29 +474,29 @@ void PlanCompiler::CompileEvents() {
     const int first_witness =
         std::exchange(witnesses, witnesses + static_cast<int>(system.witnesses().size()));
     for (const System::EventInfo& info : system.events()) {
-      Plan::Event event{};
+      Schedule::Event event{};
       event.stage = info.stage;
       event.function = info.calculation.function;
       event.system = &system;
       std::vector<Slot> writes;
       for (const int state : info.writes) {
         event.writes.push_back(system.first_state_ + state);
-        writes.push_back(plan_->states[event.writes.back()].next);
+        writes.push_back(schedule_->states[event.writes.back()].next);
       }
       event.first_slot = AddSlots(static_cast<int>(leaf), info.calculation, writes);
       std::tie(event.pull_begin, event.pull_end) =
           AddPulls(NodesOf(static_cast<int>(leaf), info.calculation.reads));
-      const int index = static_cast<int>(plan_->events.size());
-      plan_->events.push_back(std::move(event));
+      const int index = static_cast<int>(schedule_->events.size());
+      schedule_->events.push_back(std::move(event));
       if (info.stage == System::Stage::kInitialization) {
-        plan_->initializations.push_back(index);
+        schedule_->initializations.push_back(index);
         continue;
       }
       if (info.witness >= 0) {
-        plan_->witnesses[first_witness + info.witness].events.push_back(index);
+        schedule_->witnesses[first_witness + info.witness].events.push_back(index);
         continue;
       }
-      for (Plan::Group& group : plan_->groups) {
+      for (Schedule::Group& group : schedule_->groups) {
         if (group.stage == info.stage && group.every.period == info.every.period &&
             group.every.offset == info.every.offset) {
           group.events.push_back(index);

@@ -8,20 +8,20 @@
 #include <vector>
 
 #include "framework/diagram.h"
-#include "framework/plan.h"
+#include "framework/schedule.h"
 #include "framework/wiring.h"
 
 namespace oca {
 
-/// Turns a wired diagram into a Plan: orders the calculations, finds what each depends on, and
+/// Turns a wired diagram into a Schedule: orders the calculations, finds what each depends on, and
 /// lays all values out in one arena.
-class PlanCompiler {
+class ScheduleCompiler {
  public:
-  /// throws WiringError with all problems of the diagram.
-  static std::unique_ptr<Plan> Compile(Diagram& root);
+  /// `wiring` is that of the root. throws WiringError with all problems of the diagram.
+  static std::unique_ptr<Schedule> Compile(Diagram& root, Wiring& wiring);
 
  private:
-  explicit PlanCompiler(Diagram& root);
+  ScheduleCompiler(Diagram& root, Wiring& wiring);
 
   void IndexLeaves();
   void MakeSources();
@@ -42,7 +42,7 @@ class PlanCompiler {
   std::set<std::uint32_t> SourcesOf(int leaf, const Read& read) const;
   Slot SlotOf(int leaf, const Read& read) const;
   std::uint32_t AddSlots(int leaf, const Calculation& calculation, const std::vector<Slot>& writes);
-  /// Appends to plan_->pulls all nodes that the reads need; returns the range.
+  /// Appends to schedule_->pulls all nodes that the reads need; returns the range.
   std::pair<std::uint32_t, std::uint32_t> AddPulls(const std::vector<int>& wanted);
   std::vector<int> NodesOf(int leaf, const std::vector<Read>& reads) const;
   std::uint32_t Allocate(std::size_t bytes, std::size_t align = 8);
@@ -55,8 +55,8 @@ class PlanCompiler {
   };
 
   Diagram& root_;
-  Wiring wiring_;
-  std::unique_ptr<Plan> plan_;
+  Wiring& wiring_;
+  std::unique_ptr<Schedule> schedule_;
   std::vector<NodeInfo> nodes_;            // in evaluation order once ordered
   std::vector<std::vector<int>> node_of_;  // leaf, output -> node
   std::vector<char> marked_;               // scratch of AddPulls
