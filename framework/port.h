@@ -128,6 +128,7 @@ struct Input : InputHandle {
 template <class T>
 struct OptionalInput : InputHandle {
   OptionalInput() = default;
+  OptionalInput(const Input<T>& required) : InputHandle(required) {}  // NOLINT: one that is there
 
  private:
   friend class System;

@@ -47,7 +47,7 @@ OptionalInput<Vector> JointServo::DeclareMeasuredVelocity() {
   const PortSpec spec{size_, unit_.Rate()};
   if (deadbeat()) return DeclareOptionalInput<Vector>("measured_velocity", spec);
   // Declared as required, so that Build refuses a servo without damping.
-  return {DeclareInput<Vector>("measured_velocity", spec)};
+  return DeclareInput<Vector>("measured_velocity", spec);
 }
 
 Output<Vector> JointServo::DeclareCommand() {
