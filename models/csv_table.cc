@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/csv_table.h"
+#include "oca/models/csv_table.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,9 +11,9 @@
 #include <tuple>
 #include <utility>
 
-#include "models/error.h"
-#include "models/geometry/table_text.h"
-#include "models/robot/nearest_name.h"
+#include "oca/models/error.h"
+#include "oca/models/nearest_name.h"
+#include "oca/models/table_text.h"
 
 namespace oca::models {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "framework/error_base.h"
+#include "oca/framework/dataflow/error_base.h"
 
 namespace oca::models {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/name.h"
+#include "oca/models/name.h"
 
 #include <mutex>
 #include <unordered_set>

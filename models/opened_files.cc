@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/opened_files.h"
+#include "oca/models/opened_files.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "models/error.h"
+#include "oca/models/error.h"
 
 namespace oca::models {
 namespace {

@@ -99,11 +99,11 @@ if [[ engine/compile =~ $filter ]]; then
   compile() { # FLAG... HEADER... -> ns of CPU
     OCA_WORK=$work tools/goals/compile.sh "$@" | awk '{ printf "%.0f", 1e9 * $1 }'
   }
-  product=('"framework/diagram.h"' '"framework/simulator.h"')
-  echo "engine/compile;$(compile -O2 -I. "${product[@]}");;0" >>"$work/release"
+  product=('"oca/framework/dataflow/diagram.h"' '"oca/framework/simulation/simulator.h"')
+  echo "engine/compile;$(compile -O2 -Ibuild/bench/include "${product[@]}");;0" >>"$work/release"
   echo "engine/compile/floor;$(compile -O2 '<Eigen/Core>' '<memory>' '<string>' '<vector>');;0" \
     >>"$work/release"
-  echo "engine/compile;$(compile -O3 -march=native -I. "${product[@]}");;0" >>"$work/bench"
+  echo "engine/compile;$(compile -O3 -march=native -Ibuild/bench/include "${product[@]}");;0" >>"$work/bench"
 fi
 
 echo "$(date +%F), $(awk -F': ' '/^model name/ { print $2; exit }' /proc/cpuinfo), $(nproc) cores, \

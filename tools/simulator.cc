@@ -1,4 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/simulator_main.h"
+#include "oca/tools/simulator/simulator_main.h"
 
 int main(int argc, char** argv) { return oca::tools::SimulatorMain(argc, argv); }

@@ -14,7 +14,7 @@ ctest --preset release -j "$jobs"
 echo "Inputs from outside that once went wrong"
 tests/cases/run.sh
 
-hostile=(models_robot_test models_geometry_test)
+hostile=(robot_test geometry_test)
 tools/setup.sh debug "${hostile[@]}"
 for test in "${hostile[@]}"; do
   echo "$test under sanitizers"
@@ -23,7 +23,7 @@ for test in "${hostile[@]}"; do
     --gtest_filter='-Shares/*:Scales/*:DistanceInvariance*:DistanceEnumeration*:DistanceProof*'
 done
 
-for test in expression_test document_test loader_test; do
+for test in files_test loading_test; do
   echo "$test under valgrind"
   valgrind -q --error-exitcode=1 \
     "$(find build/release/tests -type f -name "$test")" --gtest_brief=1

@@ -52,7 +52,7 @@ asan() {
 }
 
 tsan() {
-  local tests=(framework_test control_loop_test live_test record_test sweep_test)
+  local tests=(dataflow_test simulation_test live_test record_test sweep_test)
   tools/setup.sh tsan "${tests[@]}"
   for test in "${tests[@]}"; do
     TSAN_OPTIONS="halt_on_error=1 second_deadlock_stack=1" \

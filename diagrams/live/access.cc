@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/live/access.h"
+#include "oca/diagrams/live/access.h"
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
@@ -11,7 +11,7 @@
 #include <charconv>
 #include <cstring>
 
-#include "framework/error.h"
+#include "oca/framework/dataflow/error.h"
 
 namespace oca::live {
 namespace {

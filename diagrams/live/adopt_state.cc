@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/live/adopt_state.h"
+#include "oca/diagrams/live/adopt_state.h"
 
 #include <fmt/format.h>
 
 #include <cstring>
 
-#include "framework/error.h"
-#include "framework/schedule.h"
+#include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/schedule.h"
 
 namespace oca::live {
 namespace {

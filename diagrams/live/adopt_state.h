@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "framework/context.h"
-#include "framework/diagram.h"
+#include "oca/framework/dataflow/context.h"
+#include "oca/framework/dataflow/diagram.h"
 
 namespace oca::live {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/live/continued_sink.h"
+#include "oca/diagrams/live/continued_sink.h"
 
 #include <algorithm>
 

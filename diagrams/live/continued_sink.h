@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "diagrams/record/record_sink.h"
+#include "oca/diagrams/record/record_sink.h"
 
 namespace oca::live {
 

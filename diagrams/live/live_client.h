@@ -9,8 +9,8 @@
 #include <array>
 #include <chrono>
 
-#include "diagrams/live/live_server_state.h"
-#include "framework/error.h"
+#include "oca/diagrams/live/live_server_state.h"
+#include "oca/framework/dataflow/error.h"
 
 namespace oca::live {
 

@@ -8,7 +8,7 @@
 #include <chrono>
 #include <tuple>
 
-#include "diagrams/live/live_client.h"
+#include "oca/diagrams/live/live_client.h"
 
 namespace oca::live {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/live/live_parameters.h"
+#include "oca/diagrams/live/live_parameters.h"
 
 #include <fmt/format.h>
 
@@ -8,14 +8,14 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "framework/error.h"
-#include "systems/roles.h"
+#include "oca/framework/dataflow/error.h"
+#include "oca/systems/signals/roles.h"
 
 namespace oca::live {
 namespace {
 
-using diagrams::LoadedDiagram;
-using diagrams::Override;
+using files::Override;
+using loading::LoadedDiagram;
 
 std::string Yaml(const LiveParameter::Value& value) {
   if (const bool* const flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
@@ -80,7 +80,7 @@ std::vector<std::pair<std::string, Standing>> StandingObstacles(const LoadedDiag
       found.emplace_back(
           standing.id,
           Standing{fmt::format("systems.{}.{}", path, standing.parameter), standing.position,
-                   movable ? diagrams::ExportedName(diagram.PathOf(holds->offsets)) : "",
+                   movable ? loading::ExportedName(diagram.PathOf(holds->offsets)) : "",
                    static_cast<std::size_t>(standing.first)});
     }
   }

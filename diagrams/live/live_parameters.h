@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "diagrams/document.h"
-#include "diagrams/live/live_server.h"
-#include "diagrams/loader.h"
+#include "oca/diagrams/files/document.h"
+#include "oca/diagrams/live/live_server.h"
+#include "oca/diagrams/loading/loader.h"
 
 namespace oca::live {
 
@@ -22,19 +22,19 @@ struct Standing {
 
 /// Those of a diagram by their ids.
 std::vector<std::pair<std::string, Standing>> StandingObstacles(
-    const diagrams::LoadedDiagram& loaded);
+    const loading::LoadedDiagram& loaded);
 /// The parameter that says where an obstacle is: `obstacles.ID.position`.
 std::string PositionName(const std::string& id);
 
 /// What a user may change in a diagram while it runs: the numbers and switches of its section
 /// `parameters` by name, and the position (m, world) of each obstacle that stands still as
 /// `obstacles.ID.position`.
-std::vector<LiveParameter> LiveParametersOf(const diagrams::LoadedDiagram& loaded);
+std::vector<LiveParameter> LiveParametersOf(const loading::LoadedDiagram& loaded);
 /// How far parameters may go, by name, as `[lower, upper]` in JSON with null for no bound: as far
 /// as the fields of systems that are set to `${name}` and nothing else.
-record::McapTexts RangesOf(const diagrams::LoadedDiagram& loaded);
+record::McapTexts RangesOf(const loading::LoadedDiagram& loaded);
 /// The override that a change of such a parameter means.
 /// throws ConfigError if there is no such parameter.
-diagrams::Override OverrideOf(const diagrams::LoadedDiagram& loaded, const LiveParameter& change);
+files::Override OverrideOf(const loading::LoadedDiagram& loaded, const LiveParameter& change);
 
 }  // namespace oca::live

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/live/live_run.h"
+#include "oca/diagrams/live/live_run.h"
 
 #include <fmt/format.h>
 
@@ -10,19 +10,19 @@
 #include <memory>
 #include <optional>
 
-#include "diagrams/chatter_check.h"
-#include "diagrams/live/continued_sink.h"
-#include "diagrams/live/live_session.h"
-#include "diagrams/record/run_metadata.h"
-#include "diagrams/run.h"
-#include "framework/error.h"
-#include "framework/simulator.h"
+#include "oca/diagrams/live/continued_sink.h"
+#include "oca/diagrams/live/live_session.h"
+#include "oca/diagrams/record/run_metadata.h"
+#include "oca/diagrams/runs/chatter_check.h"
+#include "oca/diagrams/runs/run.h"
+#include "oca/framework/dataflow/error.h"
+#include "oca/framework/simulation/simulator.h"
 
 namespace oca::live {
 namespace {
 
-using diagrams::LoadedDiagram;
-using diagrams::Override;
+using files::Override;
+using loading::LoadedDiagram;
 
 std::uint64_t WallClock() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -44,7 +44,7 @@ class LiveRunner {
       files_.push_back(std::make_unique<ContinuedSink>(*sink));
     }
     LoadedDiagram loaded = Load(overrides_);
-    diagrams::AddChatterWarnings(loaded);
+    runs::AddChatterWarnings(loaded);
     for (const std::string& warning : loaded.warnings) Warn(warning);
     std::vector<std::string> warnings = loaded.warnings;
     session_ = MakeSession(std::move(loaded));
@@ -68,10 +68,10 @@ class LiveRunner {
     }
     if (next_.valid()) next_.wait();
     result_.duration = session_->simulator().context().time();
-    diagrams::RunResult end_of_run{};
+    runs::RunResult end_of_run{};
     end_of_run.failure = result_.failure;
     end_of_run.interrupted = stop_;
-    end_of_run.metrics = diagrams::MetricsOf(session_->loaded(), session_->simulator().context());
+    end_of_run.metrics = runs::MetricsOf(session_->loaded(), session_->simulator().context());
     session_->End(end_of_run);
     if (!result_.failure.empty()) {
       server_.Tell(StatusLevel::kError, "the run failed: " + result_.failure);
@@ -81,7 +81,7 @@ class LiveRunner {
 
  private:
   LoadedDiagram Load(const std::vector<Override>& overrides) const {
-    return diagrams::LoadMovable(options_.file, overrides, options_.catalogue);
+    return loading::LoadMovable(options_.file, overrides, options_.catalogue);
   }
 
   void Warn(const std::string& warning) const {
@@ -100,7 +100,7 @@ class LiveRunner {
     judged_diagram_ = session_->shared_diagram();
     judge_ = std::async(std::launch::async, [loaded = judged_diagram_] {
       std::vector<std::string> warnings = loaded->warnings;
-      for (std::string& one : diagrams::ChatterWarnings(*loaded)) {
+      for (std::string& one : runs::ChatterWarnings(*loaded)) {
         warnings.push_back(std::move(one));
       }
       return warnings;

@@ -7,18 +7,18 @@
 #include <string>
 #include <vector>
 
-#include "diagrams/document.h"
-#include "diagrams/live/live_parameters.h"
-#include "diagrams/live/live_server.h"
-#include "diagrams/loader.h"
-#include "framework/log.h"
+#include "oca/diagrams/files/document.h"
+#include "oca/diagrams/live/live_parameters.h"
+#include "oca/diagrams/live/live_server.h"
+#include "oca/diagrams/loading/loader.h"
+#include "oca/framework/dataflow/log.h"
 
 namespace oca::live {
 
 struct LiveRunOptions {
   std::filesystem::path file;
-  diagrams::Catalogue catalogue{diagrams::Catalogue::Standard()};  ///< types of its systems
-  std::vector<diagrams::Override> overrides;
+  files::Catalogue catalogue{files::Catalogue::Standard()};  ///< types of its systems
+  std::vector<files::Override> overrides;
   std::optional<double> duration;  ///< s; without one the run goes on until it is interrupted
   double realtime_factor{1.0};     ///< simulated seconds a second
   std::string version;             ///< of the program

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/live/live_server.h"
+#include "oca/diagrams/live/live_server.h"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include <chrono>
 #include <future>
 
-#include "diagrams/live/live_connection.h"
-#include "framework/error.h"
+#include "oca/diagrams/live/live_connection.h"
+#include "oca/framework/dataflow/error.h"
 
 namespace oca::live {
 namespace {

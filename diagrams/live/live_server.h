@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "diagrams/record/record_sink.h"
+#include "oca/diagrams/record/record_sink.h"
 
 namespace oca::live {
 

@@ -24,9 +24,9 @@
 #include <thread>
 #include <vector>
 
-#include "diagrams/live/access.h"
-#include "diagrams/live/live_server.h"
-#include "diagrams/live/ws_protocol.h"
+#include "oca/diagrams/live/access.h"
+#include "oca/diagrams/live/live_server.h"
+#include "oca/diagrams/live/ws_protocol.h"
 
 namespace oca::live {
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/live/live_session.h"
+#include "oca/diagrams/live/live_session.h"
 
 #include <exception>
 
-#include "diagrams/live/adopt_state.h"
-#include "diagrams/live/live_parameters.h"
-#include "framework/port_access.h"
+#include "oca/diagrams/live/adopt_state.h"
+#include "oca/diagrams/live/live_parameters.h"
+#include "oca/framework/dataflow/port_access.h"
 
 namespace oca::live {
 
-LiveSession::LiveSession(diagrams::LoadedDiagram loaded, record::RecorderOptions options,
+LiveSession::LiveSession(loading::LoadedDiagram loaded, record::RecorderOptions options,
                          std::vector<record::RecordSink*> sinks, double realtime_factor, Log* log)
-    : loaded_(std::make_shared<const diagrams::LoadedDiagram>(std::move(loaded))),
+    : loaded_(std::make_shared<const loading::LoadedDiagram>(std::move(loaded))),
       recorder_(*loaded_, std::move(options), std::move(sinks), log),
       simulator_(*loaded_->diagram, loaded_->simulator.integration) {
   simulator_.SetLog(&recorder_);
@@ -38,7 +38,7 @@ void LiveSession::StartFrom(const LiveSession& previous, Simulator::Monitor moni
   AdoptFrom(previous, previous.simulator_.context(), simulator_.context());
 }
 
-void LiveSession::End(diagrams::RunResult result) {
+void LiveSession::End(runs::RunResult result) {
   if (!attached_) return;
   attached_ = false;
   result.duration = simulator_.context().time();

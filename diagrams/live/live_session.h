@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "diagrams/loader.h"
-#include "diagrams/record/run_recorder.h"
-#include "diagrams/run.h"
-#include "framework/simulator.h"
+#include "oca/diagrams/loading/loader.h"
+#include "oca/diagrams/record/run_recorder.h"
+#include "oca/diagrams/runs/run.h"
+#include "oca/framework/simulation/simulator.h"
 
 namespace oca::live {
 
@@ -23,7 +23,7 @@ using Moves = std::map<std::string, Eigen::Vector3d>;
 /// A diagram while it runs, with what shows it; a change of parameters makes the next one of it.
 class LiveSession {
  public:
-  LiveSession(diagrams::LoadedDiagram loaded, record::RecorderOptions options,
+  LiveSession(loading::LoadedDiagram loaded, record::RecorderOptions options,
               std::vector<record::RecordSink*> sinks, double realtime_factor, Log* log);
   ~LiveSession() { End({}); }
   LiveSession(const LiveSession&) = delete;
@@ -36,20 +36,20 @@ class LiveSession {
   /// As Start, where another session is now; that one must have ended.
   void StartFrom(const LiveSession& previous, Simulator::Monitor monitor);
   /// No more is recorded. `result` says how the run ended; none of a run that goes on has metrics.
-  void End(diagrams::RunResult result);
+  void End(runs::RunResult result);
   /// Puts obstacles where they were moved to, and all others where the file has them.
   void Place(const Moves& moves);
   /// What the diagram is warned of from now on.
   void SetWarnings(const std::vector<std::string>& warnings) { recorder_.SetWarnings(warnings); }
 
   Simulator& simulator() { return simulator_; }
-  const diagrams::LoadedDiagram& loaded() const { return *loaded_; }
-  const std::shared_ptr<const diagrams::LoadedDiagram>& shared_diagram() const { return loaded_; }
+  const loading::LoadedDiagram& loaded() const { return *loaded_; }
+  const std::shared_ptr<const loading::LoadedDiagram>& shared_diagram() const { return loaded_; }
 
  private:
   void AdoptFrom(const LiveSession& previous, const Context& from, Context& to) const;
 
-  std::shared_ptr<const diagrams::LoadedDiagram> loaded_;
+  std::shared_ptr<const loading::LoadedDiagram> loaded_;
   record::RunRecorder recorder_;
   Simulator simulator_;
   bool attached_{false};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/live/page.h"
+#include "oca/diagrams/live/page.h"
 
 #include <fmt/format.h>
 
@@ -10,8 +10,8 @@
 #include <iterator>
 #include <vector>
 
-#include "diagrams/data_folders.h"
-#include "framework/error.h"
+#include "oca/diagrams/files/data_folders.h"
+#include "oca/framework/dataflow/error.h"
 
 namespace oca::live {
 namespace {
@@ -27,7 +27,7 @@ std::vector<std::filesystem::path> Candidates() {
     const auto folder = program.parent_path();
     paths.push_back(folder / "viewer/viewer.html");
   }
-  for (const auto& folder : diagrams::DataFolders()) paths.push_back(folder / "viewer.html");
+  for (const auto& folder : files::DataFolders()) paths.push_back(folder / "viewer.html");
   return paths;
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/live/ws_protocol.h"
+#include "oca/diagrams/live/ws_protocol.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <variant>
 
-#include "framework/error.h"
+#include "oca/framework/dataflow/error.h"
 
 namespace oca::live {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "diagrams/live/live_server.h"
+#include "oca/diagrams/live/live_server.h"
 
 namespace oca::live {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/record/comparison.h"
+#include "oca/diagrams/record/comparison.h"
 
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "diagrams/record/series.h"
+#include "oca/diagrams/record/series.h"
 
 namespace oca::record {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "diagrams/record/mcap_reader.h"
+#include "oca/diagrams/record/mcap_reader.h"
 
 namespace oca::record {
 

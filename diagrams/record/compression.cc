@@ -6,8 +6,8 @@
 #include <array>
 #include <memory>
 
-#include "diagrams/record/mcap_bytes.h"
-#include "framework/error.h"
+#include "oca/diagrams/record/mcap_bytes.h"
+#include "oca/framework/dataflow/error.h"
 
 namespace oca::record {
 namespace {

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/record/csv_export.h"
+#include "oca/diagrams/record/csv_export.h"
 
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 
-#include "diagrams/record/series.h"
-#include "diagrams/signal_table.h"
+#include "oca/diagrams/record/series.h"
+#include "oca/diagrams/runs/signal_table.h"
 
 namespace oca::record {
 namespace {
 
 namespace fs = std::filesystem;
-using diagrams::SignalTable;
 using nlohmann::ordered_json;
+using runs::SignalTable;
 
 /// Names and numbers of a vector's message, without names but numbered ones; false if it is another
 /// signal's.
@@ -56,7 +56,7 @@ std::vector<fs::path> ExportedFiles(const McapFile& record, const fs::path& fold
 }
 
 int ExportCsv(const McapFile& record, const fs::path& folder) {
-  diagrams::MakeFolder(folder);
+  runs::MakeFolder(folder);
   const std::uint64_t start = StartOf(record);
   int files = 0;
   for (const McapChannel& channel : record.channels()) {

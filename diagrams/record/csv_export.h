@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "diagrams/record/mcap_reader.h"
+#include "oca/diagrams/record/mcap_reader.h"
 
 namespace oca::record {
 

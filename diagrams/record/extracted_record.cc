@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/record/extracted_record.h"
+#include "oca/diagrams/record/extracted_record.h"
 
 #include <fmt/format.h>
 #include <stdlib.h>
@@ -9,12 +9,12 @@
 #include <string>
 #include <utility>
 
-#include "diagrams/document.h"
-#include "diagrams/package_paths.h"
-#include "diagrams/record/mcap_bytes.h"
-#include "diagrams/yaml_reader.h"
-#include "framework/error.h"
-#include "models/opened_files.h"
+#include "oca/diagrams/files/document.h"
+#include "oca/diagrams/files/package_paths.h"
+#include "oca/diagrams/files/yaml_reader.h"
+#include "oca/diagrams/record/mcap_bytes.h"
+#include "oca/framework/dataflow/error.h"
+#include "oca/models/opened_files.h"
 
 namespace oca::record {
 namespace {
@@ -48,7 +48,7 @@ bool PlaceFiles(const fs::path& folder, const fs::path& beside) {
 /// What the copy of a package in a record lacks, from the package of this machine.
 void CompletePackage(const fs::path& copy) {
   std::error_code error;
-  for (const fs::path& place : diagrams::PackageFolders()) {
+  for (const fs::path& place : files::PackageFolders()) {
     const fs::path package = place / copy.filename();
     if (!fs::is_directory(package, error)) continue;
     for (fs::recursive_directory_iterator at(package, error), end; !error && at != end;
@@ -64,8 +64,8 @@ void CompletePackage(const fs::path& copy) {
 }
 
 /// All packages of a record, as a diagram is told of them.
-std::vector<diagrams::Override> CompletePackages(const fs::path& folder) {
-  std::vector<diagrams::Override> packages;
+std::vector<files::Override> CompletePackages(const fs::path& folder) {
+  std::vector<files::Override> packages;
   std::error_code error;
   for (fs::directory_iterator at(folder / "packages", error), end; !error && at != end;
        at.increment(error)) {
@@ -81,22 +81,22 @@ bool HasSources(const fs::path& folder) {
 }
 
 /// The diagram file as it was written, and the overrides of the run.
-std::pair<fs::path, std::vector<diagrams::Override>> ReadSources(const fs::path& folder) {
+std::pair<fs::path, std::vector<files::Override>> ReadSources(const fs::path& folder) {
   const fs::path list = folder / "sources.yaml";
   Problems problems;
-  const std::string text = diagrams::ReadTextFile(list);
-  const Value sources = diagrams::ReadYaml(text, list.string(), problems);
+  const std::string text = files::ReadTextFile(list);
+  const Value sources = files::ReadYaml(text, list.string(), problems);
   const Value* const name = sources.Find("diagram");
   const Value* const recorded = sources.Find("overrides");
   if (!problems.empty() || name == nullptr || name->string() == nullptr ||
       !Inside(fs::path(*name->string()).lexically_normal())) {
     throw ConfigError("record: sources.yaml; got something else; expected diagram and overrides");
   }
-  std::vector<diagrams::Override> overrides;
+  std::vector<files::Override> overrides;
   if (recorded != nullptr && recorded->list() != nullptr) {
     for (const Value& change : *recorded->list()) {
       if (change.string() != nullptr) {
-        overrides.push_back(diagrams::Override::Parse(*change.string()));
+        overrides.push_back(files::Override::Parse(*change.string()));
       }
     }
   }
@@ -141,30 +141,30 @@ ExtractedRecord::ExtractedRecord(const McapFile& record) {
 
 ExtractedRecord::~ExtractedRecord() { Remove(); }
 
-diagrams::LoadedDiagram ExtractedRecord::Load(const std::vector<diagrams::Override>& overrides,
-                                              const diagrams::Catalogue& catalogue) const {
-  std::vector<fs::path> folders = diagrams::PackageFolders();
+loading::LoadedDiagram ExtractedRecord::Load(const std::vector<files::Override>& overrides,
+                                             const files::Catalogue& catalogue) const {
+  std::vector<fs::path> folders = files::PackageFolders();
   folders.push_back(folder_);
   models::OpenedFiles restricted(folders);  // whoever made it knows not what we keep
   if (overrides.empty() && !HasSources(folder_)) {
-    return diagrams::LoadDiagram(diagram(), {}, catalogue);
+    return loading::LoadDiagram(diagram(), {}, catalogue);
   }
-  std::vector<diagrams::Override> packages;
+  std::vector<files::Override> packages;
   if (!overrides.empty()) packages = CompletePackages(folder_);
-  if (!HasSources(folder_)) return diagrams::LoadDiagram(diagram(), overrides, catalogue);
+  if (!HasSources(folder_)) return loading::LoadDiagram(diagram(), overrides, catalogue);
   auto [main, all] = ReadSources(folder_);
   all.insert(all.end(), overrides.begin(), overrides.end());
-  diagrams::LoadedDiagram loaded;
+  loading::LoadedDiagram loaded;
   if (!overrides.empty() && PlaceFiles(folder_, main.parent_path())) {
-    std::vector<diagrams::Override> with_packages = all;
+    std::vector<files::Override> with_packages = all;
     with_packages.insert(with_packages.end(), packages.begin(), packages.end());
-    loaded = diagrams::LoadDiagram(main, with_packages, catalogue);
+    loaded = loading::LoadDiagram(main, with_packages, catalogue);
   } else {
-    loaded = diagrams::LoadDiagram(diagram(), overrides, catalogue);
+    loaded = loading::LoadDiagram(diagram(), overrides, catalogue);
   }
   Problems ignored;
-  diagrams::DocumentSources sources;
-  diagrams::LoadDocument(main, all, ignored, &sources);
+  files::DocumentSources sources;
+  files::LoadDocument(main, all, ignored, &sources);
   loaded.sources = sources.files;  // all that could be chosen came with the record
   for (const fs::path& file : sources.candidates) {
     const auto& files = sources.files;

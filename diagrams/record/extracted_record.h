@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "diagrams/loader.h"
-#include "diagrams/record/mcap_reader.h"
+#include "oca/diagrams/loading/loader.h"
+#include "oca/diagrams/record/mcap_reader.h"
 
 namespace oca::record {
 
@@ -27,9 +27,9 @@ class ExtractedRecord {
   /// The diagram as it ran, or with further overrides: then made from its sources, if what they
   /// name lies beside them, so that a parameter may choose other files. What the record does not
   /// have of a package is taken from this machine. throws ConfigError as LoadDiagram does.
-  diagrams::LoadedDiagram Load(
-      const std::vector<diagrams::Override>& overrides,
-      const diagrams::Catalogue& catalogue = diagrams::Catalogue::Standard()) const;
+  loading::LoadedDiagram Load(
+      const std::vector<files::Override>& overrides,
+      const files::Catalogue& catalogue = files::Catalogue::Standard()) const;
 
  private:
   void Remove();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/record/foxglove.h"
+#include "oca/diagrams/record/foxglove.h"
 
 #include <algorithm>
 #include <array>
@@ -7,8 +7,8 @@
 #include <type_traits>
 #include <variant>
 
-#include "diagrams/record/json_text.h"
-#include "models/geometry/convex_hull.h"
+#include "oca/diagrams/record/json_text.h"
+#include "oca/models/geometry/convex_hull.h"
 
 namespace oca::record {
 namespace {
@@ -131,31 +131,31 @@ void SceneEntity::AddCylinder(const Isometry3d& pose, double radius, double leng
   EndItem(cylinders_, colour);
 }
 
-void SceneEntity::AddShape(const models::Shape& shape, const Isometry3d& X_FS,
+void SceneEntity::AddShape(const geometry::Shape& shape, const Isometry3d& X_FS,
                            const Colour& colour) {
   std::visit(
       [&](const auto& solid) {
         using Solid = std::decay_t<decltype(solid)>;
-        if constexpr (std::is_same_v<Solid, models::Sphere>) {
+        if constexpr (std::is_same_v<Solid, geometry::Sphere>) {
           AddSphere(X_FS, Vector3d::Constant(2.0 * solid.radius), colour);
-        } else if constexpr (std::is_same_v<Solid, models::Ellipsoid>) {
+        } else if constexpr (std::is_same_v<Solid, geometry::Ellipsoid>) {
           AddSphere(X_FS, 2.0 * solid.radii, colour);
-        } else if constexpr (std::is_same_v<Solid, models::Box>) {
+        } else if constexpr (std::is_same_v<Solid, geometry::Box>) {
           AddBox(X_FS, solid.size, colour);
-        } else if constexpr (std::is_same_v<Solid, models::Cylinder>) {
+        } else if constexpr (std::is_same_v<Solid, geometry::Cylinder>) {
           AddCylinder(X_FS, solid.radius, solid.length, 1.0, colour);
-        } else if constexpr (std::is_same_v<Solid, models::Cone>) {
+        } else if constexpr (std::is_same_v<Solid, geometry::Cone>) {
           AddCylinder(X_FS, solid.radius, solid.length, 0.0, colour);
-        } else if constexpr (std::is_same_v<Solid, models::Capsule>) {
+        } else if constexpr (std::is_same_v<Solid, geometry::Capsule>) {
           AddCylinder(X_FS, solid.radius, solid.length, 1.0, colour);
           for (const double side : {-0.5, 0.5}) {
             AddSphere(Offset(X_FS, side * solid.length), Vector3d::Constant(2.0 * solid.radius),
                       colour);
           }
-        } else if constexpr (std::is_same_v<Solid, models::ConvexMesh>) {
+        } else if constexpr (std::is_same_v<Solid, geometry::ConvexMesh>) {
           AddModel(BinaryStl(solid.hull->vertices, solid.hull->triangles), "model/stl", X_FS,
                    colour);
-        } else if constexpr (std::is_same_v<Solid, models::HalfSpace>) {
+        } else if constexpr (std::is_same_v<Solid, geometry::HalfSpace>) {
           constexpr double kDrawn = 6.0;  // m; a piece of the surface
           AddBox(Offset(X_FS, -0.005), {kDrawn, kDrawn, 0.01}, colour);
         } else {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "models/shape.h"
+#include "oca/models/geometry/shape.h"
 
 namespace oca::record {
 
@@ -33,7 +33,7 @@ class SceneEntity {
   void AddLines(std::span<const Eigen::Vector3d> points, std::span<const Colour> colours,
                 bool strip);
   /// The shape at pose X_FS in the entity's frame.
-  void AddShape(const models::Shape& shape, const Eigen::Isometry3d& X_FS, const Colour& colour);
+  void AddShape(const geometry::Shape& shape, const Eigen::Isometry3d& X_FS, const Colour& colour);
   /// A model file, `media_type` as in `model/stl`.
   void AddModel(std::string_view bytes, std::string_view media_type, const Eigen::Isometry3d& X_FM,
                 const Colour& colour);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <nlohmann/json.hpp>
 
-#include "diagrams/record/foxglove.h"
-#include "framework/error.h"
+#include "oca/diagrams/record/foxglove.h"
+#include "oca/framework/dataflow/error.h"
 
 namespace oca::record {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/record/json_text.h"
+#include "oca/diagrams/record/json_text.h"
 
 #include <fmt/compile.h>
 #include <fmt/format.h>

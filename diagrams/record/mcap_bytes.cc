@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/record/mcap_bytes.h"
+#include "oca/diagrams/record/mcap_bytes.h"
 
 #include <fmt/format.h>
 
 #include <array>
 
-#include "framework/error.h"
+#include "oca/framework/dataflow/error.h"
 
 namespace oca::record {
 namespace {

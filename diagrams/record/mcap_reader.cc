@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/record/mcap_reader.h"
+#include "oca/diagrams/record/mcap_reader.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "diagrams/record/mcap_bytes.h"
-#include "framework/error.h"
+#include "oca/diagrams/record/mcap_bytes.h"
+#include "oca/framework/dataflow/error.h"
 
 namespace oca::record {
 

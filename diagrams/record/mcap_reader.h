@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "diagrams/record/mcap.h"
+#include "oca/diagrams/record/mcap.h"
 
 namespace oca::record {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/record/mcap_writer.h"
+#include "oca/diagrams/record/mcap_writer.h"
 
 #include <algorithm>
 #include <cassert>
 #include <ostream>
 
-#include "diagrams/record/mcap_bytes.h"
+#include "oca/diagrams/record/mcap_bytes.h"
 
 namespace oca::record {
 

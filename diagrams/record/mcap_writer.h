@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "diagrams/record/mcap.h"
+#include "oca/diagrams/record/mcap.h"
 
 namespace oca::record {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/record/plot_hints.h"
+#include "oca/diagrams/record/plot_hints.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "systems/roles.h"
+#include "oca/systems/signals/roles.h"
 
 namespace oca::record {
 namespace {
 
-using diagrams::LoadedDiagram;
+using loading::LoadedDiagram;
 using nlohmann::ordered_json;
 using systems::Limits;
 using systems::PassesOn;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "diagrams/loader.h"
+#include "oca/diagrams/loading/loader.h"
 
 namespace oca::record {
 
@@ -20,7 +20,7 @@ struct PlotHint {
 
 /// The plots that a diagram's systems declare (systems::Plots), with the range of its fields as the
 /// limit of `distance`. Where several signals would do, one that is recorded already.
-std::vector<PlotHint> PlotHintsOf(const diagrams::LoadedDiagram& loaded);
+std::vector<PlotHint> PlotHintsOf(const loading::LoadedDiagram& loaded);
 
 /// A system that may hold a motion back, and the signal that shows when it does.
 struct LimitHint {
@@ -38,12 +38,11 @@ struct LimitHint {
 
 /// The systems of a diagram that limit (systems::Limits). Where several signals would do, one that
 /// is recorded.
-std::vector<LimitHint> LimitHintsOf(const diagrams::LoadedDiagram& loaded);
+std::vector<LimitHint> LimitHintsOf(const loading::LoadedDiagram& loaded);
 
 /// As JSON lists, for metadata `oca.plots`.
-std::string PlotHintsJson(const diagrams::LoadedDiagram& loaded,
-                          const std::vector<PlotHint>& hints);
-std::string LimitHintsJson(const diagrams::LoadedDiagram& loaded,
+std::string PlotHintsJson(const loading::LoadedDiagram& loaded, const std::vector<PlotHint>& hints);
+std::string LimitHintsJson(const loading::LoadedDiagram& loaded,
                            const std::vector<LimitHint>& hints);
 
 }  // namespace oca::record

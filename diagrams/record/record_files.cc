@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/record/record_files.h"
+#include "oca/diagrams/record/record_files.h"
 
 #include <fmt/format.h>
 
@@ -10,14 +10,14 @@
 #include <set>
 #include <utility>
 
-#include "diagrams/document.h"
-#include "diagrams/package_paths.h"
-#include "diagrams/record/yaml_writer.h"
-#include "framework/error.h"
-#include "models/error.h"
-#include "models/opened_files.h"
-#include "models/robot/mesh_path.h"
-#include "models/robot/urdf_meshes.h"
+#include "oca/diagrams/files/document.h"
+#include "oca/diagrams/files/package_paths.h"
+#include "oca/diagrams/record/yaml_writer.h"
+#include "oca/framework/dataflow/error.h"
+#include "oca/models/error.h"
+#include "oca/models/opened_files.h"
+#include "oca/models/robot/mesh_path.h"
+#include "oca/models/robot/urdf_meshes.h"
 
 namespace oca::record {
 namespace {
@@ -56,7 +56,7 @@ bool Inside(const fs::path& name) {
 
 class FileCollector {
  public:
-  explicit FileCollector(const diagrams::LoadedDiagram& loaded)
+  explicit FileCollector(const loading::LoadedDiagram& loaded)
       : base_(fs::absolute(loaded.file).parent_path()),
         opened_(loaded.opened.begin(), loaded.opened.end()) {
     const Value* const packages = loaded.resolved.Find("packages");
@@ -119,7 +119,7 @@ class FileCollector {
   /// there.
   std::string Attach(const std::string& key, const std::string& name, const fs::path& folder) {
     if (name.empty()) return name;
-    const fs::path path = diagrams::ResolvePath(name, folder, packages_);
+    const fs::path path = files::ResolvePath(name, folder, packages_);
     if (!Opened(path)) return name;
     const auto [as, new_name] = NamesOf(name, path);
     const bool fresh = !files_.contains(as.string());
@@ -156,20 +156,20 @@ class FileCollector {
   /// for.
   void AttachMeshes(const fs::path& urdf, const fs::path& path) {
     std::string& text = files_.at(urdf.string());
-    text = models::RenameMeshes(
+    text = robot::RenameMeshes(
         text, path.string(), [&](const std::string& name) { return AttachMesh(name, urdf, path); });
   }
 
   std::string AttachMesh(const std::string& name, const fs::path& urdf, const fs::path& path) {
-    models::LoadOptions options;
+    robot::LoadOptions options;
     options.find_package = [this](const std::string& package) -> fs::path {
       const auto found = packages_.find(package);
       return found == packages_.end() ? fs::path() : found->second;
     };
-    options.package_directories = diagrams::PackageFolders();
+    options.package_directories = files::PackageFolders();
     fs::path mesh;
     try {
-      mesh = models::FindMesh(name, path.parent_path(), options, path.string());
+      mesh = robot::FindMesh(name, path.parent_path(), options, path.string());
     } catch (const models::ModelError&) {
       return name;  // the run did not need it
     }
@@ -212,16 +212,16 @@ Value ListOf(const std::vector<std::string>& texts) {
 /// The diagram files that were read; and, if a parameter chose one of the parts that come with OCA,
 /// the others, which it may choose next time. No other file that it could choose: it may hold
 /// anything.
-std::vector<fs::path> SourcesOf(const diagrams::LoadedDiagram& loaded) {
+std::vector<fs::path> SourcesOf(const loading::LoadedDiagram& loaded) {
   std::vector<fs::path> sources = loaded.sources;
   for (const fs::path& file : loaded.candidates) {
     const bool there = std::find(sources.begin(), sources.end(), file) != sources.end();
-    if (!there && diagrams::IsPartOfOca(file)) sources.push_back(file);
+    if (!there && files::IsPartOfOca(file)) sources.push_back(file);
   }
   return sources;
 }
 
-void AddSources(const diagrams::LoadedDiagram& loaded, double duration,
+void AddSources(const loading::LoadedDiagram& loaded, double duration,
                 std::vector<McapAttachment>& attachments) {
   if (loaded.sources.empty()) return;
   const std::vector<fs::path> sources = SourcesOf(loaded);
@@ -231,7 +231,7 @@ void AddSources(const diagrams::LoadedDiagram& loaded, double duration,
     attachments.push_back({0, name.string(), "application/yaml", ReadBytes(file)});
   }
   std::vector<std::string> changes;
-  for (const diagrams::Override& change : loaded.overrides) {
+  for (const files::Override& change : loaded.overrides) {
     changes.push_back(change.path + "=" + change.value);
   }
   if (duration != loaded.simulator.duration) {
@@ -256,7 +256,7 @@ void Set(Value::Map& map, const std::string& key, Value value) {
 
 }  // namespace
 
-std::vector<McapAttachment> FilesOf(const diagrams::LoadedDiagram& loaded, double duration) {
+std::vector<McapAttachment> FilesOf(const loading::LoadedDiagram& loaded, double duration) {
   FileCollector collector(loaded);
   Value document = collector.Rewrite(loaded.document, &loaded.resolved);
   Value::Map& map = *document.map();

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "diagrams/loader.h"
-#include "diagrams/record/mcap_reader.h"
+#include "oca/diagrams/loading/loader.h"
+#include "oca/diagrams/record/mcap_reader.h"
 
 namespace oca::record {
 
@@ -16,6 +16,6 @@ namespace oca::record {
 /// includes, as `sources/...`, and `sources.yaml`, which names it and the overrides: so that other
 /// files can be chosen from a record. Of those that a parameter could have chosen instead only the
 /// parts that come with OCA are taken. throws ConfigError if a file cannot be read any more.
-std::vector<McapAttachment> FilesOf(const diagrams::LoadedDiagram& loaded, double duration);
+std::vector<McapAttachment> FilesOf(const loading::LoadedDiagram& loaded, double duration);
 
 }  // namespace oca::record

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/record/record_sink.h"
+#include "oca/diagrams/record/record_sink.h"
 
 #include <map>
 

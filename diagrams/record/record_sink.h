@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "diagrams/record/mcap_writer.h"
+#include "oca/diagrams/record/mcap_writer.h"
 
 namespace oca::record {
 

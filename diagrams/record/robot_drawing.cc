@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/record/robot_drawing.h"
+#include "oca/diagrams/record/robot_drawing.h"
 
-#include "models/error.h"
-#include "models/geometry/mesh.h"
+#include "oca/models/error.h"
+#include "oca/models/geometry/mesh.h"
 
 namespace oca::record {
 
-void DrawLink(const models::Link& link, SceneEntity& entity) {
+void DrawLink(const robot::Link& link, SceneEntity& entity) {
   bool drawn = false;
-  for (const models::VisualElement& visual : link.visuals) {
+  for (const robot::VisualElement& visual : link.visuals) {
     if (visual.shape) {
       entity.AddShape(*visual.shape, visual.X_LV, visual.colour);
       drawn = true;
       continue;
     }
     try {
-      const models::TriangleMesh mesh = models::LoadMesh(visual.mesh_file, visual.mesh_scale);
+      const geometry::TriangleMesh mesh = geometry::LoadMesh(visual.mesh_file, visual.mesh_scale);
       entity.AddModel(BinaryStl(mesh.vertices, mesh.triangles), "model/stl", visual.X_LV,
                       visual.colour);
       drawn = true;
@@ -24,7 +24,7 @@ void DrawLink(const models::Link& link, SceneEntity& entity) {
     }
   }
   if (drawn) return;
-  for (const models::CollisionElement& element : link.collisions) {
+  for (const robot::CollisionElement& element : link.collisions) {
     entity.AddShape(element.shape, element.X_LC, {0.62, 0.66, 0.72, 1.0});
   }
 }

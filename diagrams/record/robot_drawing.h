@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "diagrams/record/foxglove.h"
-#include "models/robot/robot_model.h"
+#include "oca/diagrams/record/foxglove.h"
+#include "oca/models/robot/robot_model.h"
 
 namespace oca::record {
 
 /// Adds what a link looks like to an entity in the link's frame: its visuals, meshes as binary STL;
 /// its collision shapes if it has none. A mesh that cannot be read is left out.
-void DrawLink(const models::Link& link, SceneEntity& entity);
+void DrawLink(const robot::Link& link, SceneEntity& entity);
 
 }  // namespace oca::record

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/record/run_metadata.h"
+#include "oca/diagrams/record/run_metadata.h"
 
 #include <nlohmann/json.hpp>
 
-#include "diagrams/blind_spots.h"
-#include "diagrams/record/yaml_writer.h"
+#include "oca/diagrams/record/yaml_writer.h"
+#include "oca/diagrams/runs/blind_spots.h"
 
 namespace oca::record {
 
-McapTexts ParameterTexts(const diagrams::LoadedDiagram& loaded) {
+McapTexts ParameterTexts(const loading::LoadedDiagram& loaded) {
   McapTexts texts;
   const Value* const parameters = loaded.document.Find("parameters");
   if (parameters == nullptr || parameters->map() == nullptr) return texts;
@@ -18,9 +18,9 @@ McapTexts ParameterTexts(const diagrams::LoadedDiagram& loaded) {
   return texts;
 }
 
-McapTexts OverrideTexts(const std::vector<diagrams::Override>& overrides) {
+McapTexts OverrideTexts(const std::vector<files::Override>& overrides) {
   McapTexts texts;
-  for (const diagrams::Override& change : overrides) texts[change.path] = change.value;
+  for (const files::Override& change : overrides) texts[change.path] = change.value;
   return texts;
 }
 
@@ -41,15 +41,15 @@ std::vector<std::string> WarningsOf(const McapFile& record) {
   return warnings;
 }
 
-std::string NotSeenJson(const diagrams::LoadedDiagram& loaded) {
+std::string NotSeenJson(const loading::LoadedDiagram& loaded) {
   using nlohmann::json;
-  return json(diagrams::BlindSpots(loaded)).dump(-1, ' ', false, json::error_handler_t::replace);
+  return json(runs::BlindSpots(loaded)).dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
-std::string ExpectationsJson(const diagrams::RunResult& result) {
+std::string ExpectationsJson(const runs::RunResult& result) {
   using nlohmann::ordered_json;
   ordered_json list = ordered_json::array();
-  for (const diagrams::ExpectationResult& expectation : result.expectations) {
+  for (const runs::ExpectationResult& expectation : result.expectations) {
     list.push_back(
         {{"name", expectation.name},
          {"value", expectation.value ? ordered_json(*expectation.value) : ordered_json()},

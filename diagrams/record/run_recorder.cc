@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/record/run_recorder.h"
+#include "oca/diagrams/record/run_recorder.h"
 
 #include <fmt/format.h>
 
@@ -7,18 +7,18 @@
 #include <chrono>
 #include <cmath>
 
-#include "diagrams/blind_spots.h"
-#include "diagrams/record/plot_hints.h"
-#include "diagrams/record/record_files.h"
-#include "diagrams/record/run_metadata.h"
-#include "diagrams/signal_table.h"
-#include "framework/dynamic_port.h"
-#include "framework/error.h"
+#include "oca/diagrams/record/plot_hints.h"
+#include "oca/diagrams/record/record_files.h"
+#include "oca/diagrams/record/run_metadata.h"
+#include "oca/diagrams/runs/blind_spots.h"
+#include "oca/diagrams/runs/signal_table.h"
+#include "oca/framework/dataflow/dynamic_port.h"
+#include "oca/framework/dataflow/error.h"
 
 namespace oca::record {
 namespace {
 
-using diagrams::RecordedSignal;
+using files::RecordedSignal;
 
 /// Samples that one group keeps for the recorder's thread.
 constexpr double kMostSamples = 16384.0;
@@ -40,7 +40,7 @@ int CapacityFor(double duration, const Period& period) {
 
 }  // namespace
 
-RunRecorder::RunRecorder(const diagrams::LoadedDiagram& loaded, RecorderOptions options,
+RunRecorder::RunRecorder(const loading::LoadedDiagram& loaded, RecorderOptions options,
                          std::vector<RecordSink*> sinks, Log* log)
     : loaded_(loaded),
       options_(std::move(options)),
@@ -128,7 +128,7 @@ void RunRecorder::Attach(Simulator& simulator, bool paced, double duration) {
   simulator_ = &simulator;
   paced_ = paced;
   duration_ = duration;
-  facts_ = std::make_unique<diagrams::SignalFacts>(loaded_);
+  facts_ = std::make_unique<runs::SignalFacts>(loaded_);
   scene_ = std::make_unique<Scene>(loaded_, *facts_);
   channels_ = Scene::Channels();
   log_channel_ = AddChannel({"/log", "foxglove.Log", FoxgloveSchema("foxglove.Log")});
@@ -180,7 +180,7 @@ void RunRecorder::BeginSinks() {
 }
 
 std::uint64_t RunRecorder::TimeOf(double time) const {
-  return options_.start_epoch + static_cast<std::uint64_t>(diagrams::Nanoseconds(time));
+  return options_.start_epoch + static_cast<std::uint64_t>(runs::Nanoseconds(time));
 }
 
 void RunRecorder::WaitFor(const std::function<bool()>& room) {
@@ -266,7 +266,7 @@ void RunRecorder::Emit(int channel, double time, std::string_view json) {
 }
 
 McapMetadata RunRecorder::MainMetadata(const std::string& outcome,
-                                       const diagrams::RunResult* result) const {
+                                       const runs::RunResult* result) const {
   McapTexts values{{"version", options_.version},
                    {"diagram", loaded_.name},
                    {"description", loaded_.description},
@@ -282,7 +282,7 @@ McapMetadata RunRecorder::MainMetadata(const std::string& outcome,
   return {"oca", values};
 }
 
-void RunRecorder::Finish(const diagrams::RunResult& result) {
+void RunRecorder::Finish(const runs::RunResult& result) {
   try {
     SampleScene(simulator_->context());
   } catch (const SimulationError&) {

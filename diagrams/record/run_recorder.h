@@ -11,20 +11,20 @@
 #include <thread>
 #include <vector>
 
-#include "diagrams/record/record_sink.h"
-#include "diagrams/record/sample_queue.h"
-#include "diagrams/record/scene.h"
-#include "diagrams/record/signal_json.h"
-#include "diagrams/run.h"
-#include "framework/log.h"
+#include "oca/diagrams/record/record_sink.h"
+#include "oca/diagrams/record/sample_queue.h"
+#include "oca/diagrams/record/scene.h"
+#include "oca/diagrams/record/signal_json.h"
+#include "oca/diagrams/runs/run.h"
+#include "oca/framework/dataflow/log.h"
 
 namespace oca::record {
 
 struct RecorderOptions {
-  std::string version;                        ///< of the program
-  std::vector<diagrams::Override> overrides;  ///< as given on the command line
-  std::uint64_t start_epoch{0};               ///< ns; 0: the wall clock's
-  bool attach_files{true};                    ///< diagram and models, to run the record again
+  std::string version;                     ///< of the program
+  std::vector<files::Override> overrides;  ///< as given on the command line
+  std::uint64_t start_epoch{0};            ///< ns; 0: the wall clock's
+  bool attach_files{true};                 ///< diagram and models, to run the record again
   bool brief{false};  ///< for a picture: of proximities only names and distance
   /// What the recorder before this one told, if it goes on with a record; else it tells what the
   /// diagram is warned of.
@@ -38,16 +38,16 @@ struct RecorderOptions {
 /// run that is paced by the wall clock never waits: what does not fit is dropped and counted.
 /// Any other run waits for room. Recording does not change a run: the scene is sampled after
 /// steps that happen anyway, and the rates of `record` are events of every run.
-class RunRecorder final : public diagrams::RunObserver, public Log {
+class RunRecorder final : public runs::RunObserver, public Log {
  public:
   /// Everything must outlive the run. `log` receives what is logged too; may be nullptr.
-  RunRecorder(const diagrams::LoadedDiagram& loaded, RecorderOptions options,
+  RunRecorder(const loading::LoadedDiagram& loaded, RecorderOptions options,
               std::vector<RecordSink*> sinks, Log* log);
   ~RunRecorder() override;
 
   void Attach(Simulator& simulator, bool paced, double duration) override;
   /// throws ConfigError if writing failed on the recorder's thread.
-  void Finish(const diagrams::RunResult& result) override;
+  void Finish(const runs::RunResult& result) override;
 
   bool enabled(LogLevel level) const override;
   void Write(LogLevel level, double time, std::string_view text) override;
@@ -80,9 +80,9 @@ class RunRecorder final : public diagrams::RunObserver, public Log {
   void Encode(const SampleQueue::Sample& sample);
   void Emit(int channel, double time, std::string_view json);
   std::uint64_t TimeOf(double time) const;
-  McapMetadata MainMetadata(const std::string& outcome, const diagrams::RunResult* result) const;
+  McapMetadata MainMetadata(const std::string& outcome, const runs::RunResult* result) const;
 
-  const diagrams::LoadedDiagram& loaded_;
+  const loading::LoadedDiagram& loaded_;
   RecorderOptions options_;
   std::vector<std::string> warnings_;
   std::vector<RecordSink*> sinks_;
@@ -90,7 +90,7 @@ class RunRecorder final : public diagrams::RunObserver, public Log {
   Simulator* simulator_{nullptr};
   bool paced_{false};
   double duration_{0.0};  ///< s
-  std::unique_ptr<diagrams::SignalFacts> facts_;
+  std::unique_ptr<runs::SignalFacts> facts_;
   std::unique_ptr<Scene> scene_;
   std::unique_ptr<SampleQueue> queue_;
   std::vector<RecordChannel> channels_;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/record/sample_queue.h"
+#include "oca/diagrams/record/sample_queue.h"
 
 #include <algorithm>
 #include <cstring>
 
-#include "framework/dynamic_port.h"
-#include "systems/signals.h"
+#include "oca/framework/dataflow/dynamic_port.h"
+#include "oca/systems/signals/signals.h"
 
 namespace oca::record {
 namespace {

@@ -10,10 +10,10 @@
 #include <string_view>
 #include <vector>
 
-#include "framework/context.h"
-#include "framework/diagram.h"
-#include "framework/port.h"
-#include "framework/signal.h"
+#include "oca/framework/dataflow/context.h"
+#include "oca/framework/dataflow/diagram.h"
+#include "oca/framework/dataflow/port.h"
+#include "oca/framework/dataflow/signal.h"
 
 namespace oca::record {
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/record/scene.h"
+#include "oca/diagrams/record/scene.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
-#include "diagrams/record/json_text.h"
-#include "diagrams/record/robot_drawing.h"
-#include "framework/dynamic_port.h"
-#include "models/geometry/collider.h"
-#include "models/robot/kinematics.h"
-#include "systems/roles.h"
+#include "oca/diagrams/record/json_text.h"
+#include "oca/diagrams/record/robot_drawing.h"
+#include "oca/framework/dataflow/dynamic_port.h"
+#include "oca/models/geometry/collider.h"
+#include "oca/models/robot/kinematics.h"
+#include "oca/systems/signals/roles.h"
 
 namespace oca::record {
 namespace {
@@ -45,7 +45,7 @@ Vector3d ArrowOf(const Vector3d& vector, double half) {
 }
 
 /// The link at the end of the longest chain of joints, the last of several.
-int TipOf(const models::RobotModel& model) {
+int TipOf(const robot::RobotModel& model) {
   std::vector<int> depth(static_cast<std::size_t>(model.num_links()), 0);
   int tip = 0;
   for (const auto& joint : model.joints()) {
@@ -82,7 +82,7 @@ std::vector<OutputHandle> DrawnOf(const Diagram& diagram) {
 
 }  // namespace
 
-Scene::Scene(const diagrams::LoadedDiagram& loaded, const diagrams::SignalFacts& facts) {
+Scene::Scene(const loading::LoadedDiagram& loaded, const runs::SignalFacts& facts) {
   const Diagram& diagram = *loaded.diagram;
   AddRobots(loaded, facts);
   obstacles_ = AddSources(DrawnOf<ObstacleSet>(diagram));
@@ -104,7 +104,7 @@ std::vector<std::size_t> Scene::AddSources(const std::vector<OutputHandle>& outp
   return places;
 }
 
-void Scene::AddRobots(const diagrams::LoadedDiagram& loaded, const diagrams::SignalFacts& facts) {
+void Scene::AddRobots(const loading::LoadedDiagram& loaded, const runs::SignalFacts& facts) {
   for (const auto& [name, model] : loaded.models.all()) {
     Robot robot;
     robot.name = name;
@@ -113,7 +113,7 @@ void Scene::AddRobots(const diagrams::LoadedDiagram& loaded, const diagrams::Sig
     robot.requested = {name + "/requested/", kGrey};
     robot.actual = {name + "/actual/", kBlue};
     for (const auto& link : model->links()) robot.frames.push_back(name + "/" + link.name.text());
-    robot.X_WL = models::LinkPoses(*model, Eigen::VectorXd::Zero(model->num_positions()));
+    robot.X_WL = robot::LinkPoses(*model, Eigen::VectorXd::Zero(model->num_positions()));
     const auto of_robot = [&](const InputHandle& input) {
       const auto driver = RolePort(input).In(*loaded.diagram);
       return driver && facts.RobotOf(*driver) == name;
@@ -267,7 +267,7 @@ void Scene::DrawTrails(std::uint64_t time, std::span<const void* const> values, 
     if (robot.request) {
       const Eigen::Map<const Eigen::VectorXd> q(static_cast<const double*>(values[*robot.request]),
                                                 robot.model->num_positions());
-      models::ForwardKinematics(*robot.model, q, robot.X_WL);
+      robot::ForwardKinematics(*robot.model, q, robot.X_WL);
       Extend(robot.requested, robot.X_WL[tip].translation(), time, entities);
     }
   }

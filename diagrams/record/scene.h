@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "diagrams/record/foxglove.h"
-#include "diagrams/record/record_sink.h"
-#include "diagrams/signal_facts.h"
-#include "systems/signals.h"
+#include "oca/diagrams/record/foxglove.h"
+#include "oca/diagrams/record/record_sink.h"
+#include "oca/diagrams/runs/signal_facts.h"
+#include "oca/systems/signals/signals.h"
 
 namespace oca::record {
 
@@ -23,7 +23,7 @@ namespace oca::record {
 /// (systems/roles.h); Draw gets their values in the order of sources().
 class Scene {
  public:
-  Scene(const diagrams::LoadedDiagram& loaded, const diagrams::SignalFacts& facts);
+  Scene(const loading::LoadedDiagram& loaded, const runs::SignalFacts& facts);
 
   const std::vector<OutputHandle>& sources() const { return sources_; }
   /// Channels that Emit numbers from 0.
@@ -49,7 +49,7 @@ class Scene {
   };
   struct Robot {
     std::string name;
-    std::shared_ptr<const models::RobotModel> model;
+    std::shared_ptr<const robot::RobotModel> model;
     std::vector<std::string> frames;        ///< of the links
     std::optional<std::size_t> links;       ///< source
     std::optional<std::size_t> request;     ///< source
@@ -58,7 +58,7 @@ class Scene {
     Trail requested, actual;
   };
 
-  void AddRobots(const diagrams::LoadedDiagram& loaded, const diagrams::SignalFacts& facts);
+  void AddRobots(const loading::LoadedDiagram& loaded, const runs::SignalFacts& facts);
   std::vector<std::size_t> AddSources(const std::vector<OutputHandle>& outputs);
   void DrawTransforms(std::uint64_t time, std::span<const void* const> values, const Emit& emit);
   void DrawObstacles(std::uint64_t time, std::span<const void* const> values, const Emit& emit);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/record/series.h"
+#include "oca/diagrams/record/series.h"
 
 #include <fmt/format.h>
 #include <fnmatch.h>
@@ -8,7 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "framework/error.h"
+#include "oca/framework/dataflow/error.h"
 
 namespace oca::record {
 namespace {

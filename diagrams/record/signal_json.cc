@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/record/signal_json.h"
+#include "oca/diagrams/record/signal_json.h"
 
 #include <nlohmann/json.hpp>
 
-#include "diagrams/record/json_text.h"
-#include "systems/signals.h"
+#include "oca/diagrams/record/json_text.h"
+#include "oca/systems/signals/signals.h"
 
 namespace oca::record {
 namespace {

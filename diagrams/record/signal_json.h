@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "diagrams/record/record_sink.h"
-#include "framework/signal.h"
+#include "oca/diagrams/record/record_sink.h"
+#include "oca/framework/dataflow/signal.h"
 
 namespace oca::record {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/record/svg_plot.h"
+#include "oca/diagrams/record/svg_plot.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <iterator>
 #include <limits>
 
-#include "framework/error.h"
+#include "oca/framework/dataflow/error.h"
 
 namespace oca::record {
 namespace {

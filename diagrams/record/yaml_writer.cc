@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/record/yaml_writer.h"
+#include "oca/diagrams/record/yaml_writer.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
 
-#include "diagrams/record/json_text.h"
+#include "oca/diagrams/record/json_text.h"
 
 namespace oca::record {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "framework/value.h"
+#include "oca/framework/dataflow/value.h"
 
 namespace oca::record {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/sampling/acceptance.h"
+#include "oca/diagrams/sampling/acceptance.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace oca::diagrams {
+namespace oca::sampling {
 
 void BoundParams::Describe(Fields<BoundParams>& fields) {
   fields.Add("at_least", &BoundParams::at_least, "", "lower bound");
@@ -106,4 +106,4 @@ std::string Acceptance::Refusals() const {
   return text;
 }
 
-}  // namespace oca::diagrams
+}  // namespace oca::sampling

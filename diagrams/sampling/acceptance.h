@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "diagrams/sampling/task_geometry.h"
-#include "framework/params.h"
+#include "oca/diagrams/sampling/task_geometry.h"
+#include "oca/framework/dataflow/params.h"
 
-namespace oca::diagrams {
+namespace oca::sampling {
 
 /// Bounds, both included.
 struct BoundParams {
@@ -62,4 +62,4 @@ class Acceptance {
   std::vector<Refusal> refusals_;
 };
 
-}  // namespace oca::diagrams
+}  // namespace oca::sampling

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/sampling/distribution.h"
+#include "oca/diagrams/sampling/distribution.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-namespace oca::diagrams {
+namespace oca::sampling {
 namespace {
 
 // How many grid points an interval has; a step that meets the end but for rounding meets it.
@@ -92,4 +92,4 @@ Value Distribution::Draw(models::Random& random, const Location& location) const
   return Value(std::round((interval_.lower + place * *params_.step) * 1e12) / 1e12, location);
 }
 
-}  // namespace oca::diagrams
+}  // namespace oca::sampling

@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "framework/params.h"
-#include "models/random.h"
+#include "oca/framework/dataflow/params.h"
+#include "oca/models/random.h"
 
-namespace oca::diagrams {
+namespace oca::sampling {
 
 /// Two numbers, the lower one first, between which something lies.
 struct Interval {
@@ -49,4 +49,4 @@ class Distribution {
   Interval interval_{};
 };
 
-}  // namespace oca::diagrams
+}  // namespace oca::sampling

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/sampling/random_obstacles.h"
+#include "oca/diagrams/sampling/random_obstacles.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
 
-namespace oca::diagrams {
+namespace oca::sampling {
 namespace {
 
 using Eigen::Vector3d;
@@ -209,4 +209,4 @@ Value RandomObstacles::DrawMotion(models::Random& random, TaskGeometry& task,
                    {"start", tree.Number(start)}});
 }
 
-}  // namespace oca::diagrams
+}  // namespace oca::sampling

@@ -8,11 +8,11 @@
 #include <span>
 #include <vector>
 
-#include "diagrams/sampling/distribution.h"
-#include "diagrams/sampling/task_geometry.h"
-#include "framework/params.h"
+#include "oca/diagrams/sampling/distribution.h"
+#include "oca/diagrams/sampling/task_geometry.h"
+#include "oca/framework/dataflow/params.h"
 
-namespace oca::diagrams {
+namespace oca::sampling {
 
 enum class SampledShape { kSphere, kBox, kCylinder, kCapsule };
 inline std::span<const char* const> EnumNames(SampledShape) {
@@ -72,4 +72,4 @@ class RandomObstacles {
   Interval count_, extent_, radius_, speed_, distance_, start_;
 };
 
-}  // namespace oca::diagrams
+}  // namespace oca::sampling

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/sampling/scenario.h"
+#include "oca/diagrams/sampling/scenario.h"
 
 #include <fmt/format.h>
 
@@ -8,15 +8,15 @@
 #include <optional>
 #include <utility>
 
-#include "diagrams/diagram_file.h"
-#include "diagrams/expression.h"
-#include "diagrams/sampling/acceptance.h"
-#include "diagrams/sampling/distribution.h"
-#include "diagrams/sampling/random_obstacles.h"
-#include "framework/error.h"
-#include "framework/nearest.h"
+#include "oca/diagrams/files/diagram_file.h"
+#include "oca/diagrams/files/expression.h"
+#include "oca/diagrams/sampling/acceptance.h"
+#include "oca/diagrams/sampling/distribution.h"
+#include "oca/diagrams/sampling/random_obstacles.h"
+#include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/nearest.h"
 
-namespace oca::diagrams {
+namespace oca::sampling {
 namespace {
 
 constexpr int kTries = 10000;
@@ -45,14 +45,14 @@ Value Only(const Value& map, const std::vector<std::string>& keys) {
 
 class Sampler {
  public:
-  Sampler(const std::vector<Override>& overrides, const Catalogue& catalogue, Value& document,
-          Problems& problems)
+  Sampler(const std::vector<files::Override>& overrides, const files::Catalogue& catalogue,
+          Value& document, Problems& problems)
       : catalogue_(catalogue), document_(document), problems_(problems) {
     const Value* const written = document_.Find("sampling");
     if (written == nullptr || written->null()) return;
     const Value section = Resolved(*written);
     if (!CheckKeys(section)) return;
-    for (const Override& change : overrides) overridden_.push_back(change.path);
+    for (const files::Override& change : overrides) overridden_.push_back(change.path);
     ReadDraws(section);
     // Its numbers may use what is drawn: here only the names count, and what is wrong with them.
     acceptance_.emplace(FindOrNull(section, "accept"), problems_);
@@ -97,7 +97,7 @@ class Sampler {
 
   /// With the present parameters.
   Value Resolved(const Value& value) {
-    return Expressions(FindOrNull(document_, "parameters"), problems_).Resolve(value);
+    return files::Expressions(FindOrNull(document_, "parameters"), problems_).Resolve(value);
   }
 
   bool CheckKeys(const Value& section) {
@@ -173,10 +173,11 @@ class Sampler {
   }
 
   void ReadSeed() {
-    SimulatorParams simulator;
+    files::SimulatorParams simulator;
     Problems own;
     if (const Value* const value = document_.Find("simulator")) {
-      ReadFields(Resolved(*value), FieldsOf<SimulatorParams>(), "simulator", &simulator, own);
+      ReadFields(Resolved(*value), FieldsOf<files::SimulatorParams>(), "simulator", &simulator,
+                 own);
     }
     problems_.Add(own);
     seed_ = static_cast<std::uint64_t>(simulator.seed);
@@ -244,7 +245,7 @@ class Sampler {
     list->list()->insert(list->list()->end(), obstacles.begin(), obstacles.end());
   }
 
-  const Catalogue& catalogue_;
+  const files::Catalogue& catalogue_;
   Value& document_;
   Problems& problems_;
   std::vector<std::string> overridden_;  // paths
@@ -258,8 +259,8 @@ class Sampler {
 
 }  // namespace
 
-Scenario DrawScenario(const std::vector<Override>& overrides, const Catalogue& catalogue,
-                      Value& document, Problems& problems) {
+Scenario DrawScenario(const std::vector<files::Override>& overrides,
+                      const files::Catalogue& catalogue, Value& document, Problems& problems) {
   return Sampler(overrides, catalogue, document, problems).Draw();
 }
 
@@ -289,4 +290,4 @@ nlohmann::ordered_json SamplingSchema() {
                         {"tries", tries}}}};
 }
 
-}  // namespace oca::diagrams
+}  // namespace oca::sampling

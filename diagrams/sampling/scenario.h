@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "diagrams/catalogue.h"
-#include "diagrams/document.h"
-#include "framework/value.h"
+#include "oca/diagrams/files/catalogue.h"
+#include "oca/diagrams/files/document.h"
+#include "oca/framework/dataflow/value.h"
 
-namespace oca::diagrams {
+namespace oca::sampling {
 
 /// A diagram file with a section `sampling` stands for a family of scenarios; `simulator.seed` says
 /// which one it is. DrawScenario makes a plain diagram of it.
@@ -36,10 +36,10 @@ struct Scenario {
 /// Replaces the drawn parameters of `document` by their values, appends the drawn obstacles and
 /// takes the section `sampling` out. Parameters that an override sets keep their value. What is
 /// wrong is added to `problems`, and if no scenario is accepted, how often each condition refused.
-Scenario DrawScenario(const std::vector<Override>& overrides, const Catalogue& catalogue,
-                      Value& document, Problems& problems);
+Scenario DrawScenario(const std::vector<files::Override>& overrides,
+                      const files::Catalogue& catalogue, Value& document, Problems& problems);
 
 /// JSON Schema of the section.
 nlohmann::ordered_json SamplingSchema();
 
-}  // namespace oca::diagrams
+}  // namespace oca::sampling

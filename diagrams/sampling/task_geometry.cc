@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/sampling/task_geometry.h"
+#include "oca/diagrams/sampling/task_geometry.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "diagrams/diagram_file.h"
-#include "diagrams/model_section.h"
-#include "framework/error.h"
-#include "framework/nearest.h"
-#include "framework/port_access.h"
-#include "models/planning/rrt_connect.h"
-#include "models/robot/kinematics.h"
+#include "oca/diagrams/files/diagram_file.h"
+#include "oca/diagrams/files/model_section.h"
+#include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/nearest.h"
+#include "oca/framework/dataflow/port_access.h"
+#include "oca/models/planning/rrt_connect.h"
+#include "oca/models/robot/kinematics.h"
 
-namespace oca::diagrams {
+namespace oca::sampling {
 namespace {
 
 constexpr double kTimeStep = 0.01;  // s, at which the requested motion is looked at
@@ -60,18 +60,18 @@ Value::Map Without(const Value& map, const char* key) {
   return rest;
 }
 
-models::RobotModel At(const models::RobotModel& model, const Eigen::Isometry3d& X_WB) {
+robot::RobotModel At(const robot::RobotModel& model, const Eigen::Isometry3d& X_WB) {
   return {model.name(), model.links(), model.joints(), X_WB, model.disabled_pairs()};
 }
 
 }  // namespace
 
-TaskGeometry::TaskGeometry(const Value& root, const TaskNames& names, const Catalogue& catalogue,
-                           ModelCache& cache, Problems& problems)
+TaskGeometry::TaskGeometry(const Value& root, const TaskNames& names,
+                           const files::Catalogue& catalogue, ModelCache& cache, Problems& problems)
     : catalogue_(catalogue), names_(names) {
-  SimulatorParams simulator;
+  files::SimulatorParams simulator;
   if (const Value* const value = root.Find("simulator")) {
-    ReadFields(*value, FieldsOf<SimulatorParams>(), "simulator", &simulator, problems);
+    ReadFields(*value, FieldsOf<files::SimulatorParams>(), "simulator", &simulator, problems);
   }
   duration_ = simulator.duration;
   LoadModel(root, cache, problems);
@@ -97,7 +97,7 @@ void TaskGeometry::LoadModel(const Value& root, ModelCache& cache, Problems& pro
     if (const Value* const packages = root.Find("packages")) {
       sections.push_back({"packages", packages->location(), *packages});
     }
-    const ModelSection section(Value(std::move(sections), root.location()), problems);
+    const files::ModelSection section(Value(std::move(sections), root.location()), problems);
     if (section.failed()) return;
     cache.model = section.models().Get(names_.model);
     cache.entry = std::move(rest);
@@ -107,7 +107,7 @@ void TaskGeometry::LoadModel(const Value& root, ModelCache& cache, Problems& pro
     const std::string where = fmt::format("models.{}.base_pose", names_.model);
     ReadFields(*value, FieldsOf<systems::PoseParams>(), where, &pose, problems);
   }
-  model_ = std::make_shared<const models::RobotModel>(At(*cache.model, pose.Pose("base_pose")));
+  model_ = std::make_shared<const robot::RobotModel>(At(*cache.model, pose.Pose("base_pose")));
   clearance_.emplace(model_);
 }
 
@@ -133,7 +133,7 @@ std::unique_ptr<Diagram> TaskGeometry::Source(const Value& root, const std::stri
     if (const Value* const section = root.Find("packages")) {
       packages.push_back({"packages", section->location(), *section});
     }
-    ModelSection files(Value(std::move(packages), root.location()), problems);
+    files::ModelSection files(Value(std::move(packages), root.location()), problems);
     const Value resolved = files.ResolveFiles(Value(std::move(params), entry->location()));
     auto system = catalogue_.Find(*type->string())->Make(resolved, where, models, problems);
     if (!system) return nullptr;
@@ -155,7 +155,7 @@ Eigen::VectorXd TaskGeometry::Request(double time) {
 Eigen::VectorXd TaskGeometry::Goal() { return Request(duration_); }
 
 std::vector<Eigen::Isometry3d> TaskGeometry::LinkPosesAt(const Eigen::VectorXd& q) const {
-  return models::LinkPoses(*model_, q);
+  return robot::LinkPoses(*model_, q);
 }
 
 void TaskGeometry::SetObstacles(const Value& root, Problems& problems) {
@@ -167,7 +167,7 @@ void TaskGeometry::PlaceObstacles(double time) {
   obstacles_context_->SetTime(time);
   const auto& set =
       obstacles_->GetOutput<systems::ObstacleSet>("obstacles").Eval(*obstacles_context_);
-  std::vector<models::PlacedBody> bodies;
+  std::vector<robot::PlacedBody> bodies;
   bodies.reserve(set.obstacles.size());
   for (const systems::Obstacle& obstacle : set.obstacles) {
     bodies.push_back({obstacle.body->collider, obstacle.X_WO});
@@ -182,7 +182,7 @@ double TaskGeometry::Distance(const Eigen::VectorXd& q, double time) {
 }
 
 double TaskGeometry::RequestedDistance(double enough) {
-  double least = models::kUnlimited;
+  double least = robot::kUnlimited;
   const auto steps = static_cast<int>(duration_ / kTimeStep);
   for (int i = 0; i <= steps && least > enough; ++i) {
     const double time = i * kTimeStep;
@@ -195,7 +195,7 @@ double TaskGeometry::RequestedDistance(double enough) {
 
 double TaskGeometry::FootDistance() {
   std::vector<double> distances(static_cast<std::size_t>(model_->num_links()));
-  double least = models::kUnlimited;
+  double least = robot::kUnlimited;
   const auto steps = static_cast<int>(duration_ / kTimeStep);
   for (int i = 0; i <= steps; ++i) {
     PlaceObstacles(i * kTimeStep);
@@ -207,7 +207,7 @@ double TaskGeometry::FootDistance() {
 }
 
 double TaskGeometry::LowestLinkOrigin(const Eigen::VectorXd& q) const {
-  double lowest = models::kUnlimited;
+  double lowest = robot::kUnlimited;
   for (const Eigen::Isometry3d& X_WL : LinkPosesAt(q)) {
     lowest = std::min(lowest, X_WL.translation().z());
   }
@@ -216,11 +216,11 @@ double TaskGeometry::LowestLinkOrigin(const Eigen::VectorXd& q) const {
 
 bool TaskGeometry::HasClearPath(double margin, int most_nodes, std::uint64_t seed) {
   PlaceObstacles(0.0);
-  models::Clearance clearance(model_, true, clearance_->bodies());
-  return models::RrtConnect(
+  robot::Clearance clearance(model_, true, clearance_->bodies());
+  return planning::RrtConnect(
              clearance, Request(0.0), Goal(),
              {.seed = seed, .margin = margin, .most_nodes = most_nodes, .shortcuts = 0})
       .has_value();
 }
 
-}  // namespace oca::diagrams
+}  // namespace oca::sampling

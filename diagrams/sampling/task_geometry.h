@@ -6,13 +6,13 @@
 #include <optional>
 #include <string>
 
-#include "diagrams/catalogue.h"
-#include "framework/diagram.h"
-#include "framework/value.h"
-#include "models/planning/clearance.h"
-#include "systems/signals.h"
+#include "oca/diagrams/files/catalogue.h"
+#include "oca/framework/dataflow/diagram.h"
+#include "oca/framework/dataflow/value.h"
+#include "oca/models/robot/clearance.h"
+#include "oca/systems/signals/signals.h"
 
-namespace oca::diagrams {
+namespace oca::sampling {
 
 /// Which parts of a diagram make up the task that scenarios are accepted by.
 struct TaskNames {
@@ -24,7 +24,7 @@ struct TaskNames {
 /// A model as the last scenario left it: trying many, only its place in the world changes.
 struct ModelCache {
   Value entry;  ///< of `models`, without base_pose
-  std::shared_ptr<const models::RobotModel> model;
+  std::shared_ptr<const robot::RobotModel> model;
 };
 
 /// The task of one scenario as geometry: a robot, the motion that is requested of it, and the
@@ -33,10 +33,10 @@ class TaskGeometry {
  public:
   /// From a tree whose ${...} are worked out. What is wrong is added to `problems`; then nothing
   /// else may be called. `catalogue` has the types of its systems and must outlive it.
-  TaskGeometry(const Value& root, const TaskNames& names, const Catalogue& catalogue,
+  TaskGeometry(const Value& root, const TaskNames& names, const files::Catalogue& catalogue,
                ModelCache& cache, Problems& problems);
 
-  const models::RobotModel& model() const { return *model_; }
+  const robot::RobotModel& model() const { return *model_; }
   double duration() const { return duration_; }  ///< s, of the run
   /// Requested joint positions at a time.
   Eigen::VectorXd Request(double time);
@@ -66,13 +66,13 @@ class TaskGeometry {
   void LoadModel(const Value& root, ModelCache& cache, Problems& problems);
   void PlaceObstacles(double time);
 
-  const Catalogue& catalogue_;
+  const files::Catalogue& catalogue_;
   TaskNames names_;
   double duration_{0.0};
-  std::shared_ptr<const models::RobotModel> model_;
-  std::optional<models::Clearance> clearance_;
+  std::shared_ptr<const robot::RobotModel> model_;
+  std::optional<robot::Clearance> clearance_;
   std::unique_ptr<Diagram> request_, goal_, obstacles_;
   std::optional<Context> request_context_, obstacles_context_;
 };
 
-}  // namespace oca::diagrams
+}  // namespace oca::sampling

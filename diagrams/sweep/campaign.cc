@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/sweep/campaign.h"
+#include "oca/diagrams/sweep/campaign.h"
 
 #include <fmt/format.h>
 
@@ -9,15 +9,15 @@
 #include <set>
 #include <string_view>
 
-#include "diagrams/loader.h"
-#include "diagrams/record/record_files.h"
-#include "framework/error.h"
-#include "models/random.h"
+#include "oca/diagrams/loading/loader.h"
+#include "oca/diagrams/record/record_files.h"
+#include "oca/framework/dataflow/error.h"
+#include "oca/models/random.h"
 
 namespace oca::sweep {
 namespace {
 
-using diagrams::Override;
+using files::Override;
 using nlohmann::ordered_json;
 
 /// Whole numbers only.
@@ -207,7 +207,7 @@ std::string Campaign::DifferenceTo(const Campaign& other) const {
   return differences;
 }
 
-std::vector<std::string> Inspect(Campaign& campaign, const diagrams::Catalogue& catalogue) {
+std::vector<std::string> Inspect(Campaign& campaign, const files::Catalogue& catalogue) {
   constexpr std::int64_t kTried = 3;
   std::vector<std::string> warnings;
   Hash hash;
@@ -215,8 +215,8 @@ std::vector<std::string> Inspect(Campaign& campaign, const diagrams::Catalogue& 
     for (std::int64_t sample = 0;; ++sample) {
       const int seed = campaign.SeedOf(sample);
       try {
-        const auto loaded = diagrams::LoadDiagram(
-            campaign.file, campaign.OverridesOf(seed, combination), catalogue);
+        const auto loaded =
+            loading::LoadDiagram(campaign.file, campaign.OverridesOf(seed, combination), catalogue);
         campaign.name = loaded.name;
         for (const std::string& warning : loaded.warnings) {
           const bool told = std::find(warnings.begin(), warnings.end(), warning) != warnings.end();

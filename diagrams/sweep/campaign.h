@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "diagrams/catalogue.h"
-#include "diagrams/document.h"
-#include "diagrams/sweep/variation.h"
+#include "oca/diagrams/files/catalogue.h"
+#include "oca/diagrams/files/document.h"
+#include "oca/diagrams/sweep/variation.h"
 
 namespace oca::sweep {
 
@@ -49,7 +49,7 @@ struct Campaign {
   /// What the sample's seed drew.
   Settings Drawn(int sample_seed) const;
   /// All that the run of a sample overrides: `overrides`, the combination, what was drawn, seed.
-  std::vector<diagrams::Override> OverridesOf(int sample_seed, const Settings& combination) const;
+  std::vector<files::Override> OverridesOf(int sample_seed, const Settings& combination) const;
   /// The command line that runs it alone.
   std::string CommandOf(int sample_seed, const Settings& combination) const;
 
@@ -69,7 +69,7 @@ struct Campaign {
 /// Loads the diagram once for each combination, with the first of samples 0 to 2 that loads, and
 /// fills in `name` and `file_hash`. Returns the warnings of the loads, each once.
 /// throws ConfigError with the problems of the file if none does.
-std::vector<std::string> Inspect(
-    Campaign& campaign, const diagrams::Catalogue& catalogue = diagrams::Catalogue::Standard());
+std::vector<std::string> Inspect(Campaign& campaign,
+                                 const files::Catalogue& catalogue = files::Catalogue::Standard());
 
 }  // namespace oca::sweep

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/sweep/crash_guard.h"
+#include "oca/diagrams/sweep/crash_guard.h"
 
 #include <unistd.h>
 

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "diagrams/sweep/result_file.h"
+#include "oca/diagrams/sweep/result_file.h"
 
 namespace oca::sweep {
 

@@ -6,8 +6,8 @@
 #include <mutex>
 #include <vector>
 
-#include "diagrams/sweep/campaign.h"
-#include "diagrams/sweep/sample_row.h"
+#include "oca/diagrams/sweep/campaign.h"
+#include "oca/diagrams/sweep/sample_row.h"
 
 namespace oca::sweep {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/sweep/results_database.h"
+#include "oca/diagrams/sweep/results_database.h"
 
 #include <fmt/format.h>
 #include <sqlite3.h>
@@ -11,8 +11,8 @@
 #include <string>
 #include <system_error>
 
-#include "diagrams/sweep/summary.h"
-#include "framework/error.h"
+#include "oca/diagrams/sweep/summary.h"
+#include "oca/framework/dataflow/error.h"
 
 namespace oca::sweep {
 namespace {

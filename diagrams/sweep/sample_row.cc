@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/sweep/sample_row.h"
+#include "oca/diagrams/sweep/sample_row.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "framework/error.h"
+#include "oca/framework/dataflow/error.h"
 
 namespace oca::sweep {
 namespace {

@@ -7,8 +7,8 @@
 #include <tuple>
 #include <vector>
 
-#include "diagrams/sweep/campaign.h"
-#include "diagrams/sweep/step_times.h"
+#include "oca/diagrams/sweep/campaign.h"
+#include "oca/diagrams/sweep/step_times.h"
 
 namespace oca::sweep {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/sweep/statistics.h"
+#include "oca/diagrams/sweep/statistics.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/sweep/step_times.h"
+#include "oca/diagrams/sweep/step_times.h"
 
 #include <algorithm>
 #include <cmath>

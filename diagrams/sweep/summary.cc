@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/sweep/summary.h"
+#include "oca/diagrams/sweep/summary.h"
 
 #include <fmt/format.h>
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "diagrams/sweep/campaign.h"
-#include "diagrams/sweep/result_file.h"
-#include "diagrams/sweep/statistics.h"
+#include "oca/diagrams/sweep/campaign.h"
+#include "oca/diagrams/sweep/result_file.h"
+#include "oca/diagrams/sweep/statistics.h"
 
 namespace oca::sweep {
 

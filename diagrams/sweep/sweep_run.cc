@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/sweep/sweep_run.h"
+#include "oca/diagrams/sweep/sweep_run.h"
 
 #include <fmt/format.h>
 
@@ -12,8 +12,8 @@
 #include <thread>
 #include <tuple>
 
-#include "diagrams/run.h"
-#include "diagrams/sweep/crash_guard.h"
+#include "oca/diagrams/runs/run.h"
+#include "oca/diagrams/sweep/crash_guard.h"
 
 namespace oca::sweep {
 namespace {
@@ -51,11 +51,11 @@ class StepWatch {
   bool timed_out_{false};
 };
 
-void TakeResult(const diagrams::RunResult& result, SampleRow& row) {
+void TakeResult(const runs::RunResult& result, SampleRow& row) {
   row.duration = result.duration;
   row.steps = result.statistics.steps;
   row.metrics = result.metrics;
-  for (const diagrams::ExpectationResult& one : result.expectations) {
+  for (const runs::ExpectationResult& one : result.expectations) {
     if (one.ok) continue;
     const std::string got = one.value ? fmt::format("{}", *one.value) : "no value";
     row.unmet.push_back(fmt::format("{} {} (got {})", one.name, one.bound, got));
@@ -193,16 +193,16 @@ std::optional<SampleRow> RunSample(const Campaign& campaign, std::int64_t sample
   row.outcome = Outcome::kNotLoaded;
   try {
     const auto start = Clock::now();
-    const auto loaded = diagrams::LoadDiagram(
+    const auto loaded = loading::LoadDiagram(
         campaign.file, campaign.OverridesOf(row.seed, settings), options.catalogue);
     timing.load_seconds = SecondsSince(start);
     row.outcome = Outcome::kFailed;
     StepWatch watch(options, timing.steps);
-    diagrams::RunOptions run;
+    runs::RunOptions run;
     run.duration = campaign.duration;
     run.realtime_factor = 0.0;
     run.progress = [&watch](double) { return watch.Step(); };
-    const diagrams::RunResult result = diagrams::Run(loaded, run);
+    const runs::RunResult result = runs::Run(loaded, run);
     timing.run_seconds = result.wall_seconds;
     row.outcome = Outcome::kFinished;
     if (result.interrupted && !watch.timed_out()) return std::nullopt;

@@ -5,15 +5,15 @@
 #include <functional>
 #include <optional>
 
-#include "diagrams/sweep/campaign.h"
-#include "diagrams/sweep/result_file.h"
-#include "diagrams/sweep/sample_row.h"
+#include "oca/diagrams/sweep/campaign.h"
+#include "oca/diagrams/sweep/result_file.h"
+#include "oca/diagrams/sweep/sample_row.h"
 
 namespace oca::sweep {
 
 struct SweepOptions {
-  int jobs{1};                                                     ///< threads
-  diagrams::Catalogue catalogue{diagrams::Catalogue::Standard()};  ///< of the file's types
+  int jobs{1};                                               ///< threads
+  files::Catalogue catalogue{files::Catalogue::Standard()};  ///< of the file's types
   std::optional<double> timeout{};      ///< s of the wall clock for a run, loading left out
   std::function<bool()> interrupted{};  ///< from any thread; true ends the sweep
   /// A few times a second: runs that are done and that there are.

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "diagrams/sweep/variation.h"
+#include "oca/diagrams/sweep/variation.h"
 
 #include <fmt/format.h>
 
 #include <charconv>
 #include <cmath>
 
-#include "framework/error.h"
-#include "framework/nearest.h"
-#include "models/random.h"
+#include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/nearest.h"
+#include "oca/models/random.h"
 
 namespace oca::sweep {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "diagrams/document.h"
+#include "oca/diagrams/files/document.h"
 
 namespace oca::sweep {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/geometry/ball_tree.h"
+#include "oca/models/geometry/ball_tree.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace oca::models {
+namespace oca::geometry {
 namespace {
 
 using Eigen::Vector3d;
@@ -146,4 +146,4 @@ void BallTree::FindNear(const Vector3d& point, double reach, std::vector<int>& f
   std::sort(found.begin() + static_cast<std::ptrdiff_t>(before), found.end());
 }
 
-}  // namespace oca::models
+}  // namespace oca::geometry

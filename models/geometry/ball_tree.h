@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace oca::models {
+namespace oca::geometry {
 
 /// A ball around something; m. The radius may be infinite.
 struct Ball {
@@ -98,4 +98,4 @@ void BallTree::Search(const Bound& bound, const Limit& limit, const Visit& visit
   }
 }
 
-}  // namespace oca::models
+}  // namespace oca::geometry

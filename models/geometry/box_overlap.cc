@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/geometry/box_overlap.h"
+#include "oca/models/geometry/box_overlap.h"
 
 #include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "models/geometry/segment_forms.h"
+#include "oca/models/geometry/segment_forms.h"
 
-namespace oca::models::internal {
+namespace oca::geometry::internal {
 namespace {
 
 using Eigen::Isometry3d;
@@ -169,4 +169,4 @@ CoreDistance BoxOverlap(const CorePair& pair) {
   return result;
 }
 
-}  // namespace oca::models::internal
+}  // namespace oca::geometry::internal

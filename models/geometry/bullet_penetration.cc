@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/geometry/bullet_penetration.h"
+#include "oca/models/geometry/bullet_penetration.h"
 
 #include <BulletCollision/CollisionShapes/btConvexInternalShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpa2.h>
 
 #include <limits>
 
-namespace oca::models::internal {
+namespace oca::geometry::internal {
 namespace {
 
 using Eigen::Vector3d;
@@ -72,4 +72,4 @@ Vector3d BulletExit(const CorePair& pair) {
   return exit;
 }
 
-}  // namespace oca::models::internal
+}  // namespace oca::geometry::internal

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "models/geometry/core_pair.h"
+#include "oca/models/geometry/core_pair.h"
 
-namespace oca::models::internal {
+namespace oca::geometry::internal {
 
 /// Direction (unit, frame of A) along which Bullet's penetration solver finds the shortest way out
 /// of an overlap: the origin leaves A - B soonest that way. Zero if it finds none.
@@ -12,4 +12,4 @@ namespace oca::models::internal {
 /// of it, so a wrong depth or a flipped normal does no harm.
 Eigen::Vector3d BulletExit(const CorePair& pair);
 
-}  // namespace oca::models::internal
+}  // namespace oca::geometry::internal

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/geometry/closed_forms.h"
+#include "oca/models/geometry/closed_forms.h"
 
-#include "models/geometry/box_overlap.h"
-#include "models/geometry/point_forms.h"
-#include "models/geometry/segment_forms.h"
+#include "oca/models/geometry/box_overlap.h"
+#include "oca/models/geometry/point_forms.h"
+#include "oca/models/geometry/segment_forms.h"
 
-namespace oca::models::internal {
+namespace oca::geometry::internal {
 namespace {
 
 using Core = Collider::Core;
@@ -60,4 +60,4 @@ bool ClosedOverlap(const CorePair& pair, CoreDistance* found) {
   return false;
 }
 
-}  // namespace oca::models::internal
+}  // namespace oca::geometry::internal

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "models/geometry/core_pair.h"
+#include "oca/models/geometry/core_pair.h"
 
-namespace oca::models::internal {
+namespace oca::geometry::internal {
 
 /// Finds the signed core distance where algebra gives it, with the simpler core second: a point and
 /// anything but a hull, a segment and a segment or box, a half-space and anything that ends. False
@@ -13,4 +13,4 @@ bool ClosedForm(const CorePair& pair, CoreDistance* found);
 /// The same for two cores that are known to overlap or touch: two boxes, a point in a hull.
 bool ClosedOverlap(const CorePair& pair, CoreDistance* found);
 
-}  // namespace oca::models::internal
+}  // namespace oca::geometry::internal

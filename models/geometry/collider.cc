@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/geometry/collider.h"
+#include "oca/models/geometry/collider.h"
 
 #include <fmt/format.h>
 
@@ -8,11 +8,11 @@
 #include <limits>
 #include <string>
 
-#include "models/error.h"
-#include "models/geometry/ball_tree.h"
-#include "models/geometry/core_support.h"
+#include "oca/models/error.h"
+#include "oca/models/geometry/ball_tree.h"
+#include "oca/models/geometry/core_support.h"
 
-namespace oca::models {
+namespace oca::geometry {
 namespace {
 
 using Eigen::Vector3d;
@@ -27,7 +27,7 @@ Visitor(Cases...) -> Visitor<Cases...>;
 
 double CheckedSize(double value, std::string_view where, std::string_view what) {
   if (!(std::isfinite(value) && value > 0.0)) {
-    throw ModelError(
+    throw models::ModelError(
         fmt::format("{}: {}; got {}; expected a finite length above 0 m", where, what, value));
   }
   return value;
@@ -44,15 +44,16 @@ constexpr std::size_t kManyParts = 16;
 
 void CheckThickness(const Vector3d& half, std::string_view where) {
   if (half.minCoeff() >= kFlattest * half.maxCoeff()) return;
-  throw ModelError(fmt::format("{}: body too flat; got {} m by {} m; expected a ratio above {}",
-                               where, 2 * half.minCoeff(), 2 * half.maxCoeff(), kFlattest));
+  throw models::ModelError(
+      fmt::format("{}: body too flat; got {} m by {} m; expected a ratio above {}", where,
+                  2 * half.minCoeff(), 2 * half.maxCoeff(), kFlattest));
 }
 
 void CheckPose(const Eigen::Isometry3d& X, std::string_view where) {
   const Eigen::Matrix3d R = X.linear();
   const double skew = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (X.translation().allFinite() && skew <= 1e-9 && R.determinant() > 0.0) return;
-  throw ModelError(fmt::format(
+  throw models::ModelError(fmt::format(
       "{}: pose; got a NaN, an infinity or no rotation; expected a finite rigid motion", where));
 }
 
@@ -111,7 +112,7 @@ Collider::Collider(const Shape& shape, std::string_view where) : shape_(shape) {
              shape_);
   const double reach = centre_.norm() + bounding_radius_;
   if (core_ != Core::kHalfSpace && !(reach <= kFarthest)) {
-    throw ModelError(
+    throw models::ModelError(
         fmt::format("{}: size; got points up to {:g} m from the origin; expected at most {:g} m",
                     where, reach, kFarthest));
   }
@@ -119,7 +120,7 @@ Collider::Collider(const Shape& shape, std::string_view where) : shape_(shape) {
 
 void Collider::Prepare(const ConvexMesh& mesh, std::string_view where) {
   if (!mesh.hull) {
-    throw ModelError(
+    throw models::ModelError(
         fmt::format("{}: convex mesh; got no hull; expected one of MakeConvexHull", where));
   }
   core_ = Core::kHull;
@@ -131,7 +132,8 @@ void Collider::Prepare(const ConvexMesh& mesh, std::string_view where) {
 void Collider::Prepare(const Compound& compound, std::string_view where) {
   core_ = Core::kCompound;
   if (compound.parts.empty()) {
-    throw ModelError(fmt::format("{}: compound; got no parts; expected at least one", where));
+    throw models::ModelError(
+        fmt::format("{}: compound; got no parts; expected at least one", where));
   }
   Eigen::AlignedBox3d box;
   for (std::size_t i = 0; i < compound.parts.size(); ++i) {
@@ -139,7 +141,7 @@ void Collider::Prepare(const Compound& compound, std::string_view where) {
     const std::string name = fmt::format("{}: part {}", where, i);
     if (std::holds_alternative<Compound>(part.shape) ||
         std::holds_alternative<HalfSpace>(part.shape)) {
-      throw ModelError(fmt::format(
+      throw models::ModelError(fmt::format(
           "{}; got a {}; expected a convex body that ends", name,
           part.shape.index() == Shape(HalfSpace{}).index() ? "half-space" : "compound"));
     }
@@ -205,4 +207,4 @@ double BoundingRadius(const Collider& collider) {
   return collider.centre().norm() + collider.bounding_radius();
 }
 
-}  // namespace oca::models
+}  // namespace oca::geometry

@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "models/geometry/convex_hull.h"
-#include "models/shape.h"
+#include "oca/models/geometry/convex_hull.h"
+#include "oca/models/geometry/shape.h"
 
-namespace oca::models {
+namespace oca::geometry {
 
 class BallTree;
 
@@ -95,4 +95,4 @@ std::shared_ptr<const Collider> MakeCollider(const Shape& shape, std::string_vie
 /// for a half-space.
 double BoundingRadius(const Collider& collider);
 
-}  // namespace oca::models
+}  // namespace oca::geometry

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/geometry/contact_refinement.h"
+#include "oca/models/geometry/contact_refinement.h"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace oca::models::internal {
+namespace oca::geometry::internal {
 namespace {
 
 using Eigen::Matrix2d;
@@ -16,10 +16,10 @@ using Eigen::Vector3d;
 using Tangents = Eigen::Matrix<double, 3, 2>;
 
 constexpr int kMostSteps = 20;
-constexpr double kLongestStep = 0.1;  // rad
-constexpr double kLastStep = 1e-9;    // rad; the next one is its square
-constexpr double kSupportRounding = 2e-15;   // of a support, of the size of the pair
-constexpr double kMostRest = 1e-11;   // the same, where a rim follows the last digit of a normal
+constexpr double kLongestStep = 0.1;        // rad
+constexpr double kLastStep = 1e-9;          // rad; the next one is its square
+constexpr double kSupportRounding = 2e-15;  // of a support, of the size of the pair
+constexpr double kMostRest = 1e-11;  // the same, where a rim follows the last digit of a normal
 
 bool HasRim(const Collider& core, const Vector3d& p) {
   return core.core() == Collider::Core::kCylinder ||
@@ -248,4 +248,4 @@ bool RefineContact(const CorePair& pair, std::span<const CorePair::Difference> p
   return true;
 }
 
-}  // namespace oca::models::internal
+}  // namespace oca::geometry::internal

@@ -3,9 +3,9 @@
 
 #include <span>
 
-#include "models/geometry/core_pair.h"
+#include "oca/models/geometry/core_pair.h"
 
-namespace oca::models::internal {
+namespace oca::geometry::internal {
 
 /// Gives the answer of a search the digits that it lacks where a core is round: a normal that is
 /// right to rounding, not to the square root of the proof.
@@ -20,4 +20,4 @@ namespace oca::models::internal {
 bool RefineContact(const CorePair& pair, std::span<const CorePair::Difference> points,
                    CoreDistance* found);
 
-}  // namespace oca::models::internal
+}  // namespace oca::geometry::internal

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/geometry/convex_hull.h"
+#include "oca/models/geometry/convex_hull.h"
 
 #include <fmt/format.h>
 
@@ -8,11 +8,11 @@
 #include <cmath>
 #include <utility>
 
-#include "models/error.h"
-#include "models/geometry/hull_support.h"
-#include "models/geometry/lattice_hull.h"
+#include "oca/models/error.h"
+#include "oca/models/geometry/hull_support.h"
+#include "oca/models/geometry/lattice_hull.h"
 
-namespace oca::models {
+namespace oca::geometry {
 namespace {
 
 using Eigen::Vector3d;
@@ -32,13 +32,13 @@ struct Extent {
 
 Extent CheckedExtent(std::span<const Vector3d> points, std::string_view name) {
   if (points.size() < 4) {
-    throw ModelError(fmt::format("{}: too few points for a convex hull; got {}; expected 4 or more",
-                                 name, points.size()));
+    throw models::ModelError(fmt::format(
+        "{}: too few points for a convex hull; got {}; expected 4 or more", name, points.size()));
   }
   Vector3d low = points[0], high = points[0];
   for (const Vector3d& p : points) {
     if (!p.allFinite()) {
-      throw ModelError(
+      throw models::ModelError(
           fmt::format("{}: vertex {} is not finite; got ({}, {}, {}); expected numbers", name,
                       &p - points.data(), p.x(), p.y(), p.z()));
     }
@@ -47,8 +47,8 @@ Extent CheckedExtent(std::span<const Vector3d> points, std::string_view name) {
   }
   Extent extent{0.5 * (low + high), 0.5 * (high - low).maxCoeff()};
   if (!(extent.size >= kExtentMin && extent.size <= kExtentMax)) {
-    throw ModelError(fmt::format("{}: size out of range; got {} m; expected {} to {} m", name,
-                                 2 * extent.size, 2 * kExtentMin, 2 * kExtentMax));
+    throw models::ModelError(fmt::format("{}: size out of range; got {} m; expected {} to {} m",
+                                         name, 2 * extent.size, 2 * kExtentMin, 2 * kExtentMax));
   }
   return extent;
 }
@@ -87,7 +87,7 @@ std::array<int, 4> StartCorners(std::span<const Vector3d> points, double extent,
   const auto [d, thickness] =
       Farthest(points, [&](const Vector3d& p) { return std::abs(normal.dot(p - pa)); });
   if (!(std::min(width, thickness) > kFlat * extent)) {
-    throw ModelError(
+    throw models::ModelError(
         fmt::format("{}: the points lie in one plane or line; got a thickness of {} m over {} m; "
                     "expected a body with volume",
                     name, std::min(width, thickness), 2 * extent));
@@ -238,4 +238,4 @@ std::shared_ptr<const ConvexHull> MakeConvexHull(std::span<const Vector3d> point
   return hull;
 }
 
-}  // namespace oca::models
+}  // namespace oca::geometry

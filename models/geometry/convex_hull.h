@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace oca::models {
+namespace oca::geometry {
 
 /// A convex polyhedron of nonzero volume; made by MakeConvexHull and immutable from then on.
 /// All coordinates are in the frame of the points it was made from, m.
@@ -42,4 +42,4 @@ struct ConvexHull {
 std::shared_ptr<const ConvexHull> MakeConvexHull(std::span<const Eigen::Vector3d> points,
                                                  std::string_view name);
 
-}  // namespace oca::models
+}  // namespace oca::geometry

@@ -3,9 +3,9 @@
 
 #include <Eigen/Geometry>
 
-#include "models/geometry/core_support.h"
+#include "oca/models/geometry/core_support.h"
 
-namespace oca::models::internal {
+namespace oca::geometry::internal {
 
 /// Two cores with everything in the frame of A; the set A - B of all differences of their points is
 /// what every algorithm here works on. Core distance = distance of the origin to that set.
@@ -48,4 +48,4 @@ struct CoreDistance {
   double gap{0.0};  ///< proved upper bound less proved lower bound of the distance, m
 };
 
-}  // namespace oca::models::internal
+}  // namespace oca::geometry::internal

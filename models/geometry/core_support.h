@@ -4,10 +4,10 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "models/geometry/collider.h"
-#include "models/geometry/hull_support.h"
+#include "oca/models/geometry/collider.h"
+#include "oca/models/geometry/hull_support.h"
 
-namespace oca::models::internal {
+namespace oca::geometry::internal {
 
 /// Farthest point of a convex core along `direction`, in a header because it is the innermost loop
 /// of every search. Not for a half-space or a compound.
@@ -44,4 +44,4 @@ inline Eigen::Vector3d CoreSupport(const Collider& collider, const Eigen::Vector
   }
 }
 
-}  // namespace oca::models::internal
+}  // namespace oca::geometry::internal

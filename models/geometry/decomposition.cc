@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/geometry/decomposition.h"
+#include "oca/models/geometry/decomposition.h"
 
 #include <fmt/format.h>
 
@@ -10,9 +10,9 @@
 #include <map>
 #include <utility>
 
-#include "models/error.h"
-#include "models/geometry/decomposition_cache.h"
-#include "models/geometry/mesh_surface.h"
+#include "oca/models/error.h"
+#include "oca/models/geometry/decomposition_cache.h"
+#include "oca/models/geometry/mesh_surface.h"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wshadow"
@@ -21,7 +21,7 @@
 #include <bullet/HACD/hacdHACD.h>
 #pragma GCC diagnostic pop
 
-namespace oca::models {
+namespace oca::geometry {
 namespace {
 
 using Eigen::Vector3d;
@@ -93,12 +93,13 @@ std::vector<std::shared_ptr<const ConvexHull>> DecomposeMesh(const TriangleMesh&
                                                              std::string_view name,
                                                              double concavity) {
   if (!(concavity > 0.0 && concavity < 1.0)) {
-    throw ModelError(
+    throw models::ModelError(
         fmt::format("{}: concavity; got {}; expected between 0 and 1", name, concavity));
   }
   const TriangleMesh welded = WeldVertices(mesh);
   if (welded.triangles.empty()) {
-    throw ModelError(fmt::format("{}: mesh is empty; got 0 triangles; expected some", name));
+    throw models::ModelError(
+        fmt::format("{}: mesh is empty; got 0 triangles; expected some", name));
   }
   const std::vector<long> cluster = Partition(welded, concavity);
   std::map<long, std::vector<Vector3d>> points;
@@ -129,4 +130,4 @@ Compound LoadDecomposition(const std::filesystem::path& file, const Vector3d& sc
   return compound;
 }
 
-}  // namespace oca::models
+}  // namespace oca::geometry

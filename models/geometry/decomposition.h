@@ -7,11 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include "models/geometry/convex_hull.h"
-#include "models/geometry/mesh.h"
-#include "models/shape.h"
+#include "oca/models/geometry/convex_hull.h"
+#include "oca/models/geometry/mesh.h"
+#include "oca/models/geometry/shape.h"
 
-namespace oca::models {
+namespace oca::geometry {
 
 /// Deepest dent that a part may have before it is cut further, of the diagonal of the mesh.
 inline constexpr double kDefaultConcavity = 0.03;
@@ -41,4 +41,4 @@ Compound LoadDecomposition(const std::filesystem::path& file,
                            double concavity = kDefaultConcavity,
                            const std::filesystem::path& cache = DecompositionCache());
 
-}  // namespace oca::models
+}  // namespace oca::geometry

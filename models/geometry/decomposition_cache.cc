@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/geometry/decomposition_cache.h"
+#include "oca/models/geometry/decomposition_cache.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -11,11 +11,11 @@
 #include <fstream>
 #include <string_view>
 
-#include "models/error.h"
-#include "models/geometry/decomposition.h"
-#include "models/geometry/table_text.h"
+#include "oca/models/error.h"
+#include "oca/models/geometry/decomposition.h"
+#include "oca/models/table_text.h"
 
-namespace oca::models {
+namespace oca::geometry {
 namespace {
 
 namespace fs = std::filesystem;
@@ -63,7 +63,7 @@ namespace internal {
 DecompositionEntry::DecompositionEntry(const fs::path& cache, const fs::path& mesh,
                                        const Eigen::Vector3d& scale, double concavity) {
   if (cache.empty()) return;
-  std::string content = ReadWhole(mesh);
+  std::string content = models::internal::ReadWhole(mesh);
   content += mesh.extension().string();
   for (const double number : {scale.x(), scale.y(), scale.z(), concavity}) {
     content += BytesOf(number);
@@ -78,7 +78,7 @@ std::vector<std::shared_ptr<const ConvexHull>> DecompositionEntry::Read(
   if (file_.empty() || !fs::is_regular_file(file_, error)) return {};
   std::vector<std::shared_ptr<const ConvexHull>> parts;
   try {
-    const std::string text = ReadOwn(file_);
+    const std::string text = models::internal::ReadOwn(file_);
     std::string_view rest = text;
     std::uint64_t sum = 0, count = 0;
     if (!rest.starts_with(kMagic)) return {};
@@ -95,7 +95,7 @@ std::vector<std::shared_ptr<const ConvexHull>> DecompositionEntry::Read(
       }
       parts.push_back(MakeConvexHull(vertices, fmt::format("{} part {}", name, parts.size())));
     }
-  } catch (const ModelError&) {  // damaged: it is made anew
+  } catch (const models::ModelError&) {  // damaged: it is made anew
     return {};
   }
   return parts;
@@ -126,4 +126,4 @@ void DecompositionEntry::Write(const std::vector<std::shared_ptr<const ConvexHul
 }
 
 }  // namespace internal
-}  // namespace oca::models
+}  // namespace oca::geometry

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "models/geometry/convex_hull.h"
+#include "oca/models/geometry/convex_hull.h"
 
-namespace oca::models::internal {
+namespace oca::geometry::internal {
 
 /// One decomposition on disk. Written under another name and then renamed, so that whoever reads
 /// at the same time sees all of it or nothing.
@@ -28,4 +28,4 @@ class DecompositionEntry {
   std::filesystem::path file_;  // empty: nothing is kept
 };
 
-}  // namespace oca::models::internal
+}  // namespace oca::geometry::internal

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/geometry/distance.h"
+#include "oca/models/geometry/distance.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "models/geometry/bullet_penetration.h"
-#include "models/geometry/closed_forms.h"
-#include "models/geometry/gjk.h"
-#include "models/geometry/nearest_part.h"
-#include "models/geometry/point_forms.h"
-#include "models/geometry/polytope_depth.h"
-#include "models/geometry/segment_forms.h"
+#include "oca/models/geometry/bullet_penetration.h"
+#include "oca/models/geometry/closed_forms.h"
+#include "oca/models/geometry/gjk.h"
+#include "oca/models/geometry/nearest_part.h"
+#include "oca/models/geometry/point_forms.h"
+#include "oca/models/geometry/polytope_depth.h"
+#include "oca/models/geometry/segment_forms.h"
 
-namespace oca::models {
+namespace oca::geometry {
 namespace {
 
 using Eigen::Isometry3d;
@@ -275,4 +275,4 @@ SignedDistance Distance(const Collider& a, const Isometry3d& X_WA, const Collide
   return OfParts(a, X_WA, b, X_WB, max_distance, cache);
 }
 
-}  // namespace oca::models
+}  // namespace oca::geometry

@@ -5,9 +5,9 @@
 #include <array>
 #include <limits>
 
-#include "models/geometry/collider.h"
+#include "oca/models/geometry/collider.h"
 
-namespace oca::models {
+namespace oca::geometry {
 
 /// What the numbers of a SignedDistance are worth.
 enum class DistanceStatus {
@@ -55,4 +55,4 @@ SignedDistance Distance(const Collider& a, const Eigen::Isometry3d& X_WA, const 
                         double max_distance = std::numeric_limits<double>::infinity(),
                         PairCache* cache = nullptr);
 
-}  // namespace oca::models
+}  // namespace oca::geometry

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/geometry/gjk.h"
+#include "oca/models/geometry/gjk.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "models/geometry/contact_refinement.h"
-#include "models/geometry/simplex.h"
+#include "oca/models/geometry/contact_refinement.h"
+#include "oca/models/geometry/simplex.h"
 
-namespace oca::models::internal {
+namespace oca::geometry::internal {
 namespace {
 
 using Eigen::Vector3d;
@@ -18,7 +18,8 @@ constexpr double kDirection = 4e-15;  // rounding of v, of the size, times the s
 constexpr double kBlunt = 1e-9;       // of the size: a bound that costs a direction nothing
 constexpr double kRefinable = 1e-5;   // of the size: from so near on a round contact is solved for
 constexpr double kRefinableShare = 1e-3;  // the same, of |v|
-constexpr double kStepRounding = 1e-15;  // of a difference of support points, of the size of the pair
+constexpr double kStepRounding =
+    1e-15;  // of a difference of support points, of the size of the pair
 
 // The bodies may have moved such that a remembered triangle is worth little; it is a start still.
 void Start(const CorePair& pair, const PairCache* cache, Simplex* simplex) {
@@ -127,4 +128,4 @@ GjkStatus Gjk(const CorePair& pair, double max_distance, bool separated, PairCac
   return GjkStatus::kSeparated;
 }
 
-}  // namespace oca::models::internal
+}  // namespace oca::geometry::internal

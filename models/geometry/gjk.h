@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "models/geometry/core_pair.h"
-#include "models/geometry/distance.h"
+#include "oca/models/geometry/core_pair.h"
+#include "oca/models/geometry/distance.h"
 
-namespace oca::models::internal {
+namespace oca::geometry::internal {
 
 enum class GjkStatus {
   kSeparated,  ///< the result holds, `gap` says how well it is proved
@@ -30,4 +30,4 @@ inline constexpr double kRoundProof = 1e-12;
 GjkStatus Gjk(const CorePair& pair, double max_distance, bool separated, PairCache* cache,
               CoreDistance* result);
 
-}  // namespace oca::models::internal
+}  // namespace oca::geometry::internal

@@ -5,16 +5,16 @@
 #include <cmath>
 #include <string>
 
-#include "models/csv_table.h"
-#include "models/error.h"
-#include "models/geometry/point_cloud.h"
-#include "models/geometry/table_text.h"
+#include "oca/models/csv_table.h"
+#include "oca/models/error.h"
+#include "oca/models/geometry/point_cloud.h"
+#include "oca/models/table_text.h"
 
-namespace oca::models {
+namespace oca::geometry {
 namespace {
 
 namespace fs = std::filesystem;
-using internal::RefuseText;
+using models::internal::RefuseText;
 
 constexpr std::size_t kMostCells = 25'000'000;
 constexpr std::size_t kMostBoxes = 1'000'000;
@@ -26,10 +26,10 @@ struct Grid {
 };
 
 Grid ReadCsv(const fs::path& file) {
-  CsvTable table(file);
+  models::CsvTable table(file);
   if (!table.names().empty()) {
-    throw ModelError(fmt::format("{}: height; got '{}'; expected a number", table.where(),
-                                 table.names().front()));
+    throw models::ModelError(fmt::format("{}: height; got '{}'; expected a number", table.where(),
+                                         table.names().front()));
   }
   Grid grid;
   while (table.NextRow()) {
@@ -37,8 +37,9 @@ Grid ReadCsv(const fs::path& file) {
     for (std::size_t i = 0; i < grid.width; ++i) {
       const double height = table.Number(i);
       if (!(height >= 0.0)) {
-        throw ModelError(fmt::format("{}: column {}: height; got {}; expected a number not below 0",
-                                     table.where(), i + 1, height));
+        throw models::ModelError(
+            fmt::format("{}: column {}: height; got {}; expected a number not below 0",
+                        table.where(), i + 1, height));
       }
       grid.values.push_back(height);
     }
@@ -52,7 +53,7 @@ std::string_view TakeWord(std::string_view& rest) {
   while (true) {
     rest.remove_prefix(std::min(rest.find_first_not_of(kBlanks), rest.size()));
     if (!rest.starts_with('#')) break;
-    internal::TakeLine(rest);
+    models::internal::TakeLine(rest);
   }
   const std::string_view word = rest.substr(0, rest.find_first_of(kBlanks));
   rest.remove_prefix(word.size());
@@ -61,18 +62,22 @@ std::string_view TakeWord(std::string_view& rest) {
 
 Grid ReadPgm(const fs::path& file, std::string_view rest) {
   const std::string_view magic = TakeWord(rest);
-  if (magic != "P2" && magic != "P5") RefuseText(file, 1, "kind of PGM", magic, "P2 or P5");
+  if (magic != "P2" && magic != "P5")
+    models::internal::RefuseText(file, 1, "kind of PGM", magic, "P2 or P5");
   const auto take = [&](const char* what, std::uint64_t most) {
     const std::string_view word = TakeWord(rest);
-    const auto number = internal::ToCount(word, most);
-    if (!number) RefuseText(file, 0, what, word, fmt::format("a whole number up to {}", most));
+    const auto number = models::internal::ToCount(word, most);
+    if (!number)
+      models::internal::RefuseText(file, 0, what, word,
+                                   fmt::format("a whole number up to {}", most));
     return *number;
   };
   Grid grid;
   grid.width = take("width", 10'000);
   const std::uint64_t count = grid.width * take("height", 10'000);
   if (count > kMostCells) {
-    RefuseText(file, 0, "cells", fmt::format("{}", count), fmt::format("at most {}", kMostCells));
+    models::internal::RefuseText(file, 0, "cells", fmt::format("{}", count),
+                                 fmt::format("at most {}", kMostCells));
   }
   const std::uint64_t brightest = std::max<std::uint64_t>(take("largest grey value", 65'535), 1);
   const auto white = static_cast<double>(brightest);
@@ -84,16 +89,17 @@ Grid ReadPgm(const fs::path& file, std::string_view rest) {
   }
   const std::uint64_t bytes = brightest > 255 ? 2 : 1;
   if (rest.size() < 1 + bytes * count) {
-    RefuseText(file, 0, "ends too early",
-               fmt::format("{} bytes of pixels", rest.empty() ? 0 : rest.size() - 1),
-               fmt::format("{}", bytes * count));
+    models::internal::RefuseText(
+        file, 0, "ends too early",
+        fmt::format("{} bytes of pixels", rest.empty() ? 0 : rest.size() - 1),
+        fmt::format("{}", bytes * count));
   }
   const auto* at = reinterpret_cast<const unsigned char*>(rest.data()) + 1;
   for (std::size_t i = 0; i < count; ++i) {
     const unsigned grey = bytes == 2 ? 256u * at[2 * i] + at[2 * i + 1] : at[i];
     if (grey > brightest) {
-      RefuseText(file, 0, "grey value", fmt::format("{} as pixel {}", grey, i),
-                 fmt::format("a whole number up to {}", brightest));
+      models::internal::RefuseText(file, 0, "grey value", fmt::format("{} as pixel {}", grey, i),
+                                   fmt::format("a whole number up to {}", brightest));
     }
     grid.values.push_back(grey / white);
   }
@@ -105,23 +111,26 @@ Grid ReadPgm(const fs::path& file, std::string_view rest) {
 Compound LoadHeightmap(const fs::path& file, double cell, double scale) {
   for (const double size : {cell, scale}) {
     if (!(std::isfinite(size) && size > 0.0)) {
-      RefuseText(file, 0, "cell and scale", fmt::format("{} m", size), "lengths above 0 m");
+      models::internal::RefuseText(file, 0, "cell and scale", fmt::format("{} m", size),
+                                   "lengths above 0 m");
     }
   }
   const std::string kind = file.extension().string();
   if (kind != ".csv" && kind != ".pgm") {
-    RefuseText(file, 0, "extension", "'" + kind + "'", ".pgm or .csv");
+    models::internal::RefuseText(file, 0, "extension", "'" + kind + "'", ".pgm or .csv");
   }
-  const Grid grid = kind == ".csv" ? ReadCsv(file) : ReadPgm(file, internal::ReadWhole(file));
-  if (grid.values.empty()) RefuseText(file, 0, "holds no height", "none", "at least one");
+  const Grid grid =
+      kind == ".csv" ? ReadCsv(file) : ReadPgm(file, models::internal::ReadWhole(file));
+  if (grid.values.empty())
+    models::internal::RefuseText(file, 0, "holds no height", "none", "at least one");
   const std::size_t rows = grid.values.size() / grid.width;
   Compound map;
   for (std::size_t row = 0; row < rows; ++row) {
     for (std::size_t first = 0, last = 0; first < grid.width; first = last) {
       const double value = grid.values[row * grid.width + first];
       if (map.parts.size() >= kMostBoxes) {
-        RefuseText(file, 0, "boxes of unequal heights", "more",
-                   fmt::format("at most {}", kMostBoxes));
+        models::internal::RefuseText(file, 0, "boxes of unequal heights", "more",
+                                     fmt::format("at most {}", kMostBoxes));
       }
       while (last < grid.width && grid.values[row * grid.width + last] == value) ++last;
       const double length = cell * static_cast<double>(last - first);
@@ -138,4 +147,4 @@ Compound LoadHeightmap(const fs::path& file, double cell, double scale) {
   return map;
 }
 
-}  // namespace oca::models
+}  // namespace oca::geometry

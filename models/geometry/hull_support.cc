@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/geometry/hull_support.h"
+#include "oca/models/geometry/hull_support.h"
 
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif
 
-namespace oca::models::internal {
+namespace oca::geometry::internal {
 
 int FarthestVertexPortable(const ConvexHull& hull, const Eigen::Vector3d& direction) {
   const int n = hull.column_size;
@@ -80,4 +80,4 @@ int FarthestVertex(const ConvexHull& hull, const Eigen::Vector3d& direction) {
   return FarthestVertexPortable(hull, direction);
 }
 
-}  // namespace oca::models::internal
+}  // namespace oca::geometry::internal

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/geometry/lattice_hull.h"
+#include "oca/models/geometry/lattice_hull.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
-namespace oca::models::internal {
+namespace oca::geometry::internal {
 namespace {
 
 constexpr int kBits = 40;
@@ -166,4 +166,4 @@ void LatticeHull::Grow(int point, int face) {
   for (const int old : removed_) faces_[old].alive = false;
 }
 
-}  // namespace oca::models::internal
+}  // namespace oca::geometry::internal

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace oca::models::internal {
+namespace oca::geometry::internal {
 
 __extension__ typedef __int128 Int128;
 
@@ -85,4 +85,4 @@ class LatticeHull {
   std::pmr::vector<int> face_from_;  // by vertex: the new face whose horizon edge starts there
 };
 
-}  // namespace oca::models::internal
+}  // namespace oca::geometry::internal

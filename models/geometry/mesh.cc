@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/geometry/mesh.h"
+#include "oca/models/geometry/mesh.h"
 
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/config.h>
@@ -19,11 +19,11 @@
 #include <string>
 #include <utility>
 
-#include "models/error.h"
-#include "models/geometry/table_text.h"
-#include "models/opened_files.h"
+#include "oca/models/error.h"
+#include "oca/models/opened_files.h"
+#include "oca/models/table_text.h"
 
-namespace oca::models {
+namespace oca::geometry {
 namespace {
 
 namespace fs = std::filesystem;
@@ -32,7 +32,7 @@ using Eigen::Vector3d;
 constexpr std::uintmax_t kMaxBytes = 100'000'000;
 
 [[noreturn]] void Refuse(const fs::path& file, const std::string& what) {
-  throw ModelError(fmt::format("{}: {}", file.string(), what));
+  throw models::ModelError(fmt::format("{}: {}", file.string(), what));
 }
 
 std::string LowerExtension(const fs::path& file) {
@@ -109,7 +109,7 @@ void CheckStlCount(const fs::path& file) {
   std::memcpy(&count, head.data() + kHead - sizeof count, sizeof count);
   const std::uint64_t announced = kHead + kTriangle * count;
   const bool wraps = static_cast<std::uint32_t>(announced) == static_cast<std::uint32_t>(size);
-  const auto words = internal::Words(head);
+  const auto words = models::internal::Words(head);
   const bool text = !words.empty() && words.front().starts_with("solid");
   if (announced <= size || (text && !wraps)) return;
   Refuse(file, fmt::format("binary STL ends too early; got {} bytes; expected {} for its {} "
@@ -180,7 +180,7 @@ void DropUnused(TriangleMesh* mesh) {
 }  // namespace
 
 TriangleMesh LoadMesh(const fs::path& file, const Vector3d& scale) {
-  NoteOpened(file);
+  models::NoteOpened(file);
   CheckFile(file);
   CheckScale(file, scale);
   if (LowerExtension(file) == ".stl") CheckStlCount(file);
@@ -216,4 +216,4 @@ std::shared_ptr<const ConvexHull> LoadConvexHull(const fs::path& file, const Vec
   return MakeConvexHull(LoadMesh(file, scale).vertices, file.string());
 }
 
-}  // namespace oca::models
+}  // namespace oca::geometry

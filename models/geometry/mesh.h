@@ -7,9 +7,9 @@
 #include <memory>
 #include <vector>
 
-#include "models/geometry/convex_hull.h"
+#include "oca/models/geometry/convex_hull.h"
 
-namespace oca::models {
+namespace oca::geometry {
 
 /// Triangles as a file gives them, in the frame of the file, m.
 struct TriangleMesh {
@@ -32,4 +32,4 @@ TriangleMesh LoadMesh(const std::filesystem::path& file,
 std::shared_ptr<const ConvexHull> LoadConvexHull(
     const std::filesystem::path& file, const Eigen::Vector3d& scale = Eigen::Vector3d::Ones());
 
-}  // namespace oca::models
+}  // namespace oca::geometry

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/geometry/mesh_surface.h"
+#include "oca/models/geometry/mesh_surface.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include <map>
 #include <utility>
 
-namespace oca::models {
+namespace oca::geometry {
 namespace {
 
 using Eigen::Vector3d;
@@ -82,4 +82,4 @@ std::string DescribeHullExcess(const TriangleMesh& mesh, const ConvexHull& hull)
                      100.0 * added / *volume);
 }
 
-}  // namespace oca::models
+}  // namespace oca::geometry

@@ -5,10 +5,10 @@
 #include <string>
 #include <string_view>
 
-#include "models/geometry/convex_hull.h"
-#include "models/geometry/mesh.h"
+#include "oca/models/geometry/convex_hull.h"
+#include "oca/models/geometry/mesh.h"
 
-namespace oca::models {
+namespace oca::geometry {
 
 /// The mesh with one vertex for all that lie in the same cell of a grid of 1e-6 of its extent;
 /// triangles that shrink to nothing are dropped.
@@ -24,4 +24,4 @@ std::optional<double> EnclosedVolume(const TriangleMesh& mesh);
 /// have is not known, and the text says that.
 std::string DescribeHullExcess(const TriangleMesh& mesh, const ConvexHull& hull);
 
-}  // namespace oca::models
+}  // namespace oca::geometry

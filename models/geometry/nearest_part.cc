@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/geometry/nearest_part.h"
+#include "oca/models/geometry/nearest_part.h"
 
 #include <algorithm>
 
-#include "models/geometry/ball_tree.h"
+#include "oca/models/geometry/ball_tree.h"
 
-namespace oca::models::internal {
+namespace oca::geometry::internal {
 namespace {
 
 using Eigen::Isometry3d;
@@ -59,4 +59,4 @@ SignedDistance DistanceToNearestPart(const Collider& a, const Isometry3d& X_WA, 
   return best;
 }
 
-}  // namespace oca::models::internal
+}  // namespace oca::geometry::internal

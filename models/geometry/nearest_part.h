@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "models/geometry/distance.h"
+#include "oca/models/geometry/distance.h"
 
-namespace oca::models::internal {
+namespace oca::geometry::internal {
 
 /// Distance as models::Distance gives it, of a convex body A that ends and a compound B with
 /// part_balls(). Parts are found through the tree of their balls, so that those far from A, however
@@ -12,4 +12,4 @@ SignedDistance DistanceToNearestPart(const Collider& a, const Eigen::Isometry3d&
                                      const Collider& b, const Eigen::Isometry3d& X_WB,
                                      double max_distance);
 
-}  // namespace oca::models::internal
+}  // namespace oca::geometry::internal

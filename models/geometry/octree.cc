@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/geometry/octree.h"
+#include "oca/models/geometry/octree.h"
 
 #include <fmt/format.h>
 
@@ -10,14 +10,14 @@
 #include <optional>
 #include <string>
 
-#include "models/geometry/table_text.h"
+#include "oca/models/table_text.h"
 
-namespace oca::models {
+namespace oca::geometry {
 namespace {
 
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
-using internal::RefuseText;
+using models::internal::RefuseText;
 
 constexpr int kDepth = 16;
 constexpr std::size_t kMostLeaves = 1'000'000;
@@ -33,30 +33,35 @@ struct Head {
 /// Takes the head off `rest`, down to the line `data`.
 Head ReadHead(const fs::path& file, bool binary, std::string_view& rest) {
   const std::string_view first = binary ? "# Octomap OcTree binary file" : "# Octomap OcTree file";
-  const std::string_view line = internal::TakeLine(rest);
-  if (line != first) RefuseText(file, 1, "first line", "'" + std::string(line) + "'", first);
+  const std::string_view line = models::internal::TakeLine(rest);
+  if (line != first)
+    models::internal::RefuseText(file, 1, "first line", "'" + std::string(line) + "'", first);
   Head head{.binary = binary};
   for (int number = 2; !rest.empty(); ++number) {
-    const auto words = internal::Words(internal::TakeLine(rest));
+    const auto words = models::internal::Words(models::internal::TakeLine(rest));
     if (words.empty() || words[0].starts_with('#')) continue;
     if (words[0] == "data") {
       if (head.resolution > 0.0 && head.nodes) return head;
-      RefuseText(file, number, "head", "no size or res", "id, size and res before data");
+      models::internal::RefuseText(file, number, "head", "no size or res",
+                                   "id, size and res before data");
     }
-    if (words.size() < 2) RefuseText(file, number, "head", words[0], "id, size, res or data");
-    const double value = internal::ToNumber(words[1]).value_or(-1.0);
-    const auto nodes = internal::ToCount(words[1], kMostNodes);
+    if (words.size() < 2)
+      models::internal::RefuseText(file, number, "head", words[0], "id, size, res or data");
+    const double value = models::internal::ToNumber(words[1]).value_or(-1.0);
+    const auto nodes = models::internal::ToCount(words[1], kMostNodes);
     if (words[0] == "res" && value > 0.0 && value <= kLargestCell) {
       head.resolution = value;
     } else if (words[0] == "size" && nodes) {
       head.nodes = nodes;
     } else if (words[0] != "id" || (!binary && words[1] != "OcTree")) {
-      RefuseText(file, number, words[0], words[1],
-                 fmt::format("id OcTree, a size up to {}, a res above 0 and up to {} m", kMostNodes,
-                             kLargestCell));
+      models::internal::RefuseText(
+          file, number, words[0], words[1],
+          fmt::format("id OcTree, a size up to {}, a res above 0 and up to {} m", kMostNodes,
+                      kLargestCell));
     }
   }
-  RefuseText(file, 0, "ends too early", "no line 'data'", "one after id, size and res");
+  models::internal::RefuseText(file, 0, "ends too early", "no line 'data'",
+                               "one after id, size and res");
 }
 
 /// Walks the nodes as they stand in the file, depth first.
@@ -71,10 +76,12 @@ class Reader {
       Node(0, {0, 0, 0});
     }
     if (nodes_ != *head_.nodes) {
-      RefuseText(file_, 0, "size", fmt::format("{} nodes announced", *head_.nodes),
-                 fmt::format("the {} that there are", nodes_));
+      models::internal::RefuseText(file_, 0, "size",
+                                   fmt::format("{} nodes announced", *head_.nodes),
+                                   fmt::format("the {} that there are", nodes_));
     }
-    if (map_.parts.empty()) RefuseText(file_, 0, "holds no occupied leaf", "none", "at least one");
+    if (map_.parts.empty())
+      models::internal::RefuseText(file_, 0, "holds no occupied leaf", "none", "at least one");
     return std::move(map_);
   }
 
@@ -95,7 +102,8 @@ class Reader {
     }
     const auto log_odds = Take<float>();
     const auto children = Take<std::uint8_t>();
-    if (std::isnan(log_odds)) RefuseText(file_, 0, "log-odds of a node", "NaN", "a number");
+    if (std::isnan(log_odds))
+      models::internal::RefuseText(file_, 0, "log-odds of a node", "NaN", "a number");
     if (children == 0 && log_odds >= 0.0F) AddLeaf(depth, corner);
     for (int i = 0; i < 8; ++i) {
       if ((children >> i & 1) != 0) Node(depth + 1, Child(depth, corner, i));
@@ -104,7 +112,8 @@ class Reader {
 
   Corner Child(int depth, const Corner& corner, int i) {
     if (depth >= kDepth) {
-      RefuseText(file_, 0, "tree", "more levels", fmt::format("at most {}", kDepth));
+      models::internal::RefuseText(file_, 0, "tree", "more levels",
+                                   fmt::format("at most {}", kDepth));
     }
     ++nodes_;
     const int size = 1 << (kDepth - depth - 1);
@@ -114,7 +123,8 @@ class Reader {
 
   void AddLeaf(int depth, const Corner& corner) {
     if (map_.parts.size() >= kMostLeaves) {
-      RefuseText(file_, 0, "occupied leaves", "more", fmt::format("at most {}", kMostLeaves));
+      models::internal::RefuseText(file_, 0, "occupied leaves", "more",
+                                   fmt::format("at most {}", kMostLeaves));
     }
     const double size = std::ldexp(head_.resolution, kDepth - depth);
     const double middle = std::ldexp(1.0, kDepth - 1);
@@ -129,8 +139,8 @@ class Reader {
   T Take() {
     T value;
     if (rest_.size() < sizeof value) {
-      RefuseText(file_, 0, "ends too early", fmt::format("{} nodes", nodes_),
-                 fmt::format("{} and their children", *head_.nodes));
+      models::internal::RefuseText(file_, 0, "ends too early", fmt::format("{} nodes", nodes_),
+                                   fmt::format("{} and their children", *head_.nodes));
     }
     std::memcpy(&value, rest_.data(), sizeof value);
     rest_.remove_prefix(sizeof value);
@@ -149,12 +159,12 @@ class Reader {
 Compound LoadOctree(const fs::path& file) {
   const std::string kind = file.extension().string();
   if (kind != ".bt" && kind != ".ot") {
-    RefuseText(file, 0, "extension", "'" + kind + "'", ".bt or .ot");
+    models::internal::RefuseText(file, 0, "extension", "'" + kind + "'", ".bt or .ot");
   }
-  const std::string text = internal::ReadWhole(file);
+  const std::string text = models::internal::ReadWhole(file);
   std::string_view rest = text;
   const Head head = ReadHead(file, kind == ".bt", rest);
   return Reader(file, head, rest).Read();
 }
 
-}  // namespace oca::models
+}  // namespace oca::geometry

@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "models/shape.h"
+#include "oca/models/geometry/shape.h"
 
-namespace oca::models {
+namespace oca::geometry {
 
 /// The occupied leaves of an OctoMap file, each a box, in the frame of the file, m:
 ///
@@ -20,4 +20,4 @@ namespace oca::models {
 /// source Hornung et al. 2013, OctoMap; octomap 1.9, OccupancyOcTreeBase::writeBinaryNode
 Compound LoadOctree(const std::filesystem::path& file);
 
-}  // namespace oca::models
+}  // namespace oca::geometry

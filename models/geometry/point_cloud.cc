@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/geometry/point_cloud.h"
+#include "oca/models/geometry/point_cloud.h"
 
 #include <fmt/format.h>
 
@@ -9,19 +9,19 @@
 #include <optional>
 #include <string>
 
-#include "models/csv_table.h"
-#include "models/error.h"
-#include "models/geometry/table_text.h"
+#include "oca/models/csv_table.h"
+#include "oca/models/error.h"
+#include "oca/models/table_text.h"
 
-namespace oca::models {
+namespace oca::geometry {
 namespace {
 
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
-using internal::RefuseText;
-using internal::TakeLine;
-using internal::ToNumber;
-using internal::Words;
+using models::internal::RefuseText;
+using models::internal::TakeLine;
+using models::internal::ToNumber;
+using models::internal::Words;
 
 /// A scalar of a binary record.
 struct Field {
@@ -44,13 +44,15 @@ struct Layout {
            std::uint64_t copies) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (name != std::string_view("xyz").substr(axis, 1)) continue;
-      if (column[axis]) RefuseText(file, line, "fields", name, "each coordinate once");
+      if (column[axis])
+        models::internal::RefuseText(file, line, "fields", name, "each coordinate once");
       fields[axis] = {record, field.size, field.kind};
       column[axis] = columns;
     }
     if (copies > (kMostBytes - record) / field.size) {
-      RefuseText(file, line, "record of a point", fmt::format("more than {} bytes", kMostBytes),
-                 fmt::format("at most {}", kMostBytes));
+      models::internal::RefuseText(file, line, "record of a point",
+                                   fmt::format("more than {} bytes", kMostBytes),
+                                   fmt::format("at most {}", kMostBytes));
     }
     record += field.size * copies;
     columns += copies;
@@ -90,8 +92,9 @@ std::vector<Vector3d> ReadBinary(const fs::path& file, const Layout& layout,
                                  std::string_view rest) {
   const std::uint64_t record = layout.record;
   if (rest.size() / record < layout.count) {
-    RefuseText(file, 0, "ends too early", fmt::format("{} points", rest.size() / record),
-               fmt::format("{} points of {} bytes", layout.count, record));
+    models::internal::RefuseText(file, 0, "ends too early",
+                                 fmt::format("{} points", rest.size() / record),
+                                 fmt::format("{} points of {} bytes", layout.count, record));
   }
   std::vector<Vector3d> points;
   points.reserve(layout.count);
@@ -108,19 +111,21 @@ std::vector<Vector3d> ReadText(const fs::path& file, const Layout& layout, int l
   std::vector<Vector3d> points;
   for (std::size_t i = 0; i < layout.count; ++i) {
     if (rest.empty()) {
-      RefuseText(file, line, "ends too early", fmt::format("{} points", i),
-                 fmt::format("{}", layout.count));
+      models::internal::RefuseText(file, line, "ends too early", fmt::format("{} points", i),
+                                   fmt::format("{}", layout.count));
     }
-    const auto words = Words(TakeLine(rest));
+    const auto words = models::internal::Words(models::internal::TakeLine(rest));
     ++line;
     if (words.size() != layout.columns) {
-      RefuseText(file, line, "no point", fmt::format("{} values", words.size()),
-                 fmt::format("{}", layout.columns));
+      models::internal::RefuseText(file, line, "no point", fmt::format("{} values", words.size()),
+                                   fmt::format("{}", layout.columns));
     }
     Vector3d point;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto number = ToNumber(words[*layout.column[axis]]);
-      if (!number) RefuseText(file, line, "no point", words[*layout.column[axis]], "numbers");
+      const auto number = models::internal::ToNumber(words[*layout.column[axis]]);
+      if (!number)
+        models::internal::RefuseText(file, line, "no point", words[*layout.column[axis]],
+                                     "numbers");
       point[static_cast<Eigen::Index>(axis)] = *number;
     }
     Keep(point, points);
@@ -131,7 +136,8 @@ std::vector<Vector3d> ReadText(const fs::path& file, const Layout& layout, int l
 std::vector<Vector3d> ReadPoints(const fs::path& file, const Layout& layout, int line,
                                  std::string_view rest) {
   for (const auto& column : layout.column) {
-    if (!column) RefuseText(file, 0, "has no coordinates", "other fields", "x, y and z");
+    if (!column)
+      models::internal::RefuseText(file, 0, "has no coordinates", "other fields", "x, y and z");
   }
   return layout.text ? ReadText(file, layout, line, rest) : ReadBinary(file, layout, rest);
 }
@@ -152,12 +158,12 @@ Field PlyField(const fs::path& file, int line, std::string_view type) {
   for (const Type& known : kTypes) {
     if (type == known.name || type == known.alias) return known.field;
   }
-  RefuseText(file, line, "property of a vertex", type, "a scalar type of PLY");
+  models::internal::RefuseText(file, line, "property of a vertex", type, "a scalar type of PLY");
 }
 
 std::uint64_t Count(const fs::path& file, int line, std::string_view word) {
-  const auto number = internal::ToCount(word, 100'000'000);
-  if (!number) RefuseText(file, line, "number of points", word, "0 to 100000000");
+  const auto number = models::internal::ToCount(word, 100'000'000);
+  if (!number) models::internal::RefuseText(file, line, "number of points", word, "0 to 100000000");
   return *number;
 }
 
@@ -165,29 +171,33 @@ std::vector<Vector3d> ReadPly(const fs::path& file, std::string_view rest) {
   Layout layout;
   bool of_vertex = false, found = false;
   int line = 1;
-  if (TakeLine(rest) != "ply") RefuseText(file, 1, "is no PLY file", "another start", "ply");
+  if (models::internal::TakeLine(rest) != "ply")
+    models::internal::RefuseText(file, 1, "is no PLY file", "another start", "ply");
   while (true) {
-    if (rest.empty()) RefuseText(file, line, "ends in its header", "no end_header", "one");
-    const auto words = Words(TakeLine(rest));
+    if (rest.empty())
+      models::internal::RefuseText(file, line, "ends in its header", "no end_header", "one");
+    const auto words = models::internal::Words(models::internal::TakeLine(rest));
     ++line;
     if (words.empty()) continue;
     if (words[0] == "end_header") break;
     if (words[0] == "format" && words.size() > 1) {
       layout.text = words[1] == "ascii";
       if (!layout.text && words[1] != "binary_little_endian") {
-        RefuseText(file, line, "format", words[1], "ascii or binary_little_endian");
+        models::internal::RefuseText(file, line, "format", words[1],
+                                     "ascii or binary_little_endian");
       }
     } else if (words[0] == "element" && words.size() > 2) {
       of_vertex = words[1] == "vertex";
       if (!of_vertex && !found) {
-        RefuseText(file, line, "element before the vertices", words[1], "vertex first");
+        models::internal::RefuseText(file, line, "element before the vertices", words[1],
+                                     "vertex first");
       }
       if (of_vertex) layout.count = Count(file, line, words[2]);
       found = found || of_vertex;
     } else if (words[0] == "property" && of_vertex && words.size() > 2) {
       layout.Add(file, line, words.back(), PlyField(file, line, words[1]), 1);
     } else if (words[0] != "comment" && words[0] != "obj_info" && words[0] != "property") {
-      RefuseText(file, line, "header", words[0], "a line of the PLY format");
+      models::internal::RefuseText(file, line, "header", words[0], "a line of the PLY format");
     }
   }
   return ReadPoints(file, layout, line, rest);
@@ -204,8 +214,9 @@ struct PcdHeader {
 PcdHeader ReadPcdHeader(const fs::path& file, std::string_view& rest, int& line) {
   PcdHeader header;
   while (true) {
-    if (rest.empty()) RefuseText(file, line, "ends in its header", "no DATA", "one");
-    const auto words = Words(TakeLine(rest));
+    if (rest.empty())
+      models::internal::RefuseText(file, line, "ends in its header", "no DATA", "one");
+    const auto words = models::internal::Words(models::internal::TakeLine(rest));
     ++line;
     if (words.empty() || words[0].starts_with('#')) continue;
     const std::vector<std::string_view> values(words.begin() + 1, words.end());
@@ -222,10 +233,11 @@ PcdHeader ReadPcdHeader(const fs::path& file, std::string_view& rest, int& line)
     } else if (words[0] == "DATA") {
       header.text = !values.empty() && values[0] == "ascii";
       if (header.text || (!values.empty() && values[0] == "binary")) return header;
-      RefuseText(file, line, "DATA", values.empty() ? "none" : values[0], "ascii or binary");
+      models::internal::RefuseText(file, line, "DATA", values.empty() ? "none" : values[0],
+                                   "ascii or binary");
     } else if (words[0] != "VERSION" && words[0] != "WIDTH" && words[0] != "HEIGHT" &&
                words[0] != "VIEWPOINT") {
-      RefuseText(file, line, "header", words[0], "a line of the PCD format");
+      models::internal::RefuseText(file, line, "header", words[0], "a line of the PCD format");
     }
   }
 }
@@ -236,23 +248,24 @@ std::vector<Vector3d> ReadPcd(const fs::path& file, std::string_view rest) {
   const std::size_t count = header.names.size();
   if (header.sizes.size() != count || header.types.size() != count ||
       (!header.counts.empty() && header.counts.size() != count)) {
-    RefuseText(file, line, "header", "FIELDS, SIZE, TYPE and COUNT of unequal length",
-               "equal ones");
+    models::internal::RefuseText(file, line, "header",
+                                 "FIELDS, SIZE, TYPE and COUNT of unequal length", "equal ones");
   }
   Layout layout;
   layout.text = header.text;
   layout.count = header.points;
   for (std::size_t i = 0; i < count; ++i) {
     const std::string_view type = header.types[i];
-    const auto size = internal::ToCount(header.sizes[i], 8);
+    const auto size = models::internal::ToCount(header.sizes[i], 8);
     const auto copies = header.counts.empty()
                             ? std::optional<std::uint64_t>(1)
-                            : internal::ToCount(header.counts[i], Layout::kMostBytes);
+                            : models::internal::ToCount(header.counts[i], Layout::kMostBytes);
     const bool known = size && (*size == 1 || *size == 2 || *size == 4 || *size == 8) &&
                        (type == "I" || type == "U" || (type == "F" && *size >= 4));
     if (!known || !copies || *copies == 0) {
-      RefuseText(file, line, fmt::format("field '{}'", header.names[i]), type,
-                 "TYPE F, I or U with a SIZE of 1, 2, 4 or 8 bytes and a COUNT above 0");
+      models::internal::RefuseText(
+          file, line, fmt::format("field '{}'", header.names[i]), type,
+          "TYPE F, I or U with a SIZE of 1, 2, 4 or 8 bytes and a COUNT above 0");
     }
     layout.Add(file, line, header.names[i], {0, *size, type[0]}, *copies);
   }
@@ -260,14 +273,14 @@ std::vector<Vector3d> ReadPcd(const fs::path& file, std::string_view rest) {
 }
 
 std::vector<Vector3d> ReadTable(const fs::path& file) {
-  CsvTable table(file);
+  models::CsvTable table(file);
   std::vector<std::size_t> columns = table.Columns({"x", "y", "z"});
   if (columns.empty()) columns = {0, 1, 2};
   std::vector<Vector3d> points;
   while (table.NextRow()) {
     if (table.cells().size() < 3) {
-      throw ModelError(fmt::format("{}: no point; got {} values; expected x, y and z",
-                                   table.where(), table.cells().size()));
+      throw models::ModelError(fmt::format("{}: no point; got {} values; expected x, y and z",
+                                           table.where(), table.cells().size()));
     }
     Keep({table.AnyNumber(columns[0]), table.AnyNumber(columns[1]), table.AnyNumber(columns[2])},
          points);
@@ -283,13 +296,15 @@ std::vector<Vector3d> LoadPointCloud(const fs::path& file) {
   if (kind == ".csv" || kind == ".xyz") {
     points = ReadTable(file);
   } else if (kind == ".ply") {
-    points = ReadPly(file, internal::ReadWhole(file));
+    points = ReadPly(file, models::internal::ReadWhole(file));
   } else if (kind == ".pcd") {
-    points = ReadPcd(file, internal::ReadWhole(file));
+    points = ReadPcd(file, models::internal::ReadWhole(file));
   } else {
-    RefuseText(file, 0, "extension", "'" + kind + "'", ".csv, .xyz, .ply or .pcd");
+    models::internal::RefuseText(file, 0, "extension", "'" + kind + "'",
+                                 ".csv, .xyz, .ply or .pcd");
   }
-  if (points.empty()) RefuseText(file, 0, "holds no point", "none", "at least one");
+  if (points.empty())
+    models::internal::RefuseText(file, 0, "holds no point", "none", "at least one");
   return points;
 }
 
@@ -303,4 +318,4 @@ Compound MakeCloud(std::span<const Vector3d> points, double radius) {
   return cloud;
 }
 
-}  // namespace oca::models
+}  // namespace oca::geometry

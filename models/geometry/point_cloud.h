@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "models/shape.h"
+#include "oca/models/geometry/shape.h"
 
-namespace oca::models {
+namespace oca::geometry {
 
 /// Points of a file, in its frame, m:
 ///
@@ -37,4 +37,4 @@ Compound MakeCloud(std::span<const Eigen::Vector3d> points, double radius);
 ///        not positive
 Compound LoadHeightmap(const std::filesystem::path& file, double cell, double scale);
 
-}  // namespace oca::models
+}  // namespace oca::geometry

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/geometry/point_forms.h"
+#include "oca/models/geometry/point_forms.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-namespace oca::models::internal {
+namespace oca::geometry::internal {
 namespace {
 
 using Core = Collider::Core;
@@ -150,4 +150,4 @@ Outside OutsideOf(const Collider& core, const Vector3d& p) {
   }
 }
 
-}  // namespace oca::models::internal
+}  // namespace oca::geometry::internal

@@ -3,9 +3,9 @@
 
 #include <Eigen/Core>
 
-#include "models/geometry/collider.h"
+#include "oca/models/geometry/collider.h"
 
-namespace oca::models::internal {
+namespace oca::geometry::internal {
 
 /// Where a point lies as seen from a core: signed distance (m, negative inside), the nearest point
 /// of the surface, and the outward unit normal there. Frame of the core.
@@ -26,4 +26,4 @@ Outside OutsideOf(const Collider& core, const Eigen::Vector3d& point);
 /// The plane of a hull that a point is least below. Exact inside; outside a lower bound.
 Outside OutsideOfHull(const ConvexHull& hull, const Eigen::Vector3d& point);
 
-}  // namespace oca::models::internal
+}  // namespace oca::geometry::internal

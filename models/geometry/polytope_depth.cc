@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/geometry/polytope_depth.h"
+#include "oca/models/geometry/polytope_depth.h"
 
 #include <algorithm>
 #include <array>
@@ -8,10 +8,10 @@
 #include <limits>
 #include <memory_resource>
 
-#include "models/geometry/contact_refinement.h"
-#include "models/geometry/lattice_hull.h"
+#include "oca/models/geometry/contact_refinement.h"
+#include "oca/models/geometry/lattice_hull.h"
 
-namespace oca::models::internal {
+namespace oca::geometry::internal {
 namespace {
 
 using Eigen::Vector3d;
@@ -240,4 +240,4 @@ CoreDistance PolytopeDepth(const CorePair& pair, const Vector3d& hint) {
   return polytope.Search();
 }
 
-}  // namespace oca::models::internal
+}  // namespace oca::geometry::internal

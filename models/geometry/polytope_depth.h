@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "models/geometry/core_pair.h"
+#include "oca/models/geometry/core_pair.h"
 
-namespace oca::models::internal {
+namespace oca::geometry::internal {
 
 /// Signed distance of two cores that overlap or touch: minus the least height of the origin below
 /// the planes that bound A - B.
@@ -17,4 +17,4 @@ namespace oca::models::internal {
 /// source van den Bergen 2001
 CoreDistance PolytopeDepth(const CorePair& pair, const Eigen::Vector3d& hint);
 
-}  // namespace oca::models::internal
+}  // namespace oca::geometry::internal

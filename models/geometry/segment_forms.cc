@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/geometry/segment_forms.h"
+#include "oca/models/geometry/segment_forms.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace oca::models::internal {
+namespace oca::geometry::internal {
 namespace {
 
 using Eigen::Vector3d;
@@ -179,4 +179,4 @@ CoreDistance BoxToSegment(const Vector3d& half, const Segment& segment) {
   return result;
 }
 
-}  // namespace oca::models::internal
+}  // namespace oca::geometry::internal

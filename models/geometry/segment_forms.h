@@ -3,9 +3,9 @@
 
 #include <Eigen/Core>
 
-#include "models/geometry/core_pair.h"
+#include "oca/models/geometry/core_pair.h"
 
-namespace oca::models::internal {
+namespace oca::geometry::internal {
 
 /// Segment centre + s direction, |s| <= half; `direction` unit.
 struct Segment {
@@ -33,4 +33,4 @@ CoreDistance SegmentToSegment(const Segment& a, const Segment& b);
 /// the ways out across a face or across an edge and the segment.
 CoreDistance BoxToSegment(const Eigen::Vector3d& half, const Segment& segment);
 
-}  // namespace oca::models::internal
+}  // namespace oca::geometry::internal

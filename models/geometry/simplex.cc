@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/geometry/simplex.h"
+#include "oca/models/geometry/simplex.h"
 
 #include <limits>
 
-namespace oca::models::internal {
+namespace oca::geometry::internal {
 
 using Eigen::Vector3d;
 
@@ -130,4 +130,4 @@ void Simplex::Keep(const Nearest& nearest) {
   v_ = nearest.v;
 }
 
-}  // namespace oca::models::internal
+}  // namespace oca::geometry::internal

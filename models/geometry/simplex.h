@@ -3,9 +3,9 @@
 
 #include <array>
 
-#include "models/geometry/core_pair.h"
+#include "oca/models/geometry/core_pair.h"
 
-namespace oca::models::internal {
+namespace oca::geometry::internal {
 
 /// Up to four points of A - B and the point `v` of their convex hull that is nearest to the origin.
 ///
@@ -52,4 +52,4 @@ class Simplex {
   Eigen::Vector3d v_{Eigen::Vector3d::Zero()};
 };
 
-}  // namespace oca::models::internal
+}  // namespace oca::geometry::internal

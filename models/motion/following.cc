@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/motion/following.h"
+#include "oca/models/motion/following.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "models/motion/stoppable_motion.h"
+#include "oca/models/motion/stoppable_motion.h"
 
-namespace oca::models {
+namespace oca::motion {
 namespace {
 
 // Share of the acceleration limit that the return to the request brakes with.
@@ -23,4 +23,4 @@ double FollowingVelocity(const JointRequest& request, double position, double ga
          0.5 * dt * request.acceleration;
 }
 
-}  // namespace oca::models
+}  // namespace oca::motion

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-namespace oca::models {
+namespace oca::motion {
 
 /// What a joint is asked for at a tick. Units are those of the joint, rad or m, and their rates.
 struct JointRequest {
@@ -20,4 +20,4 @@ struct JointRequest {
 double FollowingVelocity(const JointRequest& request, double position, double gain,
                          double acceleration_limit, double dt);
 
-}  // namespace oca::models
+}  // namespace oca::motion

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/motion/stoppable_motion.h"
+#include "oca/models/motion/stoppable_motion.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace oca::models {
+namespace oca::motion {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -213,4 +213,4 @@ VelocityRange StoppableVelocities(const JointLimits& limits, const JointMotion& 
   return {lower.velocity, upper.velocity, lower.limit, upper.limit, yields};
 }
 
-}  // namespace oca::models
+}  // namespace oca::motion

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-namespace oca::models {
+namespace oca::motion {
 
 // One joint that is commanded a constant velocity over each period dt (s), so that its position
 // moves in straight lines between ticks. Units are those of the joint, rad or m, and their rates.
@@ -69,4 +69,4 @@ JointMotion Advance(const JointMotion& motion, double velocity, double dt);
 /// acceleration can be led back to zero, by no more than the jerk, before the joint turns round.
 double StopStep(const JointLimits& limits, const JointMotion& motion, double dt);
 
-}  // namespace oca::models
+}  // namespace oca::motion

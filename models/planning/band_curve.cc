@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/planning/band_curve.h"
+#include "oca/models/planning/band_curve.h"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cassert>
 
-namespace oca::models {
+namespace oca::planning {
 
 BandCurve::BandCurve(Eigen::Index size, const std::vector<double>& times) {
   assert(times.size() >= 7);
@@ -83,4 +83,4 @@ void BandCurve::Follow(const std::function<Eigen::VectorXd(double time)>& shape)
   controls_.rightCols(3).colwise() = shape(end());
 }
 
-}  // namespace oca::models
+}  // namespace oca::planning

@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-namespace oca::models {
+namespace oca::planning {
 
 /// A vector-valued curve with continuous acceleration: a cubic B-spline
 ///
@@ -56,4 +56,4 @@ class BandCurve {
   Eigen::MatrixXd controls_;
 };
 
-}  // namespace oca::models
+}  // namespace oca::planning

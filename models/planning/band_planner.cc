@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/planning/band_planner.h"
+#include "oca/models/planning/band_planner.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
 
-#include "models/planning/rrt_connect.h"
-#include "models/planning/smooth_step.h"
-#include "models/random.h"
+#include "oca/models/planning/rrt_connect.h"
+#include "oca/models/planning/smooth_step.h"
+#include "oca/models/random.h"
 
-namespace oca::models {
+namespace oca::planning {
 namespace {
 
 using Eigen::VectorXd;
@@ -39,11 +39,11 @@ double Window(double time, double first, double last, double ramp) {
 
 }  // namespace
 
-BandPlanner::BandPlanner(std::shared_ptr<const RobotModel> model,
+BandPlanner::BandPlanner(std::shared_ptr<const robot::RobotModel> model,
                          const BandPlannerSettings& settings, bool self_collision)
     : settings_(settings),
       band_(model, settings.band, self_collision),
-      standing_(std::make_unique<Clearance>(std::move(model), self_collision)) {}
+      standing_(std::make_unique<robot::Clearance>(std::move(model), self_collision)) {}
 
 double BandPlanner::HorizonOf(const BandTask& task, bool moving) const {
   double horizon =
@@ -252,7 +252,7 @@ void BandPlanner::AddDetours(const BandTask& task, const BandCheck& trouble,
       add(BandStart::kDetour, out, 1.5);
     }
   }
-  Random random(Random::Seed(task.seed, "band"));
+  models::Random random(models::Random::Seed(task.seed, "band"));
   for (int i = 0; i < settings_.random_starts; ++i) {
     for (Eigen::Index j = 0; j < n; ++j) out[j] = random.Uniform(-1.0, 1.0);
     out *= random.Uniform(0.3, 1.8) / out.cwiseAbs().maxCoeff();
@@ -261,7 +261,7 @@ void BandPlanner::AddDetours(const BandTask& task, const BandCheck& trouble,
 }
 
 void BandPlanner::TryPaths(const BandTask& task, BandPlan& best) {
-  std::vector<PlacedBody> placed;
+  std::vector<robot::PlacedBody> placed;
   for (const BandBody& body : task.bodies) {
     if (body.stands) placed.push_back({body.collider, body.pose(task.start)});
   }
@@ -274,7 +274,7 @@ void BandPlanner::TryPaths(const BandTask& task, BandPlan& best) {
   const bool bounded = settings_.most_evaluations > 0;
   for (int i = 0; i < (bounded ? std::min(settings_.paths, 1) : settings_.paths); ++i) {
     RrtOptions options;
-    options.seed = Random::Seed(task.seed, static_cast<std::uint64_t>(i));
+    options.seed = models::Random::Seed(task.seed, static_cast<std::uint64_t>(i));
     options.most_nodes = bounded ? kBoundedNodes : settings_.path_nodes;
     if (bounded) options.shortcuts = kBoundedShortcuts;
     std::optional<std::vector<VectorXd>> path;
@@ -304,4 +304,4 @@ void BandPlanner::TryPaths(const BandTask& task, BandPlan& best) {
   }
 }
 
-}  // namespace oca::models
+}  // namespace oca::planning

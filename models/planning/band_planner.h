@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "models/planning/elastic_band.h"
+#include "oca/models/planning/elastic_band.h"
 
-namespace oca::models {
+namespace oca::planning {
 
 /// Which start won: the request itself, the last band, the last band or the request relaxed, a
 /// pause, a joint that goes out of the way, all of them at random, or a path of RrtConnect.
@@ -75,10 +75,10 @@ inline constexpr double kMarginWay = 10.0;  ///< rad/m
 /// The work is bounded and the answer a function of the arguments. Allocates.
 class BandPlanner {
  public:
-  BandPlanner(std::shared_ptr<const RobotModel> model, const BandPlannerSettings& settings,
+  BandPlanner(std::shared_ptr<const robot::RobotModel> model, const BandPlannerSettings& settings,
               bool self_collision = false);
 
-  const RobotModel& model() const { return band_.model(); }
+  const robot::RobotModel& model() const { return band_.model(); }
   /// `last` may be null.
   BandPlan Plan(const BandTask& task, const BandCurve* last);
 
@@ -107,10 +107,10 @@ class BandPlanner {
 
   const BandPlannerSettings settings_;
   ElasticBand band_;
-  std::unique_ptr<Clearance> standing_;
+  std::unique_ptr<robot::Clearance> standing_;
   BandCurve zero_;
   bool end_fixed_{true};
   long begun_{0};  ///< evaluations before this plan
 };
 
-}  // namespace oca::models
+}  // namespace oca::planning

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/planning/certified_motion.h"
+#include "oca/models/planning/certified_motion.h"
 
 #include <algorithm>
 
-namespace oca::models {
+namespace oca::planning {
 namespace {
 
 // What is farther need not be known: the joints cannot go farther in one step.
@@ -13,7 +13,7 @@ constexpr double kLeastShare = 1e-3;
 
 }  // namespace
 
-CertifiedMotion::CertifiedMotion(Clearance& clearance, double margin)
+CertifiedMotion::CertifiedMotion(robot::Clearance& clearance, double margin)
     : clearance_(clearance),
       margin_(margin),
       bound_(clearance.model()),
@@ -69,4 +69,4 @@ double CertifiedMotion::FreeShare() {
   return share;
 }
 
-}  // namespace oca::models
+}  // namespace oca::planning

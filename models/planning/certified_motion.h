@@ -4,10 +4,10 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "models/planning/clearance.h"
-#include "models/robot/travel_bound.h"
+#include "oca/models/robot/clearance.h"
+#include "oca/models/robot/travel_bound.h"
 
-namespace oca::models {
+namespace oca::planning {
 
 /// Proves that a robot stays clear of bodies at rest on a straight motion of its joints.
 ///
@@ -18,7 +18,7 @@ namespace oca::models {
 class CertifiedMotion {
  public:
   /// Every pair has to stay more than `margin` (m) apart. The clearance must outlive this.
-  CertifiedMotion(Clearance& clearance, double margin);
+  CertifiedMotion(robot::Clearance& clearance, double margin);
 
   /// Whether the position itself is clear.
   bool Clear(const Eigen::Ref<const Eigen::VectorXd>& q);
@@ -33,11 +33,11 @@ class CertifiedMotion {
   /// How far the joints may go on along `path` (one entry a position), as a share of it.
   double FreeShare();
 
-  Clearance& clearance_;
+  robot::Clearance& clearance_;
   const double margin_;
-  const TravelBound bound_;
+  const robot::TravelBound bound_;
   Eigen::VectorXd q_, path_;
   std::vector<double> distances_, own_distances_, travel_;
 };
 
-}  // namespace oca::models
+}  // namespace oca::planning

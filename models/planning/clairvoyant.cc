@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/planning/clairvoyant.h"
+#include "oca/models/planning/clairvoyant.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "models/error.h"
-#include "models/planning/smooth_step.h"
-#include "models/random.h"
+#include "oca/models/error.h"
+#include "oca/models/planning/smooth_step.h"
+#include "oca/models/random.h"
 
-namespace oca::models {
+namespace oca::planning {
 namespace {
 
 using Eigen::VectorXd;
@@ -63,13 +63,13 @@ BandPlannerSettings PlannerSettings(const ClairvoyantTask& task) {
 /// 0 before 0, 1 after 1, smooth.
 class Search {
  public:
-  Search(const std::shared_ptr<const RobotModel>& model, const ClairvoyantTask& task)
+  Search(const std::shared_ptr<const robot::RobotModel>& model, const ClairvoyantTask& task)
       : model_(model),
         task_(task),
         bodies_(task.bodies.begin(), task.bodies.end()),
         judge_(model, task.request, task.bodies, task.self_collision, task.ignored,
                kClairvoyantReach),
-        random_(Random::Seed(task.seed, "clairvoyant")) {
+        random_(models::Random::Seed(task.seed, "clairvoyant")) {
     // A band without bodies looks at no distances, not at those of own links either.
     if (bodies_.empty() && task.self_collision) bodies_.push_back(FarAway());
     zero_ = BandCurve(model->num_positions(), Times());
@@ -98,8 +98,8 @@ class Search {
   static BandBody FarAway() {
     Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
     X.translation().z() = -kFarAway;
-    return {Name("nothing"), MakeCollider(Sphere{0.01}, "nothing"), [X](double) { return X; },
-            true};
+    return {models::Name("nothing"), geometry::MakeCollider(geometry::Sphere{0.01}, "nothing"),
+            [X](double) { return X; }, true};
   }
 
   std::vector<double> Times() const {
@@ -247,11 +247,11 @@ class Search {
     return random_.Uniform(0.2, 1.6) * out;
   }
 
-  const std::shared_ptr<const RobotModel> model_;
+  const std::shared_ptr<const robot::RobotModel> model_;
   const ClairvoyantTask& task_;
   std::vector<BandBody> bodies_;
   MotionJudge judge_;
-  Random random_;
+  models::Random random_;
   BandCurve zero_;  ///< the request, from where the arm is
   VectorXd deviation_[3];
   bool goal_free_{true}, end_fixed_{true}, prepared_{false};
@@ -261,16 +261,17 @@ class Search {
 
 }  // namespace
 
-ClairvoyantPlan PlanClairvoyantly(const std::shared_ptr<const RobotModel>& model,
+ClairvoyantPlan PlanClairvoyantly(const std::shared_ptr<const robot::RobotModel>& model,
                                   const ClairvoyantTask& task) {
   if (!(task.duration > 0.0 && std::isfinite(task.duration))) {
-    throw ModelError(fmt::format("plan: duration; got {} s; expected more than 0", task.duration));
+    throw models::ModelError(
+        fmt::format("plan: duration; got {} s; expected more than 0", task.duration));
   }
   if (task.start.size() != 0 && task.start.size() != model->num_positions()) {
-    throw ModelError(fmt::format("plan: start; got {} positions; expected {}", task.start.size(),
-                                 model->num_positions()));
+    throw models::ModelError(fmt::format("plan: start; got {} positions; expected {}",
+                                         task.start.size(), model->num_positions()));
   }
   return Search(model, task).Run();
 }
 
-}  // namespace oca::models
+}  // namespace oca::planning

@@ -6,10 +6,10 @@
 #include <span>
 #include <utility>
 
-#include "models/planning/band_planner.h"
-#include "models/planning/motion_judge.h"
+#include "oca/models/planning/band_planner.h"
+#include "oca/models/planning/motion_judge.h"
 
-namespace oca::models {
+namespace oca::planning {
 
 /// A task whose every body is known for all its time.
 struct ClairvoyantTask {
@@ -51,7 +51,7 @@ inline constexpr double kClairvoyantReach = 0.05;  ///< m
 /// too, unless the arm is in contact at the start, where the search ends at once. The answer is a
 /// function of the task.
 /// throws ModelError if the task has no length, or its start not that of the positions
-ClairvoyantPlan PlanClairvoyantly(const std::shared_ptr<const RobotModel>& model,
+ClairvoyantPlan PlanClairvoyantly(const std::shared_ptr<const robot::RobotModel>& model,
                                   const ClairvoyantTask& task);
 
-}  // namespace oca::models
+}  // namespace oca::planning

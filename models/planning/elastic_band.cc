@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/planning/elastic_band.h"
+#include "oca/models/planning/elastic_band.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace oca::models {
+namespace oca::planning {
 namespace {
 
 // Between samples of an interval, s: where intervals are short something is about to happen.
@@ -31,8 +31,8 @@ bool Moves(std::span<const BandBody> bodies) {
                      [](const BandBody& body) { return !body.stands; });
 }
 
-ElasticBand::ElasticBand(std::shared_ptr<const RobotModel> model, const BandSettings& settings,
-                         bool self_collision)
+ElasticBand::ElasticBand(std::shared_ptr<const robot::RobotModel> model,
+                         const BandSettings& settings, bool self_collision)
     : model_(std::move(model)),
       settings_(settings),
       self_collision_(self_collision),
@@ -68,7 +68,7 @@ void ElasticBand::Prepare(const BandCurve& curve, const BandRequest& request,
                           std::span<const BandBody> bodies, bool end_fixed) {
   bodies_.assign(bodies.begin(), bodies.end());
   something_near_ = !bodies_.empty() || self_collision_;
-  std::vector<PlacedBody> placed;
+  std::vector<robot::PlacedBody> placed;
   for (const BandBody& body : bodies_) placed.push_back({body.collider, body.pose(curve.start())});
   clearance_.SetBodies(std::move(placed));
   num_controls_ = static_cast<int>(curve.controls().cols());
@@ -117,7 +117,7 @@ ElasticBand::Sample ElasticBand::MakeSample(const BandCurve& curve, const BandRe
 
 void ElasticBand::AddClearance(bool rows) {
   clearance_.Collect(settings_.margin, pairs_);
-  for (const NearPair& pair : pairs_) {
+  for (const robot::NearPair& pair : pairs_) {
     const double lacking = settings_.margin - pair.distance;
     if (!(lacking > 0.0)) continue;
     cost_ += settings_.clearance * lacking * lacking;
@@ -258,7 +258,7 @@ Eigen::VectorXd ElasticBand::HalfGradient(const BandCurve& curve) {
 bool ElasticBand::Touches(double nearest) {
   if (!(nearest < std::max(settings_.trust_distance, settings_.flying_distance))) return false;
   clearance_.Collect(std::max(settings_.trust_distance, settings_.flying_distance), pairs_);
-  return std::any_of(pairs_.begin(), pairs_.end(), [&](const NearPair& pair) {
+  return std::any_of(pairs_.begin(), pairs_.end(), [&](const robot::NearPair& pair) {
     const bool flies = pair.body >= 0 && !bodies_[pair.body].stands;
     return pair.distance < (flies ? settings_.flying_distance : settings_.trust_distance);
   });
@@ -273,7 +273,7 @@ BandCheck ElasticBand::Check(const BandCurve& curve) {
     Place(sample, x);
     if (before.size() > 0) check.way += (q_ - before).cwiseAbs().sum();
     before = q_;
-    const NearPair pair = clearance_.Nearest(settings_.margin);
+    const robot::NearPair pair = clearance_.Nearest(settings_.margin);
     if (pair.distance < check.min_distance) {
       check.min_distance = pair.distance;
       check.time = sample.time;
@@ -303,7 +303,7 @@ void ElasticBand::PlaceAt(const Eigen::VectorXd& q, double time) {
 
 bool ElasticBand::DistanceGradient(const Eigen::VectorXd& q, double time, Eigen::VectorXd& row) {
   PlaceAt(q, time);
-  const NearPair pair = clearance_.Nearest(settings_.margin);
+  const robot::NearPair pair = clearance_.Nearest(settings_.margin);
   if (!(pair.distance < settings_.margin)) return false;
   row.resize(q.size());
   clearance_.Gradient(pair, row);
@@ -315,4 +315,4 @@ double ElasticBand::Distance(const Eigen::VectorXd& q, double time) {
   return std::min(clearance_.Nearest(settings_.margin).distance, settings_.margin);
 }
 
-}  // namespace oca::models
+}  // namespace oca::planning

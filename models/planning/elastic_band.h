@@ -9,16 +9,16 @@
 #include <span>
 #include <vector>
 
-#include "models/name.h"
-#include "models/planning/band_curve.h"
-#include "models/planning/clearance.h"
+#include "oca/models/name.h"
+#include "oca/models/planning/band_curve.h"
+#include "oca/models/robot/clearance.h"
 
-namespace oca::models {
+namespace oca::planning {
 
 /// A body around the robot, whose pose X_WB is known at every time.
 struct BandBody {
-  Name name;
-  std::shared_ptr<const Collider> collider;
+  models::Name name;
+  std::shared_ptr<const geometry::Collider> collider;
   std::function<Eigen::Isometry3d(double time)> pose;
   bool stands;
 };
@@ -46,8 +46,8 @@ struct BandSettings {
 struct BandCheck {
   double min_distance;  ///< m; or the margin, if all is farther
   double time{0.0};     ///< s, of the nearest
-  Name link{};          ///< the nearest pair
-  Name body{};          ///< of no meaning if min_distance is the margin
+  models::Name link{};  ///< the nearest pair
+  models::Name body{};  ///< of no meaning if min_distance is the margin
   /// m s; integral of what lacks to clear_distance, and of 0.05 m times what is exceeded of limits
   /// (units as in ElasticBand) that the request does not exceed
   double violation{0.0};
@@ -74,10 +74,10 @@ struct BandCheck {
 ///        Madsen, Nielsen, Tingleff, Methods for non-linear least squares problems, 2004
 class ElasticBand {
  public:
-  ElasticBand(std::shared_ptr<const RobotModel> model, const BandSettings& settings,
+  ElasticBand(std::shared_ptr<const robot::RobotModel> model, const BandSettings& settings,
               bool self_collision = false);
 
-  const RobotModel& model() const { return *model_; }
+  const robot::RobotModel& model() const { return *model_; }
   const BandSettings& settings() const { return settings_; }
 
   /// Takes what is requested and what stands and moves around, for bands on the grid of `curve`.
@@ -137,10 +137,10 @@ class ElasticBand {
   bool Touches(double nearest);
   void PlaceAt(const Eigen::VectorXd& q, double time);
 
-  const std::shared_ptr<const RobotModel> model_;
+  const std::shared_ptr<const robot::RobotModel> model_;
   const BandSettings settings_;
   const bool self_collision_;
-  Clearance clearance_;
+  robot::Clearance clearance_;
   std::vector<BandBody> bodies_;
   std::vector<Sample> samples_;
   std::vector<Sample> checks_;
@@ -153,7 +153,7 @@ class ElasticBand {
   Eigen::VectorXd start_;  ///< position at the start of the grid
 
   // Of the sample at hand.
-  std::vector<NearPair> pairs_;
+  std::vector<robot::NearPair> pairs_;
   Eigen::VectorXd q_;
   Eigen::VectorXd row_;
   double cost_{0.0};
@@ -165,4 +165,4 @@ class ElasticBand {
   Eigen::VectorXd step_;
 };
 
-}  // namespace oca::models
+}  // namespace oca::planning

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "models/planning/elastic_band.h"
+#include "oca/models/planning/elastic_band.h"
 
-namespace oca::models {
+namespace oca::planning {
 namespace {
 
 constexpr double kLongestStep = 0.5;  // rad or m of a control point; distances bend
@@ -84,4 +84,4 @@ double ElasticBand::Relax(BandCurve& curve, int most) {
   return now.cost;
 }
 
-}  // namespace oca::models
+}  // namespace oca::planning

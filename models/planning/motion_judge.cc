@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/planning/motion_judge.h"
+#include "oca/models/planning/motion_judge.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace oca::models {
+namespace oca::planning {
 namespace {
 
 using Eigen::VectorXd;
 
 constexpr double kShareRounding = 1.0 + 1e-9;  // of a share
-constexpr double kKept = 2e-3;            // m; what is nearer lacks something
-constexpr double kUnit = 0.01;            // m that lack count as much as a whole limit
+constexpr double kKept = 2e-3;                 // m; what is nearer lacks something
+constexpr double kUnit = 0.01;                 // m that lack count as much as a whole limit
 
-std::vector<PlacedBody> Placed(std::span<const BandBody> bodies) {
-  std::vector<PlacedBody> placed;
+std::vector<robot::PlacedBody> Placed(std::span<const BandBody> bodies) {
+  std::vector<robot::PlacedBody> placed;
   for (const BandBody& body : bodies) placed.push_back({body.collider, body.pose(0.0)});
   return placed;
 }
@@ -40,7 +40,7 @@ bool MotionVerdict::within_limits() const {
   return position <= kShareRounding && speed <= kShareRounding && acceleration <= kShareRounding;
 }
 
-MotionJudge::MotionJudge(std::shared_ptr<const RobotModel> model, BandRequest request,
+MotionJudge::MotionJudge(std::shared_ptr<const robot::RobotModel> model, BandRequest request,
                          std::span<const BandBody> bodies, bool self_collision,
                          std::span<const std::pair<int, int>> ignored, double reach)
     : model_(std::move(model)),
@@ -51,12 +51,12 @@ MotionJudge::MotionJudge(std::shared_ptr<const RobotModel> model, BandRequest re
   for (const auto& [link, body] : ignored) clearance_.Ignore(link, body);
 }
 
-NearPair MotionJudge::Nearest(const VectorXd& q, double time) {
+robot::NearPair MotionJudge::Nearest(const VectorXd& q, double time) {
   clearance_.MoveTo(q);
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (!bodies_[b].stands) clearance_.MoveBody(static_cast<int>(b), bodies_[b].pose(time));
   }
-  NearPair nearest = clearance_.Nearest(reach_);
+  robot::NearPair nearest = clearance_.Nearest(reach_);
   nearest.distance = std::min(nearest.distance, reach_);
   return nearest;
 }
@@ -64,7 +64,7 @@ NearPair MotionJudge::Nearest(const VectorXd& q, double time) {
 double MotionJudge::Excess(const VectorXd motion[3], const VectorXd& start,
                            MotionVerdict& verdict) const {
   for (int d = 0; d < 3; ++d) {
-    if (!motion[d].allFinite()) return verdict.position = kUnlimited;
+    if (!motion[d].allFinite()) return verdict.position = robot::kUnlimited;
   }
   double excess = 0.0;
   const auto count = [&](double share, double& largest) {
@@ -96,7 +96,7 @@ MotionVerdict MotionJudge::Judge(const BandCurve& deviation, double duration, do
       motion[d] += request;
     }
     if (k == 0) start = motion[0];
-    const NearPair near = Nearest(motion[0], time);
+    const robot::NearPair near = Nearest(motion[0], time);
     if (near.distance < verdict.min_distance) {
       verdict.min_distance = near.distance;
       verdict.time = time;
@@ -116,4 +116,4 @@ MotionVerdict MotionJudge::Judge(const BandCurve& deviation, double duration, do
   return verdict;
 }
 
-}  // namespace oca::models
+}  // namespace oca::planning

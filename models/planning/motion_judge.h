@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "models/planning/band_curve.h"
-#include "models/planning/clearance.h"
-#include "models/planning/elastic_band.h"
+#include "oca/models/planning/band_curve.h"
+#include "oca/models/planning/elastic_band.h"
+#include "oca/models/robot/clearance.h"
 
-namespace oca::models {
+namespace oca::planning {
 
 inline constexpr double kMotionGrid = 1e-3;  ///< s
 
@@ -19,8 +19,8 @@ inline constexpr double kMotionGrid = 1e-3;  ///< s
 struct MotionVerdict {
   double min_distance{0.0};  ///< m, signed; the judge's reach if everything is farther
   double time{0.0};          ///< s, of the nearest
-  Name link{};               ///< the nearest pair; of no meaning if all is beyond the reach
-  Name body{};
+  models::Name link{};       ///< the nearest pair; of no meaning if all is beyond the reach
+  models::Name body{};
   double position{0.0};  ///< largest share of the way from the middle to a limit; 0 without any
   double speed{0.0};     ///< largest share of a velocity limit; 0 without any
   double acceleration{0.0};
@@ -43,7 +43,7 @@ class MotionJudge {
  public:
   /// What is farther than `reach` (m) counts as at `reach`. `ignored`: links and bodies, by their
   /// numbers, whose distance does not count.
-  MotionJudge(std::shared_ptr<const RobotModel> model, BandRequest request,
+  MotionJudge(std::shared_ptr<const robot::RobotModel> model, BandRequest request,
               std::span<const BandBody> bodies, bool self_collision,
               std::span<const std::pair<int, int>> ignored, double reach);
 
@@ -53,16 +53,16 @@ class MotionJudge {
   double Distance(const Eigen::VectorXd& q, double time) { return Nearest(q, time).distance; }
 
  private:
-  NearPair Nearest(const Eigen::VectorXd& q, double time);
+  robot::NearPair Nearest(const Eigen::VectorXd& q, double time);
   /// What lacks at a time, of the limits; the shares go into the verdict.
   double Excess(const Eigen::VectorXd motion[3], const Eigen::VectorXd& start,
                 MotionVerdict& verdict) const;
 
-  const std::shared_ptr<const RobotModel> model_;
+  const std::shared_ptr<const robot::RobotModel> model_;
   const BandRequest request_;
   const std::vector<BandBody> bodies_;
   const double reach_;
-  Clearance clearance_;
+  robot::Clearance clearance_;
 };
 
-}  // namespace oca::models
+}  // namespace oca::planning

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/planning/rrt_connect.h"
+#include "oca/models/planning/rrt_connect.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
-#include "models/planning/certified_motion.h"
-#include "models/random.h"
-#include "models/robot/joint_limits.h"
+#include "oca/models/planning/certified_motion.h"
+#include "oca/models/random.h"
+#include "oca/models/robot/joint_limits.h"
 
-namespace oca::models {
+namespace oca::planning {
 namespace {
 
 using Path = std::vector<Eigen::VectorXd>;
@@ -85,15 +85,15 @@ class Tree {
 struct Room {
   Eigen::VectorXd lower, upper;
 
-  Room(const RobotModel& model, const Eigen::VectorXd& start, const Eigen::VectorXd& goal)
+  Room(const robot::RobotModel& model, const Eigen::VectorXd& start, const Eigen::VectorXd& goal)
       : lower(model.lower_limits()), upper(model.upper_limits()) {
     for (Eigen::Index i = 0; i < lower.size(); ++i) {
-      if (HasOwnRange(model, i)) continue;
+      if (robot::HasOwnRange(model, i)) continue;
       lower[i] = std::max(lower[i], std::min(start[i], goal[i]) - std::numbers::pi);
       upper[i] = std::min(upper[i], std::max(start[i], goal[i]) + std::numbers::pi);
     }
   }
-  Eigen::VectorXd Draw(Random& random) const {
+  Eigen::VectorXd Draw(models::Random& random) const {
     Eigen::VectorXd q(lower.size());
     for (Eigen::Index i = 0; i < q.size(); ++i) q[i] = random.Uniform(lower[i], upper[i]);
     return q;
@@ -109,7 +109,7 @@ Path Join(const Tree& from_start, int start_node, const Tree& from_goal, int goa
 
 }  // namespace
 
-std::optional<Path> RrtConnect(Clearance& clearance, const Eigen::VectorXd& start,
+std::optional<Path> RrtConnect(robot::Clearance& clearance, const Eigen::VectorXd& start,
                                const Eigen::VectorXd& goal, const RrtOptions& options) {
   CertifiedMotion motion(clearance, options.margin);
   if (!motion.Clear(start) || !motion.Clear(goal)) return std::nullopt;
@@ -117,7 +117,7 @@ std::optional<Path> RrtConnect(Clearance& clearance, const Eigen::VectorXd& star
   Tree from_start(start);
   Tree from_goal(goal);
   const Room room(clearance.model(), start, goal);
-  Random random(options.seed);
+  models::Random random(options.seed);
   bool start_grows = true;
   // A draw that leads nowhere costs time as well.
   for (int draws = 0; draws < options.most_nodes; ++draws) {
@@ -143,9 +143,9 @@ std::optional<Path> RrtConnect(Clearance& clearance, const Eigen::VectorXd& star
   return std::nullopt;
 }
 
-void Shorten(Clearance& clearance, const RrtOptions& options, Path& path) {
+void Shorten(robot::Clearance& clearance, const RrtOptions& options, Path& path) {
   CertifiedMotion motion(clearance, options.margin);
-  Random random(Random::Seed(options.seed, "shorten"));
+  models::Random random(models::Random::Seed(options.seed, "shorten"));
   for (int i = 0; i < options.shortcuts && path.size() > 2; ++i) {
     // Two points on different edges, anywhere on them.
     std::size_t a = random.Below(path.size() - 1);
@@ -163,4 +163,4 @@ void Shorten(Clearance& clearance, const RrtOptions& options, Path& path) {
   }
 }
 
-}  // namespace oca::models
+}  // namespace oca::planning

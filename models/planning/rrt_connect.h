@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "models/planning/clearance.h"
+#include "oca/models/robot/clearance.h"
 
-namespace oca::models {
+namespace oca::planning {
 
 struct RrtOptions {
   std::uint64_t seed{0};
@@ -26,12 +26,13 @@ struct RrtOptions {
 /// new node. Every edge is proved clear by CertifiedMotion, so that the answer holds between the
 /// points too. The same arguments give the same path. Allocates.
 /// source Kuffner, LaValle, RRT-Connect: An Efficient Approach to Single-Query Path Planning, 2000
-std::optional<std::vector<Eigen::VectorXd>> RrtConnect(Clearance& clearance,
+std::optional<std::vector<Eigen::VectorXd>> RrtConnect(robot::Clearance& clearance,
                                                        const Eigen::VectorXd& start,
                                                        const Eigen::VectorXd& goal,
                                                        const RrtOptions& options = {});
 
 /// Replaces pieces between random points of a path by straight motions where those are clear.
-void Shorten(Clearance& clearance, const RrtOptions& options, std::vector<Eigen::VectorXd>& path);
+void Shorten(robot::Clearance& clearance, const RrtOptions& options,
+             std::vector<Eigen::VectorXd>& path);
 
-}  // namespace oca::models
+}  // namespace oca::planning

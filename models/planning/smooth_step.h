@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace oca::models {
+namespace oca::planning {
 
 /// From 0 at s <= 0 to 1 at s >= 1, its first and second derivative zero at both ends:
 ///
@@ -13,4 +13,4 @@ inline double SmoothStep(double s) {
   return s * s * s * (10.0 + s * (6.0 * s - 15.0));
 }
 
-}  // namespace oca::models
+}  // namespace oca::planning

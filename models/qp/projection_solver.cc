@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/qp/projection_solver.h"
+#include "oca/models/qp/projection_solver.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
 
-namespace oca::models {
+namespace oca::qp {
 namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
@@ -301,4 +301,4 @@ void ProjectionSolver::Solve(const ProjectionQp& qp, QpSolution& solution) {
   }
 }
 
-}  // namespace oca::models
+}  // namespace oca::qp

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/attach_objects.h"
+#include "oca/models/robot/attach_objects.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "models/error.h"
-#include "models/robot/nearest_name.h"
+#include "oca/models/error.h"
+#include "oca/models/nearest_name.h"
 
-namespace oca::models {
+namespace oca::robot {
 namespace {
 
 const Eigen::Vector4d kObjectColour{0.72, 0.58, 0.40, 1.0};
@@ -20,9 +20,9 @@ int FindLink(const std::vector<Link>& links, const std::string& name, const std:
     names.push_back(links[i].name.text());
     if (names.back() == name) return static_cast<int>(i);
   }
-  throw ModelError(
+  throw models::ModelError(
       fmt::format("{}: unknown link; got '{}'; expected a link of the robot, nearest is '{}'",
-                  where, name, NearestName(name, names)));
+                  where, name, models::NearestName(name, names)));
 }
 
 void CheckId(const std::vector<Link>& links, const std::vector<Joint>& joints,
@@ -31,8 +31,8 @@ void CheckId(const std::vector<Link>& links, const std::vector<Joint>& joints,
   const bool taken = std::any_of(links.begin(), links.end(), named) ||
                      std::any_of(joints.begin(), joints.end(), named);
   if (!id.empty() && !taken) return;
-  throw ModelError(fmt::format("{}: id; got {}; expected a name of its own", where,
-                               id.empty() ? "an empty one" : "one that is taken"));
+  throw models::ModelError(fmt::format("{}: id; got {}; expected a name of its own", where,
+                                       id.empty() ? "an empty one" : "one that is taken"));
 }
 
 }  // namespace
@@ -47,12 +47,12 @@ RobotModel AttachObjects(const RobotModel& robot, std::span<const AttachedObject
     CheckId(links, joints, object.id, where);
     const int number = static_cast<int>(links.size());
     Joint joint;
-    joint.name = Name(object.id);
+    joint.name = models::Name(object.id);
     joint.parent_link = FindLink(links, object.link, where);
     joint.child_link = number;
     joint.X_PJ = object.X_LO;
     Link link;
-    link.name = Name(object.id);
+    link.name = models::Name(object.id);
     link.collisions.push_back({Eigen::Isometry3d::Identity(), object.shape, where});
     link.attached = true;
     VisualElement visual;
@@ -68,4 +68,4 @@ RobotModel AttachObjects(const RobotModel& robot, std::span<const AttachedObject
   return {robot.name(), std::move(links), std::move(joints), robot.X_WB(), std::move(disabled)};
 }
 
-}  // namespace oca::models
+}  // namespace oca::robot

@@ -6,16 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "models/robot/robot_model.h"
+#include "oca/models/robot/robot_model.h"
 
-namespace oca::models {
+namespace oca::robot {
 
 /// Something that a robot holds or wears: a tool, a grasped box.
 struct AttachedObject {
   std::string id;
   std::string link;                                       ///< that carries it
   Eigen::Isometry3d X_LO{Eigen::Isometry3d::Identity()};  ///< of the shape's frame in that link
-  Shape shape;
+  geometry::Shape shape;
   std::vector<std::string> touches;  ///< links and earlier objects that it may touch
 };
 
@@ -28,4 +28,4 @@ struct AttachedObject {
 /// throws ModelError if an id is empty or taken, or a link to carry or to touch does not exist
 RobotModel AttachObjects(const RobotModel& robot, std::span<const AttachedObject> objects);
 
-}  // namespace oca::models
+}  // namespace oca::robot

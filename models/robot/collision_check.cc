@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/collision_check.h"
+#include "oca/models/robot/collision_check.h"
 
 #include <fmt/format.h>
 
@@ -8,17 +8,17 @@
 #include <memory>
 #include <random>
 
-#include "models/error.h"
-#include "models/geometry/distance.h"
-#include "models/robot/joint_limits.h"
-#include "models/robot/kinematics.h"
+#include "oca/models/error.h"
+#include "oca/models/geometry/distance.h"
+#include "oca/models/robot/joint_limits.h"
+#include "oca/models/robot/kinematics.h"
 
-namespace oca::models {
+namespace oca::robot {
 namespace {
 
 struct Solid {
   Eigen::Isometry3d X_LC;
-  std::shared_ptr<const Collider> collider;
+  std::shared_ptr<const geometry::Collider> collider;
 };
 
 /// Where a position is drawn from, and whether its limits end it.
@@ -48,11 +48,11 @@ class Draws {
 
 void CheckSampling(const CollisionSampling& sampling) {
   if (sampling.samples < 1) {
-    throw ModelError(
+    throw models::ModelError(
         fmt::format("samples: how many to draw; got {}; expected at least 1", sampling.samples));
   }
   if (!(sampling.margin >= 0.0) || !std::isfinite(sampling.margin)) {
-    throw ModelError(
+    throw models::ModelError(
         fmt::format("margin: got {} m; expected a finite number >= 0", sampling.margin));
   }
 }
@@ -65,7 +65,7 @@ std::vector<Range> RangesOf(const RobotModel& model) {
       ranges.push_back({range->first, range->second, HasOwnRange(model, i)});
       continue;
     }
-    throw ModelError(fmt::format(
+    throw models::ModelError(fmt::format(
         "robot '{}' joint '{}': limits; got [{:g}, {:g}]; expected a range of at most 100 m, or "
         "100 turns, that samples can cover",
         model.name().text(), model.position_names()[static_cast<std::size_t>(i)].text(),
@@ -86,7 +86,8 @@ std::vector<std::vector<Solid>> MakeSolids(const RobotModel& model) {
   for (const Link& link : model.links()) {
     solids.emplace_back();
     for (const CollisionElement& element : link.collisions) {
-      solids.back().push_back({element.X_LC, MakeCollider(element.shape, element.source)});
+      solids.back().push_back(
+          {element.X_LC, geometry::MakeCollider(element.shape, element.source)});
     }
   }
   return solids;
@@ -100,7 +101,7 @@ double DistanceWithin(const std::vector<Solid>& a, const Eigen::Isometry3d& X_WA
     for (const Solid& two : b) {
       const double bound = std::max(std::min(limit, least), 0.0);
       const auto found =
-          Distance(*one.collider, X_WA * one.X_LC, *two.collider, X_WB * two.X_LC, bound);
+          geometry::Distance(*one.collider, X_WA * one.X_LC, *two.collider, X_WB * two.X_LC, bound);
       least = std::min(least, found.distance);
     }
   }
@@ -109,7 +110,7 @@ double DistanceWithin(const std::vector<Solid>& a, const Eigen::Isometry3d& X_WA
 
 void RequireFinite(const RobotModel& model, const LinkPairCheck& pair) {
   if (std::isfinite(pair.least_distance)) return;
-  throw ModelError(
+  throw models::ModelError(
       fmt::format("robot '{}' links '{}' and '{}': distance; got {}; expected a finite number: the "
                   "poses of the model are too large",
                   model.name().text(), model.links()[pair.link_a].name.text(),
@@ -164,4 +165,4 @@ std::vector<LinkPairCheck> CheckCollisions(const RobotModel& model,
   return pairs;
 }
 
-}  // namespace oca::models
+}  // namespace oca::robot

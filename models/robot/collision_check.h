@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "models/robot/robot_model.h"
+#include "oca/models/robot/robot_model.h"
 
-namespace oca::models {
+namespace oca::robot {
 
 /// Why a pair of links need not be checked for collision, or that it must be.
 enum class PairKind {
@@ -49,4 +49,4 @@ struct LinkPairCheck {
 std::vector<LinkPairCheck> CheckCollisions(const RobotModel& model,
                                            const CollisionSampling& sampling);
 
-}  // namespace oca::models
+}  // namespace oca::robot

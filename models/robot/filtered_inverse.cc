@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/filtered_inverse.h"
+#include "oca/models/robot/filtered_inverse.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
-namespace oca::models {
+namespace oca::robot {
 namespace {
 
 using Spectrum = Eigen::SelfAdjointEigenSolver<JointMatrix>;
@@ -35,4 +35,4 @@ JointMatrix FilteredNullspace(const JointMatrix& M, const Damping& damping) {
   return V * kept.asDiagonal() * V.transpose();
 }
 
-}  // namespace oca::models
+}  // namespace oca::robot

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace oca::models {
+namespace oca::robot {
 
 // Inverses that stay small where a task loses rank, by the normal equations of any number of rows:
 // M = sum J_i^T J_i, b = sum J_i^T xdot_i. Nothing here allocates.
@@ -46,4 +46,4 @@ inline double Fade(double x, double full, double none) {
   return s * s * (3.0 - 2.0 * s);
 }
 
-}  // namespace oca::models
+}  // namespace oca::robot

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/inverse_kinematics.h"
+#include "oca/models/robot/inverse_kinematics.h"
 
 #include <ceres/tiny_solver.h>
 #include <fmt/format.h>
@@ -12,13 +12,13 @@
 #include <string>
 #include <vector>
 
-#include "models/error.h"
-#include "models/planning/clearance.h"
-#include "models/random.h"
-#include "models/robot/joint_limits.h"
-#include "models/robot/pose_error.h"
+#include "oca/models/error.h"
+#include "oca/models/random.h"
+#include "oca/models/robot/clearance.h"
+#include "oca/models/robot/joint_limits.h"
+#include "oca/models/robot/pose_error.h"
 
-namespace oca::models {
+namespace oca::robot {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -254,7 +254,7 @@ class Search {
   Clearance* const surroundings_;
   const Eigen::VectorXd start_;
   Residuals residuals_;
-  Random random_;
+  models::Random random_;
   std::vector<bool> carries_;  // the link, one a position
   std::vector<bool> ranges_;   // has limits to draw between
   std::vector<bool> turns_;    // has whole turns to spare
@@ -262,7 +262,8 @@ class Search {
 };
 
 [[noreturn]] void Refuse(const char* what, double got, const char* expected) {
-  throw ModelError(fmt::format("inverse kinematics: {}; got {}; expected {}", what, got, expected));
+  throw models::ModelError(
+      fmt::format("inverse kinematics: {}; got {}; expected {}", what, got, expected));
 }
 
 void CheckSettings(const InverseKinematicsSettings& settings) {
@@ -293,8 +294,9 @@ int TipLink(const RobotModel& model) {
     names.push_back(model.links()[link].name.text());
   }
   if (names.size() == 1) return tip;
-  throw ModelError(fmt::format("robot '{}': its tip; got {}; expected one of them to be named",
-                               model.name().text(), fmt::join(names, ", ")));
+  throw models::ModelError(
+      fmt::format("robot '{}': its tip; got {}; expected one of them to be named",
+                  model.name().text(), fmt::join(names, ", ")));
 }
 
 PostureSolution SolveInverseKinematics(const RobotModel& model, int link,
@@ -307,9 +309,10 @@ PostureSolution SolveInverseKinematics(const RobotModel& model, int link,
   CheckPositions(model, start);
   CheckSettings(settings);
   if (!X_WG.matrix().allFinite()) {
-    throw ModelError("inverse kinematics: pose; got a NaN or an infinity; expected finite numbers");
+    throw models::ModelError(
+        "inverse kinematics: pose; got a NaN or an infinity; expected finite numbers");
   }
   return Search(model, link, X_WG, start, settings, surroundings).Run();
 }
 
-}  // namespace oca::models
+}  // namespace oca::robot

@@ -5,9 +5,9 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 
-#include "models/robot/robot_model.h"
+#include "oca/models/robot/robot_model.h"
 
-namespace oca::models {
+namespace oca::robot {
 
 class Clearance;
 
@@ -58,4 +58,4 @@ PostureSolution SolveInverseKinematics(const RobotModel& model, int link,
                                        const InverseKinematicsSettings& settings = {},
                                        Clearance* surroundings = nullptr);
 
-}  // namespace oca::models
+}  // namespace oca::robot

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/jacobian_mapping.h"
+#include "oca/models/robot/jacobian_mapping.h"
 
 #include <cassert>
 
-#include "models/robot/joint_axis.h"
+#include "oca/models/robot/joint_axis.h"
 
-namespace oca::models {
+namespace oca::robot {
 namespace {
 
 // A pivot below this share of its diagonal entry is rounding: the share is sin^2 of the angle
@@ -148,4 +148,4 @@ MappingStatus MapWrenches(const RobotModel& model, std::span<const Eigen::Isomet
   return status;
 }
 
-}  // namespace oca::models
+}  // namespace oca::robot

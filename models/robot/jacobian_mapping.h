@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "models/robot/robot_model.h"
+#include "oca/models/robot/robot_model.h"
 
-namespace oca::models {
+namespace oca::robot {
 
 /// Force (N) and torque (Nm) on a body, world axes; the torque is about the origin of the body's
 /// link, which lies on the joint that leads to it. source report section 3.3; docs/theory.md
@@ -85,4 +85,4 @@ MappingStatus MapWrenches(const RobotModel& model, std::span<const Eigen::Isomet
                           std::span<const BodyWrench> wrenches, const MappingSettings& settings,
                           MappingWorkspace& workspace, Eigen::Ref<Eigen::VectorXd> delta);
 
-}  // namespace oca::models
+}  // namespace oca::robot

@@ -3,9 +3,9 @@
 
 #include <Eigen/Geometry>
 
-#include "models/robot/robot_model.h"
+#include "oca/models/robot/robot_model.h"
 
-namespace oca::models::internal {
+namespace oca::robot::internal {
 
 /// Axis of the joint that carries a link, world axes: of a joint along a coordinate axis, as nearly
 /// all are, a column of the link's rotation, to the same digits.
@@ -14,4 +14,4 @@ inline Eigen::Vector3d JointAxis(const KinematicStep& step, const Eigen::Isometr
   return X_WL.linear() * step.axis;
 }
 
-}  // namespace oca::models::internal
+}  // namespace oca::robot::internal

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/joint_limits.h"
+#include "oca/models/robot/joint_limits.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,9 +8,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "models/error.h"
+#include "oca/models/error.h"
 
-namespace oca::models {
+namespace oca::robot {
 namespace {
 
 constexpr double kHalfTurn = std::numbers::pi;
@@ -58,7 +58,7 @@ bool Below(double a, double b) {
 }
 
 /// Takes what a mimic leaves of `limits`. Two ends that rounding has made cross are one.
-void Bind(Name robot, const Joint& mimic, const KinematicStep& step, const Joint& leader,
+void Bind(models::Name robot, const Joint& mimic, const KinematicStep& step, const Joint& leader,
           PositionLimits& limits) {
   const PositionLimits before = limits;
   const double m = step.multiplier;
@@ -66,7 +66,7 @@ void Bind(Name robot, const Joint& mimic, const KinematicStep& step, const Joint
   const bool stands_outside =
       m == 0.0 && (Below(step.offset, mimic.lower_limit) || Below(mimic.upper_limit, step.offset));
   if (stands_outside || Below(limits.upper, limits.lower)) {
-    throw ModelError(fmt::format(
+    throw models::ModelError(fmt::format(
         "robot '{}' joint '{}': mimic; got {} times the position of '{}' plus {}, which is outside "
         "its own limits {} {} wherever '{}' may stand, {} {}; expected limits that both can keep",
         robot.text(), mimic.name.text(), m, leader.name.text(), step.offset,
@@ -149,7 +149,7 @@ void WarnOfRanges(const RobotModel& model, std::vector<std::string>& lines) {
 
 }  // namespace
 
-std::vector<PositionLimits> LimitsOfPositions(Name robot, const std::vector<Joint>& joints,
+std::vector<PositionLimits> LimitsOfPositions(models::Name robot, const std::vector<Joint>& joints,
                                               const std::vector<KinematicStep>& steps) {
   std::vector<PositionLimits> all;
   for (const Joint& joint : joints) {  // in the order of their positions
@@ -250,4 +250,4 @@ std::string ImpossibleState(const RobotModel& model, const Eigen::Ref<const Eige
   return "";
 }
 
-}  // namespace oca::models
+}  // namespace oca::robot

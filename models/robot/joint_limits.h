@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "models/robot/robot_model.h"
+#include "oca/models/robot/robot_model.h"
 
-namespace oca::models {
+namespace oca::robot {
 
 // What the limits in a description mean, the same for all that reads them.
 
@@ -47,7 +47,7 @@ struct PositionLimits {
 /// acceleration and jerk likewise; its effort is its own. A velocity or effort limit of 0 counts as
 /// not given: exporters write it for "not filled in".
 /// throws ModelError naming both joints if a mimic leaves its leader no position
-std::vector<PositionLimits> LimitsOfPositions(Name robot, const std::vector<Joint>& joints,
+std::vector<PositionLimits> LimitsOfPositions(models::Name robot, const std::vector<Joint>& joints,
                                               const std::vector<KinematicStep>& steps);
 
 /// A line for all that these rules make of a description and its author may not have meant:
@@ -73,4 +73,4 @@ std::pair<double, double> PossibleRange(const RobotModel& model, Eigen::Index in
 /// one that is not finite or out of its PossibleRange.
 std::string ImpossibleState(const RobotModel& model, const Eigen::Ref<const Eigen::VectorXd>& q);
 
-}  // namespace oca::models
+}  // namespace oca::robot

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/kinematics.h"
+#include "oca/models/robot/kinematics.h"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <cassert>
 #include <cmath>
 
-#include "models/error.h"
-#include "models/robot/joint_axis.h"
+#include "oca/models/error.h"
+#include "oca/models/robot/joint_axis.h"
 
-namespace oca::models {
+namespace oca::robot {
 namespace {
 
 // R <- R * rotation about coordinate axis `axis` by `angle`: it turns two columns into each other.
@@ -72,12 +72,12 @@ void FillLinkJacobian(const RobotModel& model, std::span<const Eigen::Isometry3d
 
 void CheckPositions(const RobotModel& model, const Eigen::Ref<const Eigen::VectorXd>& q) {
   if (q.size() != model.num_positions()) {
-    throw ModelError(fmt::format("robot '{}': positions; got {}; expected {}", model.name().text(),
-                                 q.size(), model.num_positions()));
+    throw models::ModelError(fmt::format("robot '{}': positions; got {}; expected {}",
+                                         model.name().text(), q.size(), model.num_positions()));
   }
   for (int i = 0; i < q.size(); ++i) {
     if (!std::isfinite(q[i])) {
-      throw ModelError(
+      throw models::ModelError(
           fmt::format("robot '{}': position of joint '{}'; got {}; expected a finite number",
                       model.name().text(), model.position_names()[i].text(), q[i]));
     }
@@ -229,4 +229,4 @@ void StackedJacobian(const RobotModel& model, std::span<const Eigen::Isometry3d>
   }
 }
 
-}  // namespace oca::models
+}  // namespace oca::robot

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "models/robot/robot_model.h"
+#include "oca/models/robot/robot_model.h"
 
-namespace oca::models {
+namespace oca::robot {
 
 // Conventions of this file. q holds num_positions() joint positions (rad, m). X_WL holds one pose a
 // link, in the order of the model. All vectors have world axes. A Jacobian has num_positions()
@@ -75,4 +75,4 @@ void DistanceRow(const RobotModel& model, std::span<const Eigen::Isometry3d> X_W
 void StackedJacobian(const RobotModel& model, std::span<const Eigen::Isometry3d> X_WL,
                      Eigen::Ref<Eigen::MatrixXd> J);
 
-}  // namespace oca::models
+}  // namespace oca::robot

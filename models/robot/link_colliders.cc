@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/link_colliders.h"
+#include "oca/models/robot/link_colliders.h"
 
 #include <algorithm>
 
-#include "models/robot/robot_model.h"
+#include "oca/models/robot/robot_model.h"
 
-namespace oca::models {
+namespace oca::robot {
 namespace {
 
-SignedDistance NothingNear() {
-  SignedDistance nothing;
-  nothing.status = DistanceStatus::kBeyond;
+geometry::SignedDistance NothingNear() {
+  geometry::SignedDistance nothing;
+  nothing.status = geometry::DistanceStatus::kBeyond;
   return nothing;
 }
 
@@ -36,16 +36,20 @@ bool BallsBeyond(const Eigen::Vector3d& centre_a, double radius_a, const Eigen::
   return (centre_a - centre_b).squaredNorm() > reach * reach;
 }
 
-void KeepNearer(const LinkCollider& link, const Eigen::Isometry3d& X_WL, const Collider& body,
-                const Eigen::Isometry3d& X_WB, double max_distance, SignedDistance& nearest) {
+void KeepNearer(const LinkCollider& link, const Eigen::Isometry3d& X_WL,
+                const geometry::Collider& body, const Eigen::Isometry3d& X_WB, double max_distance,
+                geometry::SignedDistance& nearest) {
   for (const auto& [X_LC, collider] : link.elements) {
     // What is farther than the nearest so far need not be known exactly.
-    const double limit = nearest.status == DistanceStatus::kBeyond
+    const double limit = nearest.status == geometry::DistanceStatus::kBeyond
                              ? max_distance
                              : std::clamp(nearest.distance, 0.0, max_distance);
-    const SignedDistance found = Distance(*collider, X_WL * X_LC, body, X_WB, limit);
-    if (found.status == DistanceStatus::kBeyond || found.distance > max_distance) continue;
-    if (nearest.status == DistanceStatus::kBeyond || !(found.distance >= nearest.distance)) {
+    const geometry::SignedDistance found =
+        geometry::Distance(*collider, X_WL * X_LC, body, X_WB, limit);
+    if (found.status == geometry::DistanceStatus::kBeyond || found.distance > max_distance)
+      continue;
+    if (nearest.status == geometry::DistanceStatus::kBeyond ||
+        !(found.distance >= nearest.distance)) {
       nearest = found;
     }
   }
@@ -60,7 +64,8 @@ std::vector<LinkCollider> LinkCollidersOf(const RobotModel& model) {
     if (link.collisions.empty()) continue;
     LinkCollider collider{link.name, i, {}, Eigen::Vector3d::Zero(), 0.0};
     for (const CollisionElement& element : link.collisions) {
-      collider.elements.push_back({element.X_LC, MakeCollider(element.shape, element.source)});
+      collider.elements.push_back(
+          {element.X_LC, geometry::MakeCollider(element.shape, element.source)});
     }
     AddBall(collider);
     colliders.push_back(std::move(collider));
@@ -68,10 +73,10 @@ std::vector<LinkCollider> LinkCollidersOf(const RobotModel& model) {
   return colliders;
 }
 
-SignedDistance DistanceToBody(const LinkCollider& link, const Eigen::Isometry3d& X_WL,
-                              const Collider& body, const Eigen::Isometry3d& X_WB,
-                              double max_distance) {
-  SignedDistance nearest = NothingNear();
+geometry::SignedDistance DistanceToBody(const LinkCollider& link, const Eigen::Isometry3d& X_WL,
+                                        const geometry::Collider& body,
+                                        const Eigen::Isometry3d& X_WB, double max_distance) {
+  geometry::SignedDistance nearest = NothingNear();
   if (BallsBeyond(X_WL * link.centre, link.radius, X_WB * body.centre(), body.bounding_radius(),
                   max_distance)) {
     return nearest;
@@ -80,10 +85,10 @@ SignedDistance DistanceToBody(const LinkCollider& link, const Eigen::Isometry3d&
   return nearest;
 }
 
-SignedDistance DistanceToLink(const LinkCollider& link, const Eigen::Isometry3d& X_WL,
-                              const LinkCollider& other, const Eigen::Isometry3d& X_WO,
-                              double max_distance) {
-  SignedDistance nearest = NothingNear();
+geometry::SignedDistance DistanceToLink(const LinkCollider& link, const Eigen::Isometry3d& X_WL,
+                                        const LinkCollider& other, const Eigen::Isometry3d& X_WO,
+                                        double max_distance) {
+  geometry::SignedDistance nearest = NothingNear();
   if (BallsBeyond(X_WL * link.centre, link.radius, X_WO * other.centre, other.radius,
                   max_distance)) {
     return nearest;
@@ -94,4 +99,4 @@ SignedDistance DistanceToLink(const LinkCollider& link, const Eigen::Isometry3d&
   return nearest;
 }
 
-}  // namespace oca::models
+}  // namespace oca::robot

@@ -6,10 +6,10 @@
 #include <memory>
 #include <vector>
 
-#include "models/geometry/distance.h"
-#include "models/name.h"
+#include "oca/models/geometry/distance.h"
+#include "oca/models/name.h"
 
-namespace oca::models {
+namespace oca::robot {
 
 class RobotModel;
 
@@ -17,9 +17,9 @@ class RobotModel;
 struct LinkCollider {
   struct Element {
     Eigen::Isometry3d X_LC;
-    std::shared_ptr<const Collider> collider;
+    std::shared_ptr<const geometry::Collider> collider;
   };
-  Name link;
+  models::Name link;
   int number;  ///< of the link in its model
   std::vector<Element> elements;
   Eigen::Vector3d centre;  ///< of the ball, in the link's frame
@@ -32,11 +32,11 @@ std::vector<LinkCollider> LinkCollidersOf(const RobotModel& model);
 
 /// Least signed distance of the solids of a link at X_WL to those of another body, with the normal
 /// from that body to the link. Its status is kBeyond if it exceeds `max_distance`. No heap.
-SignedDistance DistanceToBody(const LinkCollider& link, const Eigen::Isometry3d& X_WL,
-                              const Collider& body, const Eigen::Isometry3d& X_WB,
-                              double max_distance);
-SignedDistance DistanceToLink(const LinkCollider& link, const Eigen::Isometry3d& X_WL,
-                              const LinkCollider& other, const Eigen::Isometry3d& X_WO,
-                              double max_distance);
+geometry::SignedDistance DistanceToBody(const LinkCollider& link, const Eigen::Isometry3d& X_WL,
+                                        const geometry::Collider& body,
+                                        const Eigen::Isometry3d& X_WB, double max_distance);
+geometry::SignedDistance DistanceToLink(const LinkCollider& link, const Eigen::Isometry3d& X_WL,
+                                        const LinkCollider& other, const Eigen::Isometry3d& X_WO,
+                                        double max_distance);
 
-}  // namespace oca::models
+}  // namespace oca::robot

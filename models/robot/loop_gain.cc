@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/loop_gain.h"
+#include "oca/models/robot/loop_gain.h"
 
 #include <cassert>
 #include <cmath>
 
-#include "models/robot/kinematics.h"
+#include "oca/models/robot/kinematics.h"
 
-namespace oca::models {
+namespace oca::robot {
 namespace {
 
 constexpr double kRegularisation = 1e-9;
@@ -75,4 +75,4 @@ double LoopGain(const RobotModel& model, std::span<const Eigen::Isometry3d> X_WL
 
 double LeastRelaxationTime(double gain, double dt) { return 0.5 * dt * (1.0 + gain); }
 
-}  // namespace oca::models
+}  // namespace oca::robot

@@ -5,9 +5,9 @@
 #include <Eigen/Geometry>
 #include <span>
 
-#include "models/robot/jacobian_mapping.h"
+#include "oca/models/robot/jacobian_mapping.h"
 
-namespace oca::models {
+namespace oca::robot {
 
 /// A contact whose force on `link` at `point` changes by -slope d(rho), rho its distance along the
 /// unit normal `normal` (from the obstacle to the link). If the obstacle is `other`, a link of the
@@ -48,4 +48,4 @@ double LoopGain(const RobotModel& model, std::span<const Eigen::Isometry3d> X_WL
 /// dt (1 + g) / 2: the relaxation time above which the loop is stable, s.
 double LeastRelaxationTime(double gain, double dt);
 
-}  // namespace oca::models
+}  // namespace oca::robot

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/mesh_path.h"
+#include "oca/models/robot/mesh_path.h"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "models/error.h"
-#include "models/opened_files.h"
+#include "oca/models/error.h"
+#include "oca/models/opened_files.h"
 
-namespace oca::models {
+namespace oca::robot {
 namespace {
 
 std::vector<std::filesystem::path> Candidates(const std::string& name,
@@ -42,13 +42,13 @@ std::filesystem::path FindMesh(const std::string& name, const std::filesystem::p
   for (const auto& candidate : Candidates(name, directory, options)) {
     std::error_code error;
     if (std::filesystem::is_regular_file(candidate, error)) {
-      NoteOpened(candidate);  // whoever asks will read or show it
+      models::NoteOpened(candidate);  // whoever asks will read or show it
       return candidate;
     }
     tried += (tried.empty() ? "" : " or ") + candidate.string();
   }
-  throw ModelError(fmt::format("{}: missing mesh file; got '{}'; expected a file at {}", where,
-                               name, tried.empty() ? "a known package" : tried));
+  throw models::ModelError(fmt::format("{}: missing mesh file; got '{}'; expected a file at {}",
+                                       where, name, tried.empty() ? "a known package" : tried));
 }
 
-}  // namespace oca::models
+}  // namespace oca::robot

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <string>
 
-#include "models/robot/urdf.h"
+#include "oca/models/robot/urdf.h"
 
-namespace oca::models {
+namespace oca::robot {
 
 /// The file that a URDF's mesh `name` means: package://NAME/rest as LoadOptions says, file://path,
 /// or a path relative to `directory`. `where` begins the message.
@@ -14,4 +14,4 @@ namespace oca::models {
 std::filesystem::path FindMesh(const std::string& name, const std::filesystem::path& directory,
                                const LoadOptions& options, const std::string& where);
 
-}  // namespace oca::models
+}  // namespace oca::robot

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/pose_error.h"
+#include "oca/models/robot/pose_error.h"
 
 #include <cmath>
 
-namespace oca::models {
+namespace oca::robot {
 
 Vector6 PoseError(const Eigen::Isometry3d& X_WL, const Eigen::Isometry3d& X_WG) {
   // Eigen's angle is in [0, pi] and exact near both ends, as it goes by way of the quaternion.
@@ -27,4 +27,4 @@ void PoseErrorJacobian(const RobotModel& model, std::span<const Eigen::Isometry3
   }
 }
 
-}  // namespace oca::models
+}  // namespace oca::robot

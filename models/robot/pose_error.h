@@ -5,9 +5,9 @@
 #include <Eigen/Geometry>
 #include <span>
 
-#include "models/robot/kinematics.h"
+#include "oca/models/robot/kinematics.h"
 
-namespace oca::models {
+namespace oca::robot {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
@@ -24,4 +24,4 @@ Vector6 PoseError(const Eigen::Isometry3d& X_WL, const Eigen::Isometry3d& X_WG);
 void PoseErrorJacobian(const RobotModel& model, std::span<const Eigen::Isometry3d> X_WL, int link,
                        const Eigen::Isometry3d& X_WG, Eigen::Ref<Matrix6X> J);
 
-}  // namespace oca::models
+}  // namespace oca::robot

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/pseudo_inverse.h"
+#include "oca/models/robot/pseudo_inverse.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <cassert>
 
-namespace oca::models {
+namespace oca::robot {
 namespace {
 
 // sin^2 of the least angle between a row and the span of those before it.
@@ -46,4 +46,4 @@ Eigen::MatrixXd DampedPseudoInverse(const Eigen::Ref<const Eigen::MatrixXd>& J, 
   return factor.solve(J.transpose());
 }
 
-}  // namespace oca::models
+}  // namespace oca::robot

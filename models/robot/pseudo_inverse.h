@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace oca::models {
+namespace oca::robot {
 
 /// The generalised inverse J# of Moore and Penrose, for any J:
 ///   J^T (J J^T)^-1                       if the rows are independent,
@@ -18,4 +18,4 @@ Eigen::MatrixXd PseudoInverse(const Eigen::Ref<const Eigen::MatrixXd>& J);
 /// has the smaller matrix. source Nakamura and Hanafusa 1986; Wampler 1986
 Eigen::MatrixXd DampedPseudoInverse(const Eigen::Ref<const Eigen::MatrixXd>& J, double damping);
 
-}  // namespace oca::models
+}  // namespace oca::robot

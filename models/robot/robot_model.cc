@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/robot_model.h"
+#include "oca/models/robot/robot_model.h"
 
 #include <fmt/format.h>
 
@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "models/error.h"
-#include "models/robot/joint_limits.h"
-#include "models/robot/nearest_name.h"
+#include "oca/models/error.h"
+#include "oca/models/nearest_name.h"
+#include "oca/models/robot/joint_limits.h"
 
-namespace oca::models {
+namespace oca::robot {
 namespace {
 
 // Of the largest moment: what three digits in a file can take from the others.
@@ -19,24 +19,27 @@ constexpr double kInertiaSlack = 2e-3;
 
 // Looks `name` up in the .name of every item.
 template <typename Item>
-int Find(const std::vector<Item>& items, std::string_view name, std::string_view kind, Name robot) {
+int Find(const std::vector<Item>& items, std::string_view name, std::string_view kind,
+         models::Name robot) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < items.size(); ++i) {
     if (items[i].name.text() == name) return static_cast<int>(i);
     names.push_back(items[i].name.text());
   }
-  throw ModelError(
+  throw models::ModelError(
       fmt::format("robot '{}': unknown {}; got '{}'; expected a {} of the robot, nearest is '{}'",
-                  robot.text(), kind, name, kind, NearestName(name, names)));
+                  robot.text(), kind, name, kind, models::NearestName(name, names)));
 }
 
 void CheckPose(const Eigen::Isometry3d& X, const std::string& where) {
   if (!X.matrix().allFinite()) {
-    throw ModelError(where + ": pose; got a number that is not finite; expected finite numbers");
+    throw models::ModelError(where +
+                             ": pose; got a number that is not finite; expected finite numbers");
   }
   const Eigen::Matrix3d R = X.linear();
   if (!(R.transpose() * R).isIdentity(1e-9) || R.determinant() < 0.0) {
-    throw ModelError(where + ": pose; got a matrix that is no rotation; expected a rotation");
+    throw models::ModelError(where +
+                             ": pose; got a matrix that is no rotation; expected a rotation");
   }
 }
 
@@ -50,7 +53,7 @@ int ParallelTo(const Eigen::Vector3d& axis) {
 
 }  // namespace
 
-RobotModel::RobotModel(Name name, std::vector<Link> links, std::vector<Joint> joints,
+RobotModel::RobotModel(models::Name name, std::vector<Link> links, std::vector<Joint> joints,
                        const Eigen::Isometry3d& X_WB,
                        std::vector<std::pair<int, int>> disabled_pairs)
     : name_(name),
@@ -73,17 +76,18 @@ RobotModel::RobotModel(Name name, std::vector<Link> links, std::vector<Joint> jo
 
 void RobotModel::CheckTree() const {
   const std::string where = fmt::format("robot '{}'", name_.text());
-  if (links_.empty()) throw ModelError(where + ": links; got none; expected at least one");
+  if (links_.empty()) throw models::ModelError(where + ": links; got none; expected at least one");
   if (joints_.size() + 1 != links_.size()) {
-    throw ModelError(fmt::format("{}: joints; got {} for {} links; expected one less than links",
-                                 where, joints_.size(), links_.size()));
+    throw models::ModelError(
+        fmt::format("{}: joints; got {} for {} links; expected one less than links", where,
+                    joints_.size(), links_.size()));
   }
   CheckPose(X_WB_, where + " base");
   for (const Link& link : links_) CheckInertia(link);
   for (int j = 0; j < num_joints(); ++j) {
     if (joints_[j].child_link != j + 1 || joints_[j].parent_link < 0 ||
         joints_[j].parent_link > j) {
-      throw ModelError(fmt::format(
+      throw models::ModelError(fmt::format(
           "{}: joint '{}'; got links {} -> {}; expected parents first, child {}", where,
           joints_[j].name.text(), joints_[j].parent_link, joints_[j].child_link, j + 1));
     }
@@ -91,7 +95,7 @@ void RobotModel::CheckTree() const {
   }
   for (const auto& [a, b] : disabled_pairs_) {
     if (std::min(a, b) < 0 || std::max(a, b) >= num_links()) {
-      throw ModelError(
+      throw models::ModelError(
           fmt::format("{}: disabled pair; got ({}, {}); expected link numbers below {}", where, a,
                       b, num_links()));
     }
@@ -103,26 +107,28 @@ void RobotModel::CheckJoint(const Joint& joint) const {
   CheckPose(joint.X_PJ, where);
   if (!joint.movable()) {
     if (!joint.mimic) return;
-    throw ModelError(where + ": mimic; got one of a fixed joint; expected a joint that moves");
+    throw models::ModelError(where +
+                             ": mimic; got one of a fixed joint; expected a joint that moves");
   }
   // Negated comparisons, so that NaN is refused too.
   if (!(std::abs(joint.axis.norm() - 1.0) < 1e-9)) {
-    throw ModelError(
+    throw models::ModelError(
         fmt::format("{}: axis; got length {}; expected a unit vector", where, joint.axis.norm()));
   }
   if (!(joint.lower_limit <= joint.upper_limit)) {
-    throw ModelError(fmt::format("{}: limits; got lower {} and upper {}; expected lower <= upper",
-                                 where, joint.lower_limit, joint.upper_limit));
+    throw models::ModelError(
+        fmt::format("{}: limits; got lower {} and upper {}; expected lower <= upper", where,
+                    joint.lower_limit, joint.upper_limit));
   }
   for (const double limit : {joint.velocity_limit, joint.effort_limit}) {
     if (!(limit >= 0.0)) {
-      throw ModelError(
+      throw models::ModelError(
           fmt::format("{}: velocity or effort limit; got {}; expected >= 0", where, limit));
     }
   }
   for (const double limit : {joint.acceleration_limit, joint.jerk_limit}) {
     if (!(limit > 0.0)) {
-      throw ModelError(
+      throw models::ModelError(
           fmt::format("{}: acceleration or jerk limit; got {}; expected > 0", where, limit));
     }
   }
@@ -131,8 +137,8 @@ void RobotModel::CheckJoint(const Joint& joint) const {
 void RobotModel::CheckInertia(const Link& link) const {
   const auto& [mass, p_LC, I_C] = link.inertia;
   const auto fail = [&](const std::string& what, const std::string& got, const char* expected) {
-    throw ModelError(fmt::format("robot '{}' link '{}': {}; got {}; expected {}", name_.text(),
-                                 link.name.text(), what, got, expected));
+    throw models::ModelError(fmt::format("robot '{}' link '{}': {}; got {}; expected {}",
+                                         name_.text(), link.name.text(), what, got, expected));
   };
   if (!std::isfinite(mass) || !p_LC.allFinite() || !I_C.allFinite()) {
     fail("inertia", "a number that is not finite", "finite numbers");
@@ -188,7 +194,7 @@ void RobotModel::CompileSteps() {
       const bool known = rule.joint >= 0 && rule.joint < num_joints();
       if (!known || !joints_[rule.joint].movable() || hops > num_joints() ||
           !std::isfinite(rule.multiplier) || !std::isfinite(rule.offset)) {
-        throw ModelError(fmt::format(
+        throw models::ModelError(fmt::format(
             "robot '{}' joint '{}': mimic; got {}; expected a finite rule that leads to a movable "
             "joint which mimics none",
             name_.text(), joint.name.text(),
@@ -275,7 +281,7 @@ int RobotModel::FindJoint(std::string_view name) const {
 int RobotModel::FindPosition(std::string_view joint_name) const {
   const Joint& joint = joints_[FindJoint(joint_name)];
   if (joint.position_index < 0) {
-    throw ModelError(
+    throw models::ModelError(
         fmt::format("robot '{}': position of joint; got '{}', which is {}; expected a joint that "
                     "moves by itself",
                     name_.text(), joint_name, joint.movable() ? "a mimic" : "fixed"));
@@ -283,4 +289,4 @@ int RobotModel::FindPosition(std::string_view joint_name) const {
   return joint.position_index;
 }
 
-}  // namespace oca::models
+}  // namespace oca::robot

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "models/name.h"
-#include "models/shape.h"
+#include "oca/models/geometry/shape.h"
+#include "oca/models/name.h"
 
-namespace oca::models {
+namespace oca::robot {
 
 inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
@@ -20,7 +20,7 @@ inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 /// it was described ("file:line"), for messages.
 struct CollisionElement {
   Eigen::Isometry3d X_LC{Eigen::Isometry3d::Identity()};
-  Shape shape;
+  geometry::Shape shape;
   std::string source;
 };
 
@@ -28,7 +28,7 @@ struct CollisionElement {
 /// `colour` is red, green, blue, alpha in [0, 1].
 struct VisualElement {
   Eigen::Isometry3d X_LV{Eigen::Isometry3d::Identity()};
-  std::optional<Shape> shape;
+  std::optional<geometry::Shape> shape;
   std::string mesh_file;
   Eigen::Vector3d mesh_scale{Eigen::Vector3d::Ones()};
   Eigen::Vector4d colour{0.7, 0.7, 0.7, 1.0};
@@ -44,7 +44,7 @@ struct Inertia {
 
 /// `parent_joint` is -1 for the root. The link's frame is its parent joint's frame after motion.
 struct Link {
-  Name name;
+  models::Name name;
   int parent_joint{-1};
   std::vector<CollisionElement> collisions;
   std::vector<VisualElement> visuals;
@@ -65,7 +65,7 @@ struct Mimic {
 /// Limits are in rad or m and their derivatives, effort in Nm or N, infinite where not given; they
 /// are as described: what the robot has to keep of them says RobotModel, for mimics bind too.
 struct Joint {
-  Name name;
+  models::Name name;
   JointType type{JointType::kFixed};
   int parent_link{-1};
   int child_link{-1};
@@ -112,11 +112,11 @@ class RobotModel {
   /// throws ModelError if the tree, an axis, a limit or a mimic rule is wrong, a mimic is fixed or
   /// leaves the joint it follows no position, or if no body can have an inertia: numbers that are
   /// not finite, a negative mass or moment, moments of which one exceeds the sum of the other two
-  RobotModel(Name name, std::vector<Link> links, std::vector<Joint> joints,
+  RobotModel(models::Name name, std::vector<Link> links, std::vector<Joint> joints,
              const Eigen::Isometry3d& X_WB = Eigen::Isometry3d::Identity(),
              std::vector<std::pair<int, int>> disabled_pairs = {});
 
-  Name name() const { return name_; }
+  models::Name name() const { return name_; }
   const std::vector<Link>& links() const { return links_; }
   const std::vector<Joint>& joints() const { return joints_; }
   const std::vector<KinematicStep>& steps() const { return steps_; }
@@ -126,7 +126,7 @@ class RobotModel {
   const Eigen::Isometry3d& X_WB() const { return X_WB_; }
 
   /// One entry a position. Limits are those of LimitsOfPositions: of the joint and its mimics.
-  const std::vector<Name>& position_names() const { return position_names_; }
+  const std::vector<models::Name>& position_names() const { return position_names_; }
   const Eigen::VectorXd& lower_limits() const { return lower_limits_; }
   const Eigen::VectorXd& upper_limits() const { return upper_limits_; }
   const Eigen::VectorXd& velocity_limits() const { return velocity_limits_; }
@@ -167,16 +167,16 @@ class RobotModel {
   void CollectLimits();
   void AssignBodies();
 
-  Name name_;
+  models::Name name_;
   std::vector<Link> links_;
   std::vector<Joint> joints_;
   Eigen::Isometry3d X_WB_;
   std::vector<std::pair<int, int>> disabled_pairs_;
   std::vector<KinematicStep> steps_;
-  std::vector<Name> position_names_;
+  std::vector<models::Name> position_names_;
   Eigen::VectorXd lower_limits_, upper_limits_, velocity_limits_, effort_limits_;
   Eigen::VectorXd acceleration_limits_, jerk_limits_;
   std::vector<int> bodies_, body_of_link_, body_index_of_link_;
 };
 
-}  // namespace oca::models
+}  // namespace oca::robot

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/saturated_task.h"
+#include "oca/models/robot/saturated_task.h"
 
 #include <algorithm>
 
-namespace oca::models {
+namespace oca::robot {
 
 JointVector SaturateInNullspace(const JointMatrix& M, const JointVector& b, const JointVector& wish,
                                 const JointVector& lower, const JointVector& upper,
@@ -32,4 +32,4 @@ JointVector SaturateInNullspace(const JointMatrix& M, const JointVector& b, cons
   return u.cwiseMax(lower).cwiseMin(upper);
 }
 
-}  // namespace oca::models
+}  // namespace oca::robot

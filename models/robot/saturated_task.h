@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "models/robot/filtered_inverse.h"
+#include "oca/models/robot/filtered_inverse.h"
 
-namespace oca::models {
+namespace oca::robot {
 
 /// The joint velocity between `lower` and `upper` that leaves `wish` as little as it must to move
 /// points with J u = xdot, given by M = J^T J and b = J^T xdot:
@@ -20,4 +20,4 @@ JointVector SaturateInNullspace(const JointMatrix& M, const JointVector& b, cons
                                 const JointVector& lower, const JointVector& upper,
                                 const Damping& damping);
 
-}  // namespace oca::models
+}  // namespace oca::robot

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/srdf.h"
+#include "oca/models/robot/srdf.h"
 
 #include <fmt/format.h>
 #include <stdlib.h>
@@ -11,18 +11,18 @@
 #include <string_view>
 #include <system_error>
 
-#include "models/error.h"
-#include "models/robot/srdf_reader.h"
-#include "models/robot/xml_file.h"
+#include "oca/models/error.h"
+#include "oca/models/robot/srdf_reader.h"
+#include "oca/models/robot/xml_file.h"
 
-namespace oca::models {
+namespace oca::robot {
 namespace {
 
 const TiXmlElement& CheckedRoot(const TiXmlDocument& document, const std::string& where) {
   const TiXmlElement& root = *document.RootElement();
   if (root.ValueStr() != "robot") {
-    throw ModelError(fmt::format("{}:{}: root element; got {}; expected robot", where, root.Row(),
-                                 root.ValueStr()));
+    throw models::ModelError(fmt::format("{}:{}: root element; got {}; expected robot", where,
+                                         root.Row(), root.ValueStr()));
   }
   return root;
 }
@@ -61,10 +61,11 @@ XmlDocument DocumentToFill(const std::filesystem::path& file, const std::string&
     XmlDocument document = ParseXml(ReadXmlFile(file), where);
     const TiXmlElement& root = CheckedRoot(*document, where);
     if (root.FirstChildElement("link") != nullptr || root.FirstChildElement("joint") != nullptr) {
-      throw ModelError(fmt::format("{}: SRDF to write; got a URDF; expected another file", where));
+      throw models::ModelError(
+          fmt::format("{}: SRDF to write; got a URDF; expected another file", where));
     }
     if (const std::string name = TextOf(root, "name"); name != robot) {
-      throw ModelError(
+      throw models::ModelError(
           fmt::format("{}: robot; got '{}'; expected '{}', the URDF's name", where, name, robot));
     }
     RemoveComputedPairs(*document->RootElement());
@@ -123,10 +124,10 @@ void SaveDisabledPairs(const std::filesystem::path& file, const std::string& rob
   if (out && !error) return;
   const std::string reason = error ? error.message() : "no file";
   if (descriptor >= 0) fs::remove(part, error);
-  throw ModelError(
+  throw models::ModelError(
       fmt::format("{}: SRDF to write; got {}; expected a folder and a file that can "
                   "be written",
                   file.string(), reason));
 }
 
-}  // namespace oca::models
+}  // namespace oca::robot

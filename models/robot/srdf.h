@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace oca::models {
+namespace oca::robot {
 
 /// The names in the URDF that an SRDF speaks of.
 struct SrdfRobot {
@@ -42,4 +42,4 @@ struct DisabledPair {
 void SaveDisabledPairs(const std::filesystem::path& file, const std::string& robot,
                        const std::vector<DisabledPair>& pairs);
 
-}  // namespace oca::models
+}  // namespace oca::robot

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/srdf_reader.h"
+#include "oca/models/robot/srdf_reader.h"
 
 #include <fmt/format.h>
 #include <tinyxml.h>
@@ -9,11 +9,11 @@
 #include <set>
 #include <string_view>
 
-#include "models/robot/nearest_name.h"
-#include "models/robot/xml_numbers.h"
-#include "models/robot/xml_reader.h"
+#include "oca/models/nearest_name.h"
+#include "oca/models/robot/xml_numbers.h"
+#include "oca/models/robot/xml_reader.h"
 
-namespace oca::models {
+namespace oca::robot {
 namespace {
 
 using Names = XmlReader::Names;
@@ -74,7 +74,7 @@ class SrdfReader {
             : fmt::format("{}nearest is '{}'",
                           known.size() <= 12 ? fmt::format("one of {}; ", fmt::join(known, ", "))
                                              : std::string(),
-                          NearestName(got, known)));
+                          models::NearestName(got, known)));
   }
 
   /// Without blanks around it, as MoveIt takes it; "" if absent.
@@ -153,7 +153,7 @@ class SrdfReader {
                   const Names& known) const {
     const std::string name = Attribute(element, attribute);
     if (std::find(known.begin(), known.end(), name) != known.end()) return;
-    const std::string nearest = known.empty() ? "" : NearestName(name, known);
+    const std::string nearest = known.empty() ? "" : models::NearestName(name, known);
     reader_.Fail(element, fmt::format("{}: unknown {}", attribute, what), fmt::format("'{}'", name),
                  nearest.empty()
                      ? fmt::format("a {}, of which there is none", what)
@@ -250,4 +250,4 @@ std::vector<std::pair<int, int>> ReadSrdf(const TiXmlElement& root, const SrdfRo
   return SrdfReader(root, robot, where).Read();
 }
 
-}  // namespace oca::models
+}  // namespace oca::robot

@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "models/robot/srdf.h"
+#include "oca/models/robot/srdf.h"
 
 class TiXmlElement;
 
-namespace oca::models {
+namespace oca::robot {
 
 /// The pairs that an SRDF's elements below `root` disable, as LoadDisabledPairs has them, after a
 /// look at all of them: each element and attribute must be one of MoveIt's format, and what it
@@ -18,4 +18,4 @@ namespace oca::models {
 std::vector<std::pair<int, int>> ReadSrdf(const TiXmlElement& root, const SrdfRobot& robot,
                                           const std::string& where);
 
-}  // namespace oca::models
+}  // namespace oca::robot

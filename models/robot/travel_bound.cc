@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/travel_bound.h"
+#include "oca/models/robot/travel_bound.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
-#include "models/geometry/collider.h"
+#include "oca/models/geometry/collider.h"
 
-namespace oca::models {
+namespace oca::robot {
 
 TravelBound::TravelBound(const RobotModel& model) : model_(&model) {
   for (int link = 0; link < model.num_links(); ++link) {
     for (const CollisionElement& element : model.links()[link].collisions) {
-      const Collider collider(element.shape, element.source);
+      const geometry::Collider collider(element.shape, element.source);
       balls_.push_back({link, element.X_LC * collider.centre(), collider.bounding_radius()});
     }
   }
@@ -52,4 +52,4 @@ double LeastDistanceBetween(double before, double after, double travel) {
   return std::min({before, after, 0.5 * (before + after - travel)});
 }
 
-}  // namespace oca::models
+}  // namespace oca::robot

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "models/robot/robot_model.h"
+#include "oca/models/robot/robot_model.h"
 
-namespace oca::models {
+namespace oca::robot {
 
 /// Bounds how far the solids of a robot's links travel while its joints move.
 ///
@@ -49,4 +49,4 @@ class TravelBound {
 /// and not above either of the two. It is exact for bodies that approach head-on.
 double LeastDistanceBetween(double before, double after, double travel);
 
-}  // namespace oca::models
+}  // namespace oca::robot

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/unseen_links.h"
+#include "oca/models/robot/unseen_links.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 
-namespace oca::models {
+namespace oca::robot {
 
 std::vector<int> DrawnOnly(const RobotModel& model) {
   std::vector<int> unseen;
@@ -48,4 +48,4 @@ std::string DescribeUnseen(const RobotModel& model, const std::string& remedy) {
                     fmt::join(names, ", "), remedy);
 }
 
-}  // namespace oca::models
+}  // namespace oca::robot

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "models/robot/robot_model.h"
+#include "oca/models/robot/robot_model.h"
 
-namespace oca::models {
+namespace oca::robot {
 
 /// Links that are drawn but have no collision shape, so that no distance sees them, as link
 /// numbers. A link with neither, as a frame of a tool, is no body.
@@ -20,4 +20,4 @@ bool NothingToSee(const RobotModel& model);
 /// reader of it asks for VisualAsCollision::kMissing.
 std::string DescribeUnseen(const RobotModel& model, const std::string& remedy);
 
-}  // namespace oca::models
+}  // namespace oca::robot

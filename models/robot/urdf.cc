@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/urdf.h"
+#include "oca/models/robot/urdf.h"
 
 #include <fmt/format.h>
 #include <tinyxml.h>
@@ -7,18 +7,18 @@
 #include <algorithm>
 #include <unordered_map>
 
-#include "models/error.h"
-#include "models/geometry/decomposition.h"
-#include "models/geometry/mesh_surface.h"
-#include "models/robot/fuse_capsules.h"
-#include "models/robot/joint_limits.h"
-#include "models/robot/mesh_path.h"
-#include "models/robot/srdf.h"
-#include "models/robot/urdf_outline.h"
-#include "models/robot/urdfdom.h"
-#include "models/robot/xml_file.h"
+#include "oca/models/error.h"
+#include "oca/models/geometry/decomposition.h"
+#include "oca/models/geometry/mesh_surface.h"
+#include "oca/models/robot/fuse_capsules.h"
+#include "oca/models/robot/joint_limits.h"
+#include "oca/models/robot/mesh_path.h"
+#include "oca/models/robot/srdf.h"
+#include "oca/models/robot/urdf_outline.h"
+#include "oca/models/robot/urdfdom.h"
+#include "oca/models/robot/xml_file.h"
 
-namespace oca::models {
+namespace oca::robot {
 namespace {
 
 Eigen::Isometry3d ToPose(const urdf::Pose& pose) {
@@ -56,7 +56,7 @@ class UrdfReader {
       disabled = LoadDisabledPairs(options_.srdf, robot);
     }
     try {
-      RobotModel model(Name(outline_.robot_name), std::move(links_), std::move(joints_),
+      RobotModel model(models::Name(outline_.robot_name), std::move(links_), std::move(joints_),
                        options_.X_WB, std::move(disabled));
       if (options_.warn) {
         for (const UrdfOutline::Joint& joint : outline_.joints) {
@@ -67,8 +67,8 @@ class UrdfReader {
         for (const std::string& line : LimitWarnings(model)) options_.warn(line);
       }
       return model;
-    } catch (const ModelError& error) {
-      throw ModelError(fmt::format("{}: {}", where_, error.what()));
+    } catch (const models::ModelError& error) {
+      throw models::ModelError(fmt::format("{}: {}", where_, error.what()));
     }
   }
 
@@ -104,7 +104,7 @@ class UrdfReader {
     const UrdfOutline::Joint& entry = outline_.joints[index];
     const urdf::Joint& from = *parsed_->getJoint(entry.name);
     Joint joint;
-    joint.name = Name(entry.name);
+    joint.name = models::Name(entry.name);
     joint.parent_link = number_of_link_.at(entry.parent);
     joint.child_link = number_of_link_.at(entry.child);
     joint.X_PJ = ToPose(from.parent_to_joint_origin_transform);
@@ -135,13 +135,13 @@ class UrdfReader {
     const urdf::Link& from = *parsed_->getLink(entry.name);
     if (from.collision_array.size() != entry.collision_lines.size() ||
         from.visual_array.size() != entry.visual_lines.size()) {
-      throw ModelError(fmt::format(
+      throw models::ModelError(fmt::format(
           "{}:{}: link '{}': urdfdom; got {} collision and {} visual elements; expected {} and {}",
           where_, entry.line, entry.name, from.collision_array.size(), from.visual_array.size(),
           entry.collision_lines.size(), entry.visual_lines.size()));
     }
     Link link;
-    link.name = Name(entry.name);
+    link.name = models::Name(entry.name);
     link.collisions = FuseCapsules(ReadCollisions(entry, from));
     for (std::size_t i = 0; i < from.visual_array.size(); ++i) {
       link.visuals.push_back(ReadVisual(
@@ -177,38 +177,39 @@ class UrdfReader {
     return solids;
   }
 
-  Shape ReadShape(const urdf::Geometry& geometry, const std::string& link, const char* kind,
-                  const std::string& where) const {
+  geometry::Shape ReadShape(const urdf::Geometry& geometry, const std::string& link,
+                            const char* kind, const std::string& where) const {
     if (geometry.type == urdf::Geometry::MESH) {
       const auto& mesh = static_cast<const urdf::Mesh&>(geometry);
       const std::filesystem::path file = FindMesh(mesh.filename, directory_, options_, where);
       try {
         const Eigen::Vector3d scale = ToVector(mesh.scale);
-        if (options_.decompose_meshes) return LoadDecomposition(file, scale);
-        const TriangleMesh triangles = LoadMesh(file, scale);
-        const auto hull = MakeConvexHull(triangles.vertices, file.string());
-        const std::string excess = options_.warn ? DescribeHullExcess(triangles, *hull) : "";
+        if (options_.decompose_meshes) return geometry::LoadDecomposition(file, scale);
+        const geometry::TriangleMesh triangles = geometry::LoadMesh(file, scale);
+        const auto hull = geometry::MakeConvexHull(triangles.vertices, file.string());
+        const std::string excess =
+            options_.warn ? geometry::DescribeHullExcess(triangles, *hull) : "";
         if (!excess.empty()) {
           options_.warn(fmt::format("link '{}': {} mesh '{}' {}{}", link, kind, mesh.filename,
                                     excess, options_.hull_advice));
         }
-        return ConvexMesh{hull};
-      } catch (const ModelError& error) {
-        throw ModelError(where + ": " + error.what());
+        return geometry::ConvexMesh{hull};
+      } catch (const models::ModelError& error) {
+        throw models::ModelError(where + ": " + error.what());
       }
     }
     return ReadPrimitive(geometry);
   }
 
-  static Shape ReadPrimitive(const urdf::Geometry& geometry) {
+  static geometry::Shape ReadPrimitive(const urdf::Geometry& geometry) {
     if (geometry.type == urdf::Geometry::SPHERE) {
-      return Sphere{static_cast<const urdf::Sphere&>(geometry).radius};
+      return geometry::Sphere{static_cast<const urdf::Sphere&>(geometry).radius};
     }
     if (geometry.type == urdf::Geometry::BOX) {
-      return Box{ToVector(static_cast<const urdf::Box&>(geometry).dim)};
+      return geometry::Box{ToVector(static_cast<const urdf::Box&>(geometry).dim)};
     }
     const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
-    return Cylinder{cylinder.radius, cylinder.length};
+    return geometry::Cylinder{cylinder.radius, cylinder.length};
   }
 
   VisualElement ReadVisual(const urdf::Visual& from, const std::string& where) const {
@@ -244,14 +245,14 @@ class UrdfReader {
       if (joint.movable() && !joint.mimic) moving.push_back(&joint);
     }
     if (limits.size() != 1 && limits.size() != std::ssize(moving)) {
-      throw ModelError(fmt::format("{}: {}; got {} numbers; expected 1 or {}", where_, what,
-                                   limits.size(), moving.size()));
+      throw models::ModelError(fmt::format("{}: {}; got {} numbers; expected 1 or {}", where_, what,
+                                           limits.size(), moving.size()));
     }
     for (std::size_t i = 0; i < moving.size(); ++i) {
       const double limit = limits[limits.size() == 1 ? 0 : static_cast<Eigen::Index>(i)];
       if (!(limit > 0.0)) {
-        throw ModelError(fmt::format("{}: {} of joint '{}'; got {}; expected more than 0", where_,
-                                     what, moving[i]->name.text(), limit));
+        throw models::ModelError(fmt::format("{}: {} of joint '{}'; got {}; expected more than 0",
+                                             where_, what, moving[i]->name.text(), limit));
       }
       moving[i]->*field = limit;
     }
@@ -279,4 +280,4 @@ RobotModel ParseUrdf(const std::string& text, const std::string& name, const Loa
   return UrdfReader(name, options, directory).Read(text);
 }
 
-}  // namespace oca::models
+}  // namespace oca::robot

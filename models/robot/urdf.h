@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "models/robot/robot_model.h"
+#include "oca/models/robot/robot_model.h"
 
-namespace oca::models {
+namespace oca::robot {
 
 /// Which links take what is drawn of them, hulls of meshes like those of collision meshes, as their
 /// collision shapes: none, those without any, or all that are drawn.
@@ -63,4 +63,4 @@ RobotModel LoadUrdf(const std::filesystem::path& file, const LoadOptions& option
 RobotModel ParseUrdf(const std::string& text, const std::string& name,
                      const LoadOptions& options = {}, const std::filesystem::path& directory = {});
 
-}  // namespace oca::models
+}  // namespace oca::robot

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/urdf_meshes.h"
+#include "oca/models/robot/urdf_meshes.h"
 
 #include <tinyxml.h>
 
 #include <string_view>
 
-#include "models/robot/xml_file.h"
+#include "oca/models/robot/xml_file.h"
 
-namespace oca::models {
+namespace oca::robot {
 namespace {
 
 template <class Action>
@@ -45,4 +45,4 @@ std::string RenameMeshes(const std::string& urdf, const std::string& where,
   return printer.Str();
 }
 
-}  // namespace oca::models
+}  // namespace oca::robot

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-namespace oca::models {
+namespace oca::robot {
 
 /// A URDF with the meshes of its links renamed: `rename` is given the name of each, as LoadUrdf
 /// reads it, and returns the one to put in its place. What is no mesh of a link, in comments or
@@ -13,4 +13,4 @@ namespace oca::models {
 std::string RenameMeshes(const std::string& urdf, const std::string& where,
                          const std::function<std::string(const std::string& name)>& rename);
 
-}  // namespace oca::models
+}  // namespace oca::robot

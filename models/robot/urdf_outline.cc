@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/urdf_outline.h"
+#include "oca/models/robot/urdf_outline.h"
 
 #include <fmt/format.h>
 #include <tinyxml.h>
@@ -9,9 +9,9 @@
 #include <set>
 #include <string_view>
 
-#include "models/robot/xml_reader.h"
+#include "oca/models/robot/xml_reader.h"
 
-namespace oca::models {
+namespace oca::robot {
 namespace {
 
 class OutlineReader {
@@ -212,4 +212,4 @@ UrdfOutline ReadUrdfOutline(const TiXmlElement& root, const std::string& where) 
   return OutlineReader(where).Read(root);
 }
 
-}  // namespace oca::models
+}  // namespace oca::robot

@@ -7,7 +7,7 @@
 
 class TiXmlElement;
 
-namespace oca::models {
+namespace oca::robot {
 
 /// What a URDF file says about its tree, in the order of the file, with line numbers; the numbers
 /// in it are taken from urdfdom, which keeps neither order nor lines and drops what it cannot read.
@@ -41,4 +41,4 @@ UrdfOutline ReadUrdfOutline(const TiXmlElement& root, const std::string& where);
 /// the tree and of mimic rules, and mimics of fixed joints. throws ModelError
 void CheckUrdfTree(const UrdfOutline& outline, const std::string& where);
 
-}  // namespace oca::models
+}  // namespace oca::robot

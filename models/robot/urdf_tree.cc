@@ -3,11 +3,11 @@
 
 #include <unordered_map>
 
-#include "models/error.h"
-#include "models/robot/nearest_name.h"
-#include "models/robot/urdf_outline.h"
+#include "oca/models/error.h"
+#include "oca/models/nearest_name.h"
+#include "oca/models/robot/urdf_outline.h"
 
-namespace oca::models {
+namespace oca::robot {
 namespace {
 
 using Index = std::unordered_map<std::string, std::size_t>;
@@ -22,7 +22,7 @@ Index IndexByName(const std::vector<Entry>& entries) {
 std::string Nearest(const std::string& name, const Index& index) {
   std::vector<std::string> names;
   for (const auto& entry : index) names.push_back(entry.first);
-  return NearestName(name, names);
+  return models::NearestName(name, names);
 }
 
 class TreeChecker {
@@ -55,8 +55,8 @@ class TreeChecker {
  private:
   [[noreturn]] void Fail(const UrdfOutline::Joint& joint, const std::string& what,
                          const std::string& got, const std::string& expected) const {
-    throw ModelError(fmt::format("{}:{}: joint '{}': {}; got {}; expected {}", where_, joint.line,
-                                 joint.name, what, got, expected));
+    throw models::ModelError(fmt::format("{}:{}: joint '{}': {}; got {}; expected {}", where_,
+                                         joint.line, joint.name, what, got, expected));
   }
 
   std::size_t FindLink(const UrdfOutline::Joint& joint, const std::string& name,
@@ -75,7 +75,7 @@ class TreeChecker {
       if (parent_joint[i] >= 0) continue;
       const UrdfOutline::Link& link = outline_.links[i];
       if (root != nullptr) {
-        throw ModelError(fmt::format(
+        throw models::ModelError(fmt::format(
             "{}:{}: root link; got two, '{}' and '{}'; expected one link without parent", where_,
             link.line, root->name, link.name));
       }
@@ -131,4 +131,4 @@ void CheckUrdfTree(const UrdfOutline& outline, const std::string& where) {
   TreeChecker(outline, where).Check();
 }
 
-}  // namespace oca::models
+}  // namespace oca::robot

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/urdfdom.h"
+#include "oca/models/robot/urdfdom.h"
 
 #include <console_bridge/console.h>
 #include <fmt/format.h>
@@ -7,9 +7,9 @@
 
 #include <mutex>
 
-#include "models/error.h"
+#include "oca/models/error.h"
 
-namespace oca::models {
+namespace oca::robot {
 namespace {
 
 // Keeps what urdfdom says instead of letting it print, while this object lives. The handler of
@@ -49,10 +49,10 @@ std::shared_ptr<urdf::ModelInterface> ParseWithUrdfdom(const std::string& text,
     reason = error.what();
   }
   if (parsed == nullptr || !log.errors().empty()) {
-    throw ModelError(fmt::format("{}: URDF; got '{}{}'; expected what urdfdom can read", where,
-                                 log.errors(), reason));
+    throw models::ModelError(fmt::format("{}: URDF; got '{}{}'; expected what urdfdom can read",
+                                         where, log.errors(), reason));
   }
   return parsed;
 }
 
-}  // namespace oca::models
+}  // namespace oca::robot

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-namespace oca::models {
+namespace oca::robot {
 
 /// Parses URDF text with urdfdom, which prints nothing meanwhile. It drops in silence what it does
 /// not know: see ReadUrdfOutline. Safe to call from several threads, one of which then waits.
@@ -14,4 +14,4 @@ namespace oca::models {
 std::shared_ptr<urdf::ModelInterface> ParseWithUrdfdom(const std::string& text,
                                                        const std::string& where);
 
-}  // namespace oca::models
+}  // namespace oca::robot

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/xml_file.h"
+#include "oca/models/robot/xml_file.h"
 
 #include <fmt/format.h>
 #include <tinyxml.h>
@@ -8,10 +8,10 @@
 #include <fstream>
 #include <vector>
 
-#include "models/error.h"
-#include "models/opened_files.h"
+#include "oca/models/error.h"
+#include "oca/models/opened_files.h"
 
-namespace oca::models {
+namespace oca::robot {
 namespace {
 
 constexpr std::uintmax_t kMaxBytes = 50'000'000;
@@ -37,7 +37,8 @@ class XmlScanner {
   [[noreturn]] void Fail(std::string_view got, std::string_view expected) const {
     const auto line =
         1 + std::count(text_.begin(), text_.begin() + std::min(at_, text_.size()), '\n');
-    throw ModelError(fmt::format("{}:{}: XML; got {}; expected {}", where_, line, got, expected));
+    throw models::ModelError(
+        fmt::format("{}:{}: XML; got {}; expected {}", where_, line, got, expected));
   }
 
   // To the next '<'; false at the end.
@@ -134,43 +135,43 @@ class XmlScanner {
 void XmlDeleter::operator()(TiXmlDocument* document) const { delete document; }
 
 std::string ReadXmlFile(const std::filesystem::path& file) {
-  NoteOpened(file);
+  models::NoteOpened(file);
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) {
-    throw ModelError(fmt::format(
+    throw models::ModelError(fmt::format(
         "{}: file; got {}; expected a readable file", file.string(),
         std::filesystem::exists(file, error) ? "no regular file" : "nothing of that name"));
   }
   const std::uintmax_t bytes = std::filesystem::file_size(file, error);
   if (!error && bytes > kMaxBytes) {
-    throw ModelError(fmt::format("{}: file size; got {} bytes; expected at most {}", file.string(),
-                                 bytes, kMaxBytes));
+    throw models::ModelError(fmt::format("{}: file size; got {} bytes; expected at most {}",
+                                         file.string(), bytes, kMaxBytes));
   }
   std::ifstream stream(file, std::ios::binary);
   std::string text(error ? 0 : bytes, '\0');
   if (error || !stream.read(text.data(), static_cast<std::streamsize>(bytes))) {
-    throw ModelError(file.string() +
-                     ": file; got one that cannot be read; expected a readable file");
+    throw models::ModelError(file.string() +
+                             ": file; got one that cannot be read; expected a readable file");
   }
   return text;
 }
 
 XmlDocument ParseXml(const std::string& text, const std::string& where) {
   if (text.find_first_not_of(kSpace) == text.npos) {
-    throw ModelError(where + ": text; got nothing; expected XML");
+    throw models::ModelError(where + ": text; got nothing; expected XML");
   }
   if (text.size() > kMaxBytes) {
-    throw ModelError(fmt::format("{}: text size; got {} bytes; expected at most {}", where,
-                                 text.size(), kMaxBytes));
+    throw models::ModelError(fmt::format("{}: text size; got {} bytes; expected at most {}", where,
+                                         text.size(), kMaxBytes));
   }
   XmlScanner(text, where).Scan();
   XmlDocument document(new TiXmlDocument);
   document->Parse(text.c_str());
   if (document->Error() || document->RootElement() == nullptr) {
-    throw ModelError(fmt::format("{}:{}: XML; got '{}'; expected well-formed XML", where,
-                                 document->ErrorRow(), document->ErrorDesc()));
+    throw models::ModelError(fmt::format("{}:{}: XML; got '{}'; expected well-formed XML", where,
+                                         document->ErrorRow(), document->ErrorDesc()));
   }
   return document;
 }
 
-}  // namespace oca::models
+}  // namespace oca::robot

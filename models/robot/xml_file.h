@@ -8,7 +8,7 @@
 
 class TiXmlDocument;
 
-namespace oca::models {
+namespace oca::robot {
 
 /// Deletes what this header only declares.
 struct XmlDeleter {
@@ -24,4 +24,4 @@ std::string ReadXmlFile(const std::filesystem::path& file);
 /// a document type declaration
 XmlDocument ParseXml(const std::string& text, const std::string& where);
 
-}  // namespace oca::models
+}  // namespace oca::robot

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/xml_numbers.h"
+#include "oca/models/robot/xml_numbers.h"
 
 #include <charconv>
 #include <cmath>
 
-namespace oca::models {
+namespace oca::robot {
 
 std::optional<std::vector<double>> ParseFiniteNumbers(std::string_view text) {
   std::vector<double> numbers;
@@ -25,4 +25,4 @@ std::optional<std::vector<double>> ParseFiniteNumbers(std::string_view text) {
   return numbers;
 }
 
-}  // namespace oca::models
+}  // namespace oca::robot

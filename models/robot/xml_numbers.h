@@ -5,10 +5,10 @@
 #include <string_view>
 #include <vector>
 
-namespace oca::models {
+namespace oca::robot {
 
 /// Numbers separated by white space, read alike in every locale; nothing if the text is anything
 /// else or holds a number that is not finite.
 std::optional<std::vector<double>> ParseFiniteNumbers(std::string_view text);
 
-}  // namespace oca::models
+}  // namespace oca::robot

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/xml_reader.h"
+#include "oca/models/robot/xml_reader.h"
 
 #include <fmt/format.h>
 #include <tinyxml.h>
@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <set>
 
-#include "models/error.h"
-#include "models/robot/nearest_name.h"
-#include "models/robot/xml_numbers.h"
+#include "oca/models/error.h"
+#include "oca/models/nearest_name.h"
+#include "oca/models/robot/xml_numbers.h"
 
-namespace oca::models {
+namespace oca::robot {
 namespace {
 
 bool Contains(const XmlReader::Names& names, const std::string& name) {
@@ -33,8 +33,9 @@ std::string Holder(const TiXmlElement& element) {
 
 void XmlReader::Fail(const TiXmlElement& element, std::string_view what, std::string_view got,
                      std::string_view expected) const {
-  throw ModelError(fmt::format("{}:{}: {}<{}>: {}; got {}; expected {}", where_, element.Row(),
-                               Holder(element), element.ValueStr(), what, got, expected));
+  throw models::ModelError(fmt::format("{}:{}: {}<{}>: {}; got {}; expected {}", where_,
+                                       element.Row(), Holder(element), element.ValueStr(), what,
+                                       got, expected));
 }
 
 std::string XmlReader::Text(const TiXmlElement& element, const char* attribute) const {
@@ -84,8 +85,8 @@ void XmlReader::CheckChildren(const TiXmlElement& element, const Names& once,
   for (auto* e = element.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
     const std::string& name = e->ValueStr();
     if (!Contains(known, name)) {
-      const std::string nearest = NearestName(name, known);
-      if (EditDistance(name, nearest) > 2) continue;
+      const std::string nearest = models::NearestName(name, known);
+      if (models::EditDistance(name, nearest) > 2) continue;
       Fail(*e, fmt::format("unknown element in <{}>", element.ValueStr()), name, nearest);
     }
     if (Contains(once, name) && !seen.insert(name).second) {
@@ -110,4 +111,4 @@ void XmlReader::CheckExpanded(const TiXmlElement& element) const {
   }
 }
 
-}  // namespace oca::models
+}  // namespace oca::robot

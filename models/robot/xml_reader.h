@@ -7,7 +7,7 @@
 
 class TiXmlElement;
 
-namespace oca::models {
+namespace oca::robot {
 
 /// Strict access to the elements of one XML file. Every refusal is a ModelError
 /// `file:line: link 'NAME' <element>: what; got X; expected Y`, where the link or joint is the one
@@ -42,4 +42,4 @@ class XmlReader {
   std::string where_;
 };
 
-}  // namespace oca::models
+}  // namespace oca::robot

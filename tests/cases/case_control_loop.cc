@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "diagrams/loader.h"
-#include "framework/control_loop.h"
-#include "systems/geometry_params.h"
-#include "systems/signals.h"
+#include "oca/diagrams/loading/loader.h"
+#include "oca/framework/dataflow/control_loop.h"
+#include "oca/systems/sensing/geometry_params.h"
+#include "oca/systems/signals/signals.h"
 
 namespace {
 
@@ -61,7 +61,7 @@ const char* Say(const Status& status) { return status.ok() ? "ok" : status.messa
 int RunObstacle(const std::string& kind) {
   const std::vector<std::string> part{"kinematics", "distance",   "field",  "wrenches",
                                       "mapping",    "relaxation", "limiter"};
-  const auto avoidance = oca::diagrams::LoadPart(
+  const auto avoidance = oca::loading::LoadPart(
       File(), part, {{"parameters.max_distance", "2"}, {"parameters.sensing_distance", "2"}});
   const auto q = avoidance.diagram->GetInput<Vector>("plant_position");
   const auto obstacles = avoidance.diagram->GetInput<ObstacleSet>("obstacles_obstacles");
@@ -82,14 +82,14 @@ int RunObstacle(const std::string& kind) {
 }
 
 int RunJoint(const std::string& method, double radians) {
-  const std::vector<oca::diagrams::Override> overrides{{"parameters.avoidance", method}};
+  const std::vector<oca::files::Override> overrides{{"parameters.avoidance", method}};
   std::vector<std::string> part;
-  for (const auto& block : oca::diagrams::LoadDiagram(File(), overrides).systems) {
+  for (const auto& block : oca::loading::LoadDiagram(File(), overrides).systems) {
     const bool outside = block.type == "IntegratorPlant" || block.type == "ObstacleSource" ||
                          block.type == "MotionMetrics" || block.type == "TipError";
     if (!outside) part.push_back(block.name);
   }
-  const auto loaded = oca::diagrams::LoadPart(File(), part, overrides);
+  const auto loaded = oca::loading::LoadPart(File(), part, overrides);
   const auto q = loaded.diagram->GetInput<Vector>("plant_position");
   const auto obstacles = loaded.diagram->GetInput<ObstacleSet>("obstacles_obstacles");
   ControlLoop loop(*loaded.diagram, oca::Period(1, 100));

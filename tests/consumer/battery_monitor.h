@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
-#include "framework/error.h"
-#include "framework/params.h"
-#include "framework/system.h"
+#include <oca/framework/dataflow/error.h>
+#include <oca/framework/dataflow/params.h>
+#include <oca/framework/dataflow/system.h>
 
 namespace acme {
 

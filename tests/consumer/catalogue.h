@@ -2,14 +2,14 @@
 #pragma once
 
 #include "battery_monitor.h"
-#include "diagrams/catalogue.h"
-#include "framework/function.h"
+#include <oca/diagrams/files/catalogue.h>
+#include <oca/framework/dataflow/function.h>
 
 namespace acme {
 
 /// The system types of OCA and ours.
-inline oca::diagrams::Catalogue Catalogue() {
-  auto catalogue = oca::diagrams::Catalogue::Standard();
+inline oca::files::Catalogue Catalogue() {
+  auto catalogue = oca::files::Catalogue::Standard();
   catalogue.Add<BatteryMonitor>("BatteryMonitor");
 
   // A block that needs no class: a lambda.

@@ -3,9 +3,9 @@
 #include <exception>
 
 #include "catalogue.h"
-#include "diagrams/run.h"
-#include "framework/port_access.h"
-#include "framework/simulator.h"
+#include <oca/diagrams/runs/run.h>
+#include <oca/framework/dataflow/port_access.h>
+#include <oca/framework/simulation/simulator.h>
 
 /// A diagram in C++: the block and a lambda, wired by hand. Returns the charge after 10 s.
 double ChargeLeft() {
@@ -25,8 +25,8 @@ double ChargeLeft() {
 /// Loads and runs the diagram named on the command line; succeeds if it keeps its expectations.
 int main(int argc, char** argv) {
   try {
-    const auto loaded = oca::diagrams::LoadDiagram(argc > 1 ? argv[1] : "", {}, acme::Catalogue());
-    const bool kept = oca::diagrams::Run(loaded, {}).ExpectationsMet();
+    const auto loaded = oca::loading::LoadDiagram(argc > 1 ? argv[1] : "", {}, acme::Catalogue());
+    const bool kept = oca::runs::Run(loaded, {}).ExpectationsMet();
     std::printf("charge left: %.3f\n", ChargeLeft());
     return kept ? 0 : 1;
   } catch (const std::exception& error) {

@@ -4,20 +4,20 @@
 #include <filesystem>
 #include <string>
 
-#include "diagrams/document.h"
-#include "diagrams/json_reader.h"
-#include "diagrams/record/extracted_record.h"
-#include "diagrams/record/mcap_reader.h"
-#include "framework/error.h"
-#include "framework/signal.h"
-#include "models/csv_table.h"
-#include "models/error.h"
-#include "models/geometry/mesh.h"
-#include "models/geometry/octree.h"
-#include "models/geometry/point_cloud.h"
-#include "models/robot/srdf.h"
-#include "models/robot/urdf.h"
-#include "systems/signals.h"
+#include "oca/diagrams/files/document.h"
+#include "oca/diagrams/files/json_reader.h"
+#include "oca/diagrams/record/extracted_record.h"
+#include "oca/diagrams/record/mcap_reader.h"
+#include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/signal.h"
+#include "oca/models/csv_table.h"
+#include "oca/models/error.h"
+#include "oca/models/geometry/mesh.h"
+#include "oca/models/geometry/octree.h"
+#include "oca/models/geometry/point_cloud.h"
+#include "oca/models/robot/srdf.h"
+#include "oca/models/robot/urdf.h"
+#include "oca/systems/signals/signals.h"
 #include "tests/temporary_folder.h"
 
 namespace oca::test {
@@ -45,21 +45,21 @@ bool Accepts(Read read) {
 bool ReadDocument(std::string_view bytes) {
   return Accepts([&] {
     Problems problems;
-    diagrams::LoadDocument(FileOf("fuzz.yaml", bytes), {}, problems);
+    files::LoadDocument(FileOf("fuzz.yaml", bytes), {}, problems);
     problems.Throw();
   });
 }
 
 bool ReadUrdf(std::string_view bytes) {
-  return Accepts([&] { models::ParseUrdf(std::string(bytes), "fuzz.urdf"); });
+  return Accepts([&] { robot::ParseUrdf(std::string(bytes), "fuzz.urdf"); });
 }
 
 bool ReadSrdf(std::string_view bytes) {
-  static const models::SrdfRobot robot{
+  static const robot::SrdfRobot robot{
       "planar2",
       {"planar2_base_link", "planar2_link_1", "planar2_link_2", "planar2_tip"},
       {"planar2_joint_1", "planar2_joint_2", "planar2_tip_joint"}};
-  return Accepts([&] { models::LoadDisabledPairs(FileOf("fuzz.srdf", bytes), robot); });
+  return Accepts([&] { robot::LoadDisabledPairs(FileOf("fuzz.srdf", bytes), robot); });
 }
 
 bool ReadCsv(std::string_view bytes) {
@@ -72,27 +72,27 @@ bool ReadCsv(std::string_view bytes) {
 }
 
 bool ReadPcd(std::string_view bytes) {
-  return Accepts([&] { models::LoadPointCloud(FileOf("fuzz.pcd", bytes)); });
+  return Accepts([&] { geometry::LoadPointCloud(FileOf("fuzz.pcd", bytes)); });
 }
 
 bool ReadPly(std::string_view bytes) {
-  return Accepts([&] { models::LoadPointCloud(FileOf("fuzz.ply", bytes)); });
+  return Accepts([&] { geometry::LoadPointCloud(FileOf("fuzz.ply", bytes)); });
 }
 
 bool ReadStl(std::string_view bytes) {
-  return Accepts([&] { models::LoadMesh(FileOf("fuzz.stl", bytes)); });
+  return Accepts([&] { geometry::LoadMesh(FileOf("fuzz.stl", bytes)); });
 }
 
 bool ReadPgm(std::string_view bytes) {
-  return Accepts([&] { models::LoadHeightmap(FileOf("fuzz.pgm", bytes), 0.05, 1.0); });
+  return Accepts([&] { geometry::LoadHeightmap(FileOf("fuzz.pgm", bytes), 0.05, 1.0); });
 }
 
 bool ReadBinaryTree(std::string_view bytes) {
-  return Accepts([&] { models::LoadOctree(FileOf("fuzz.bt", bytes)); });
+  return Accepts([&] { geometry::LoadOctree(FileOf("fuzz.bt", bytes)); });
 }
 
 bool ReadFullTree(std::string_view bytes) {
-  return Accepts([&] { models::LoadOctree(FileOf("fuzz.ot", bytes)); });
+  return Accepts([&] { geometry::LoadOctree(FileOf("fuzz.ot", bytes)); });
 }
 
 template <class T>
@@ -102,7 +102,7 @@ bool ReadSignal(std::string_view bytes) {
 
 /// What `eval` reads: parameters, and inputs of every type that others make.
 bool ReadJson(std::string_view bytes) {
-  bool accepted = Accepts([&] { diagrams::ReadJson(bytes, "fuzz"); });
+  bool accepted = Accepts([&] { files::ReadJson(bytes, "fuzz"); });
   accepted |= Accepts([&] { ReadVectorJson(bytes); });
   accepted |= ReadSignal<systems::ObstacleSet>(bytes);
   accepted |= ReadSignal<systems::LinkPoses>(bytes);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/csv_table.h"
+#include "oca/models/csv_table.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -10,7 +10,7 @@
 #include <fstream>
 #include <random>
 
-#include "models/error.h"
+#include "oca/models/error.h"
 #include "tests/temporary_folder.h"
 
 namespace oca::models {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/opened_files.h"
+#include "oca/models/opened_files.h"
 
 #include <gmock/gmock.h>
 
-#include "models/csv_table.h"
-#include "models/error.h"
+#include "oca/models/csv_table.h"
+#include "oca/models/error.h"
 #include "tests/temporary_folder.h"
 
 namespace oca::models {
@@ -17,7 +17,7 @@ using ::testing::IsEmpty;
 using ::testing::ThrowsMessage;
 
 TEST(OpenedFilesTest, NotesWhatIsReadWhileItLivesOnce) {
-  const test::TemporaryFolder folder;
+  const oca::test::TemporaryFolder folder;
   const fs::path one = folder.Write("one.csv", "1\n"), two = folder.Write("two.csv", "2\n");
   CsvTable before(one);
   OpenedFiles opened;
@@ -28,7 +28,7 @@ TEST(OpenedFilesTest, NotesWhatIsReadWhileItLivesOnce) {
 }
 
 TEST(OpenedFilesTest, TellsItsElderUnlessThatIsToBeSpared) {
-  const test::TemporaryFolder folder;
+  const oca::test::TemporaryFolder folder;
   const fs::path one = folder.Write("one.csv", "1\n"), two = folder.Write("two.csv", "2\n");
   OpenedFiles outer;
   {
@@ -46,7 +46,7 @@ TEST(OpenedFilesTest, TellsItsElderUnlessThatIsToBeSpared) {
 }
 
 TEST(OpenedFilesTest, RefusesWhatLiesOutsideOfItsFolders) {
-  const test::TemporaryFolder folder, other;
+  const oca::test::TemporaryFolder folder, other;
   const fs::path inside = folder.Write("in/a.csv", "1\n");
   const fs::path outside = other.Write("secret.csv", "1\n");
   fs::create_directory_symlink(other.path(), folder.path() / "in" / "way");

@@ -5,22 +5,22 @@
 #include <memory>
 #include <string>
 
-#include "models/robot/kinematics.h"
-#include "models/robot/robot_model.h"
-#include "systems/avoidance_velocity.h"
-#include "systems/model_links.h"
-#include "systems/signals.h"
-#include "test_models.h"
-#include "tests/system_bench.h"
+#include "oca/models/robot/kinematics.h"
+#include "oca/models/robot/robot_model.h"
+#include "oca/systems/sensing/model_links.h"
+#include "oca/systems/signals/avoidance_velocity.h"
+#include "oca/systems/signals/signals.h"
+#include "tests/systems/system_bench.h"
+#include "tests/systems/test_models.h"
 
 namespace oca::systems {
 
 // Arms and what is near them, for methods that choose joint velocities.
 
-inline LinkPoses PosesOf(const models::RobotModel& model, const Eigen::VectorXd& q) {
+inline LinkPoses PosesOf(const robot::RobotModel& model, const Eigen::VectorXd& q) {
   LinkPoses poses;
   NameLinks(model, poses);
-  models::ForwardKinematics(model, q, poses.poses);
+  robot::ForwardKinematics(model, q, poses.poses);
   return poses;
 }
 
@@ -82,17 +82,17 @@ class MethodBench {
     return bench_->velocity.Eval(bench_.context());
   }
   const AvoidanceVelocity& solution() { return bench_->solution.Eval(bench_.context()); }
-  const models::RobotModel& model() const { return *model_; }
+  const robot::RobotModel& model() const { return *model_; }
   SystemBench<S>& bench() { return bench_; }
 
  private:
   static ModelSet Alone(const std::string& name,
-                        const std::shared_ptr<const models::RobotModel>& model) {
+                        const std::shared_ptr<const robot::RobotModel>& model) {
     ModelSet set;
     set.Add(name, model);
     return set;
   }
-  const std::shared_ptr<const models::RobotModel> model_;
+  const std::shared_ptr<const robot::RobotModel> model_;
   SystemBench<S> bench_;
 };
 
@@ -102,7 +102,7 @@ inline const Eigen::VectorXd& BentArm() {
       (Eigen::VectorXd(7) << 0.2, 0.7, -0.3, -1.1, 0.4, 0.6, 0.1).finished();
   return q;
 }
-inline ProximitySet AroundBentArm(const models::RobotModel& model, double distance) {
+inline ProximitySet AroundBentArm(const robot::RobotModel& model, double distance) {
   const LinkPoses poses = PosesOf(model, BentArm());
   const auto at = [&](int link) -> Eigen::Vector3d { return poses.poses[link].translation(); };
   const auto& links = model.links();

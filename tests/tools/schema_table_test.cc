@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/schema_table.h"
+#include "tools/simulator/schema_table.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "framework/params.h"
+#include "oca/framework/dataflow/params.h"
 
 namespace oca::tools {
 namespace schema_table_test {
@@ -38,7 +38,7 @@ struct Outer {
 
 std::string Table() {
   Outer defaults;
-  return SchemaTable(ordered_json::parse(SchemaOfFields(FieldsOf<Outer>(), &defaults)));
+  return SchemaTable(SchemaOfFields(FieldsOf<Outer>(), &defaults));
 }
 
 TEST(SchemaTableTest, HasARowForEachKeyWithItsUnitDefaultBoundsAndMeaning) {
@@ -71,7 +71,7 @@ TEST(SchemaTableTest, LooksThroughTheAlternativeOfAnExpression) {
 }
 
 TEST(SchemaTableTest, OfNothingIsEmpty) {
-  EXPECT_EQ(SchemaTable(ordered_json::parse(R"({"type": "string"})")), "");
+  EXPECT_EQ(SchemaTable(R"({"type": "string"})"), "");
 }
 
 }  // namespace schema_table_test

@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <string>
 
-#include "framework/port_access.h"
-#include "framework/simulator.h"
-#include "tests/framework/blocks.h"
-#include "tests/framework/integrator_kinds.h"
+#include "oca/framework/dataflow/port_access.h"
+#include "oca/framework/simulation/simulator.h"
+#include "tests/framework/dataflow/blocks.h"
+#include "tests/framework/simulation/integrator_kinds.h"
 #include "tests/verification/plants.h"
 
 namespace oca::verification {

@@ -4,16 +4,16 @@
 #include <stdexcept>
 #include <utility>
 
-#include "systems/first_order_lag.h"
-#include "systems/gain.h"
-#include "systems/integrator.h"
-#include "systems/integrator_plant.h"
-#include "systems/joint_servo.h"
-#include "systems/ramp_source.h"
-#include "systems/sine_source.h"
-#include "systems/step_source.h"
-#include "systems/sum.h"
-#include "systems/zero_order_hold.h"
+#include "oca/systems/basics/first_order_lag.h"
+#include "oca/systems/basics/gain.h"
+#include "oca/systems/basics/integrator.h"
+#include "oca/systems/basics/ramp_source.h"
+#include "oca/systems/basics/sine_source.h"
+#include "oca/systems/basics/step_source.h"
+#include "oca/systems/basics/sum.h"
+#include "oca/systems/basics/zero_order_hold.h"
+#include "oca/systems/plants/integrator_plant.h"
+#include "oca/systems/plants/joint_servo.h"
 
 namespace oca::verification {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/diagram.h"
+#include "oca/framework/dataflow/diagram.h"
 
 namespace oca::verification {
 

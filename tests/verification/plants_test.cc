@@ -10,9 +10,9 @@
 #include <string>
 #include <tuple>
 
-#include "framework/port_access.h"
-#include "framework/simulator.h"
-#include "tests/framework/integrator_kinds.h"
+#include "oca/framework/dataflow/port_access.h"
+#include "oca/framework/simulation/simulator.h"
+#include "tests/framework/simulation/integrator_kinds.h"
 
 namespace oca::verification {
 namespace plants_test {

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "framework/port_access.h"
-#include "framework/simulator.h"
+#include "oca/framework/dataflow/port_access.h"
+#include "oca/framework/simulation/simulator.h"
 
 namespace oca::verification {
 namespace {

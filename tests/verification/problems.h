@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "framework/integrator_options.h"
-#include "framework/period.h"
+#include "oca/framework/dataflow/integrator_options.h"
+#include "oca/framework/dataflow/period.h"
 #include "tests/verification/plants.h"
 
 namespace oca::verification {

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/framework/integrator_kinds.h"
+#include "tests/framework/simulation/integrator_kinds.h"
 #include "tests/verification/yardstick.h"
 
 namespace oca::verification {

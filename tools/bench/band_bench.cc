@@ -31,7 +31,7 @@ void OverScenes(benchmark::State& state, const Relax& relax) {
   double steps = 0.0, decades = 0.0;
   for (auto _ : state) {
     for (const auto& scene : scenes) {
-      models::BandCurve curve = band_scene::StraightBand();
+      planning::BandCurve curve = band_scene::StraightBand();
       const auto [before, after] = relax(scene, curve, steps);
       decades += std::log10(before / after);
     }
@@ -42,8 +42,8 @@ void OverScenes(benchmark::State& state, const Relax& relax) {
 }
 
 void Band(benchmark::State& state) {
-  OverScenes(state, [](const auto& scene, models::BandCurve& curve, double& steps) {
-    models::ElasticBand band(scene.model, {});
+  OverScenes(state, [](const auto& scene, planning::BandCurve& curve, double& steps) {
+    planning::ElasticBand band(scene.model, {});
     band.Prepare(curve, scene.request, scene.bodies, true);
     const double before = band.Cost(curve);
     const long looked = band.evaluations();
@@ -54,7 +54,7 @@ void Band(benchmark::State& state) {
 }
 
 void CeresBand(benchmark::State& state) {
-  OverScenes(state, [](const auto& scene, models::BandCurve& curve, double& steps) {
+  OverScenes(state, [](const auto& scene, planning::BandCurve& curve, double& steps) {
     const auto answer = band_scene::RelaxByCeres(scene, {}, kMostSteps, kLeastGain, curve);
     steps += answer.steps;
     return std::pair(answer.before, answer.after);

@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <random>
 
-#include "models/robot/kinematics.h"
-#include "models/robot/urdf.h"
-#include "systems/link_colliders.h"
+#include "oca/models/robot/kinematics.h"
+#include "oca/models/robot/urdf.h"
+#include "oca/systems/sensing/link_colliders.h"
 
 namespace oca::bench {
 namespace {
@@ -21,8 +21,8 @@ constexpr double kReach = 1.5;      // m, of obstacles
 constexpr double kClearance = 0.1;  // m, of obstacles from the path
 const Vector3d kShoulder(0.0, 0.0, 1.16);
 
-models::LoadOptions OnPedestal() {
-  models::LoadOptions options;
+robot::LoadOptions OnPedestal() {
+  robot::LoadOptions options;
   options.X_WB.translation().z() = 0.85;
   options.load_visuals = false;
   return options;
@@ -65,7 +65,7 @@ bool Clear(const std::vector<systems::LinkCollider>& links,
     for (const systems::LinkCollider& link : links) {
       const auto found = systems::DistanceToBody(link, X_WL[link.number], *obstacle.body->collider,
                                                  obstacle.X_WO, kClearance);
-      if (found.status != models::DistanceStatus::kBeyond) return false;
+      if (found.status != geometry::DistanceStatus::kBeyond) return false;
     }
   }
   return true;
@@ -73,20 +73,20 @@ bool Clear(const std::vector<systems::LinkCollider>& links,
 
 }  // namespace
 
-std::shared_ptr<const models::RobotModel> PrimitiveArm() {
-  return std::make_shared<const models::RobotModel>(
-      models::LoadUrdf(OCA_SOURCE_DIR "/models/robots/lwr4/lwr4.urdf", OnPedestal()));
+std::shared_ptr<const robot::RobotModel> PrimitiveArm() {
+  return std::make_shared<const robot::RobotModel>(
+      robot::LoadUrdf(OCA_SOURCE_DIR "/models/robots/lwr4/lwr4.urdf", OnPedestal()));
 }
 
-std::shared_ptr<const models::RobotModel> OwnMeshArm() {
-  return std::make_shared<const models::RobotModel>(
-      models::LoadUrdf(OCA_SOURCE_DIR "/models/robots/lwr4/lwr4_meshes.urdf", OnPedestal()));
+std::shared_ptr<const robot::RobotModel> OwnMeshArm() {
+  return std::make_shared<const robot::RobotModel>(
+      robot::LoadUrdf(OCA_SOURCE_DIR "/models/robots/lwr4/lwr4_meshes.urdf", OnPedestal()));
 }
 
-std::shared_ptr<const models::RobotModel> MeshArm() {
+std::shared_ptr<const robot::RobotModel> MeshArm() {
   const std::filesystem::path file = OCA_SOURCE_DIR "/../shared/data/robots/kuka_lwr/kuka.urdf";
   if (!std::filesystem::exists(file)) return nullptr;
-  return std::make_shared<const models::RobotModel>(models::LoadUrdf(file, OnPedestal()));
+  return std::make_shared<const robot::RobotModel>(robot::LoadUrdf(file, OnPedestal()));
 }
 
 std::vector<Eigen::VectorXd> PathConfigurations(int count) {
@@ -102,7 +102,7 @@ std::vector<Eigen::VectorXd> PathConfigurations(int count) {
   return path;
 }
 
-std::vector<Eigen::VectorXd> RandomConfigurations(const models::RobotModel& model, int count) {
+std::vector<Eigen::VectorXd> RandomConfigurations(const robot::RobotModel& model, int count) {
   std::mt19937_64 random(11);
   std::vector<Eigen::VectorXd> configurations;
   for (int i = 0; i < count; ++i) {
@@ -116,7 +116,7 @@ std::vector<Eigen::VectorXd> RandomConfigurations(const models::RobotModel& mode
   return configurations;
 }
 
-std::vector<BenchObstacle> MakeObstacles(const models::RobotModel& arm, int count) {
+std::vector<BenchObstacle> MakeObstacles(const robot::RobotModel& arm, int count) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -124,7 +124,7 @@ std::vector<BenchObstacle> MakeObstacles(const models::RobotModel& arm, int coun
   std::vector<std::vector<Eigen::Isometry3d>> path;
   const auto configurations = PathConfigurations(1000);
   for (std::size_t i = 0; i < configurations.size(); i += 20) {
-    path.push_back(models::LinkPoses(arm, configurations[i]));
+    path.push_back(robot::LinkPoses(arm, configurations[i]));
   }
   std::vector<BenchObstacle> obstacles;
   while (static_cast<int>(obstacles.size()) < count) {

@@ -16,8 +16,8 @@
 #include <chrono>
 #include <kdl/utilities/svd_eigen_HH.hpp>
 
-#include "diagrams/loader.h"
-#include "framework/simulator.h"
+#include "oca/diagrams/loading/loader.h"
+#include "oca/framework/simulation/simulator.h"
 #include "tools/bench/allocation_counter.h"
 #include "tools/bench/bench_scene.h"
 #include "tools/bench/fcl_bodies.h"
@@ -30,12 +30,12 @@ constexpr double kMaxDistance = 0.3;  // m
 constexpr double kPeriod = 0.01;      // s
 constexpr int kLoop = 1000;           // ticks of a run, which then starts again
 
-diagrams::LoadedDiagram LoadLoop(int obstacle_count, bool meshes) {
-  std::vector<diagrams::Override> overrides{
+loading::LoadedDiagram LoadLoop(int obstacle_count, bool meshes) {
+  std::vector<files::Override> overrides{
       {"parameters.sensing_distance", fmt::format("{}", kMaxDistance)},
       {"systems.obstacles.obstacles", ToYaml(MakeObstacles(*PrimitiveArm(), obstacle_count))}};
   if (meshes) overrides.push_back({"models.arm.urdf", "package://lwr4/lwr4_meshes.urdf"});
-  return diagrams::LoadDiagram(OCA_SOURCE_DIR "/diagrams/static_test.yaml", overrides);
+  return loading::LoadDiagram(OCA_SOURCE_DIR "/diagrams/static_test.yaml", overrides);
 }
 
 /// Runs the loop tick by tick, from the start again every 10 s of its time.
@@ -60,7 +60,7 @@ class Loop {
     simulator.Initialize();
     return simulator.context();
   }
-  diagrams::LoadedDiagram loaded_;
+  loading::LoadedDiagram loaded_;
   Simulator simulator_;
   Context start_;
   int tick_{0};
@@ -97,7 +97,7 @@ void Latency(benchmark::State& state, int obstacle_count, bool meshes) {
 /// The report's chain without a framework.
 class PlainChain {
  public:
-  PlainChain(std::shared_ptr<const models::RobotModel> arm, int obstacle_count, bool cull)
+  PlainChain(std::shared_ptr<const robot::RobotModel> arm, int obstacle_count, bool cull)
       : arm_(std::move(arm)),
         kdl_(*arm_),
         fcl_(MovableLinks(*arm_), ToSet(MakeObstacles(*PrimitiveArm(), obstacle_count)),
@@ -132,12 +132,12 @@ class PlainChain {
   }
 
  private:
-  static std::vector<systems::LinkCollider> MovableLinks(const models::RobotModel& arm) {
+  static std::vector<systems::LinkCollider> MovableLinks(const robot::RobotModel& arm) {
     auto links = systems::MakeLinkColliders(arm);
     std::erase_if(links, [&](const auto& link) { return arm.body(link.number) < 0; });
     return links;
   }
-  std::shared_ptr<const models::RobotModel> arm_;
+  std::shared_ptr<const robot::RobotModel> arm_;
   KdlArm kdl_;
   FclScene fcl_;
   Eigen::VectorXd w_;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "framework/system.h"
+#include "oca/framework/dataflow/system.h"
 
 namespace oca::bench {
 

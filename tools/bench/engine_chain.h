@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "framework/diagram.h"
-#include "framework/port_access.h"
+#include "oca/framework/dataflow/diagram.h"
+#include "oca/framework/dataflow/port_access.h"
 #include "tools/bench/engine_blocks.h"
 
 namespace oca::bench {

@@ -7,7 +7,7 @@
 namespace oca::bench {
 namespace {
 
-std::shared_ptr<fcl::CollisionGeometryd> HullToFcl(const models::ConvexHull& hull) {
+std::shared_ptr<fcl::CollisionGeometryd> HullToFcl(const geometry::ConvexHull& hull) {
   auto vertices = std::make_shared<std::vector<Eigen::Vector3d>>(hull.vertices);
   auto faces = std::make_shared<std::vector<int>>();
   for (const auto& t : hull.triangles) faces->insert(faces->end(), {3, t[0], t[1], t[2]});
@@ -16,22 +16,23 @@ std::shared_ptr<fcl::CollisionGeometryd> HullToFcl(const models::ConvexHull& hul
 
 }  // namespace
 
-std::shared_ptr<fcl::CollisionGeometryd> ToFcl(const models::Shape& shape) {
-  if (const auto* s = std::get_if<models::Sphere>(&shape)) {
+std::shared_ptr<fcl::CollisionGeometryd> ToFcl(const geometry::Shape& shape) {
+  if (const auto* s = std::get_if<geometry::Sphere>(&shape)) {
     return std::make_shared<fcl::Sphered>(s->radius);
   }
-  if (const auto* s = std::get_if<models::Box>(&shape)) return std::make_shared<fcl::Boxd>(s->size);
-  if (const auto* s = std::get_if<models::Cylinder>(&shape)) {
+  if (const auto* s = std::get_if<geometry::Box>(&shape))
+    return std::make_shared<fcl::Boxd>(s->size);
+  if (const auto* s = std::get_if<geometry::Cylinder>(&shape)) {
     return std::make_shared<fcl::Cylinderd>(s->radius, s->length);
   }
-  if (const auto* s = std::get_if<models::Capsule>(&shape)) {
+  if (const auto* s = std::get_if<geometry::Capsule>(&shape)) {
     return std::make_shared<fcl::Capsuled>(s->radius, s->length);
   }
-  if (const auto* s = std::get_if<models::ConvexMesh>(&shape)) return HullToFcl(*s->hull);
-  if (const auto* s = std::get_if<models::Cone>(&shape)) {
+  if (const auto* s = std::get_if<geometry::ConvexMesh>(&shape)) return HullToFcl(*s->hull);
+  if (const auto* s = std::get_if<geometry::Cone>(&shape)) {
     return std::make_shared<fcl::Coned>(s->radius, s->length);
   }
-  if (const auto* s = std::get_if<models::Ellipsoid>(&shape)) {
+  if (const auto* s = std::get_if<geometry::Ellipsoid>(&shape)) {
     return std::make_shared<fcl::Ellipsoidd>(s->radii);
   }
   throw std::invalid_argument("shape: got one that FCL has no peer of");
@@ -42,14 +43,14 @@ FclScene::FclScene(const std::vector<systems::LinkCollider>& links,
     : max_distance_(max_distance), cull_(cull) {
   for (const systems::LinkCollider& link : links) {
     for (const auto& element : link.elements) {
-      const models::Collider& collider = *element.collider;
+      const geometry::Collider& collider = *element.collider;
       links_.push_back({std::make_unique<fcl::CollisionObjectd>(ToFcl(collider.shape())), link.link,
                         link.number, element.X_LC, element.X_LC * collider.centre(),
                         collider.bounding_radius()});
     }
   }
   for (const systems::Obstacle& obstacle : obstacles.obstacles) {
-    const models::Collider& collider = *obstacle.body->collider;
+    const geometry::Collider& collider = *obstacle.body->collider;
     obstacles_.push_back(
         {std::make_unique<fcl::CollisionObjectd>(ToFcl(collider.shape()), obstacle.X_WO),
          obstacle.body->id, -1, obstacle.X_WO, obstacle.X_WO * collider.centre(),

@@ -6,14 +6,14 @@
 #include <memory>
 #include <vector>
 
-#include "models/geometry/collider.h"
-#include "systems/link_colliders.h"
-#include "systems/signals.h"
+#include "oca/models/geometry/collider.h"
+#include "oca/systems/sensing/link_colliders.h"
+#include "oca/systems/signals/signals.h"
 
 namespace oca::bench {
 
 /// A shape for FCL; throws std::invalid_argument for what FCL or this bench does not know.
-std::shared_ptr<fcl::CollisionGeometryd> ToFcl(const models::Shape& shape);
+std::shared_ptr<fcl::CollisionGeometryd> ToFcl(const geometry::Shape& shape);
 
 /// What BulletDistance does, written plainly with FCL: each link against each obstacle, left out if
 /// `cull` is set and the bounding balls are farther apart than max_distance.

@@ -11,11 +11,11 @@
 #include <cmath>
 #include <random>
 
-#include "models/geometry/point_cloud.h"
-#include "models/robot/kinematics.h"
-#include "systems/bullet_distance.h"
-#include "systems/model_links.h"
-#include "tests/system_bench.h"
+#include "oca/models/geometry/point_cloud.h"
+#include "oca/models/robot/kinematics.h"
+#include "oca/systems/sensing/bullet_distance.h"
+#include "oca/systems/sensing/model_links.h"
+#include "tests/systems/system_bench.h"
 #include "tools/bench/allocation_counter.h"
 #include "tools/bench/bench_scene.h"
 
@@ -47,7 +47,7 @@ void TickAmong(benchmark::State& state, const systems::ObstacleSet& obstacles, i
   std::vector<systems::LinkPoses> poses;
   for (const auto& q : PathConfigurations(kConfigurations)) {
     systems::NameLinks(*arm, poses.emplace_back());
-    poses.back().poses = models::LinkPoses(*arm, q);
+    poses.back().poses = robot::LinkPoses(*arm, q);
   }
   const std::vector<systems::LinkCollider> colliders = systems::MakeLinkColliders(*arm);
   systems::ObstacleScene scene;
@@ -74,7 +74,7 @@ void TickAmong(benchmark::State& state, const systems::ObstacleSet& obstacles, i
         const systems::Obstacle& obstacle = set.obstacles[static_cast<std::size_t>(place)];
         const auto distance =
             systems::DistanceToBody(link, X_WL, *obstacle.body->collider, obstacle.X_WO, kNear);
-        found += distance.status == models::DistanceStatus::kBeyond ? 0 : 1;
+        found += distance.status == geometry::DistanceStatus::kBeyond ? 0 : 1;
       }
     }
   }
@@ -99,14 +99,16 @@ void Cloud(benchmark::State& state) {
   systems::ObstacleSet set;
   set.obstacles.emplace_back();
   set.obstacles[0].body = std::make_shared<const systems::ObstacleBody>(systems::ObstacleBody{
-      models::Name("cloud"), models::MakeCollider(models::MakeCloud(points, 0.01), "cloud"), ""});
+      models::Name("cloud"), geometry::MakeCollider(geometry::MakeCloud(points, 0.01), "cloud"),
+      ""});
   TickAmong(state, set, -1);
 }
 
 void CloudBuild(benchmark::State& state) {
   const auto points = Surroundings(static_cast<int>(state.range(0)));
   for (auto _ : state) {
-    benchmark::DoNotOptimize(models::MakeCollider(models::MakeCloud(points, 0.01), "cloud").get());
+    benchmark::DoNotOptimize(
+        geometry::MakeCollider(geometry::MakeCloud(points, 0.01), "cloud").get());
   }
   state.counters["points"] = benchmark::Counter(static_cast<double>(points.size()),
                                                 benchmark::Counter::kIsIterationInvariantRate);

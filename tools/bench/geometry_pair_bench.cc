@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "models/geometry/distance.h"
+#include "oca/models/geometry/distance.h"
 #include "tools/bench/allocation_counter.h"
 #include "tools/bench/fcl_bodies.h"
 
@@ -21,7 +21,7 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-using models::Shape;
+using geometry::Shape;
 
 constexpr int kSteps = 1024;
 
@@ -37,7 +37,7 @@ Shape Housing(int rings, int sides) {
                           radius * std::sin(angle), z);
     }
   }
-  return models::ConvexMesh{models::MakeConvexHull(points, "housing")};
+  return geometry::ConvexMesh{geometry::MakeConvexHull(points, "housing")};
 }
 
 struct Named {
@@ -46,15 +46,15 @@ struct Named {
 };
 
 const std::vector<Named>& Shapes() {
-  static const std::vector<Named> shapes{{"sphere", models::Sphere{0.1}},
-                                         {"capsule", models::Capsule{0.07, 0.2}},
-                                         {"box", models::Box{{0.2, 0.15, 0.25}}},
-                                         {"cylinder", models::Cylinder{0.08, 0.25}},
-                                         {"cone", models::Cone{0.1, 0.25}},
-                                         {"ellipsoid", models::Ellipsoid{{0.08, 0.1, 0.13}}},
+  static const std::vector<Named> shapes{{"sphere", geometry::Sphere{0.1}},
+                                         {"capsule", geometry::Capsule{0.07, 0.2}},
+                                         {"box", geometry::Box{{0.2, 0.15, 0.25}}},
+                                         {"cylinder", geometry::Cylinder{0.08, 0.25}},
+                                         {"cone", geometry::Cone{0.1, 0.25}},
+                                         {"ellipsoid", geometry::Ellipsoid{{0.08, 0.1, 0.13}}},
                                          {"lean", Housing(7, 9)},
                                          {"hull600", Housing(20, 30)},
-                                         {"half_space", models::HalfSpace{}}};
+                                         {"half_space", geometry::HalfSpace{}}};
   return shapes;
 }
 
@@ -69,7 +69,7 @@ Isometry3d RandomPose(std::mt19937_64* random) {
 }
 
 // Poses of A at rest and of B on a walk around it; the signed distance stays within the limits.
-std::vector<Isometry3d> Walk(const models::Collider& a, const models::Collider& b,
+std::vector<Isometry3d> Walk(const geometry::Collider& a, const geometry::Collider& b,
                              const Isometry3d& X_WA, double least, double most) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal;
@@ -82,7 +82,7 @@ std::vector<Isometry3d> Walk(const models::Collider& a, const models::Collider& 
       X = RandomPose(&random);
       X.translation() = 0.3 * Vector3d(normal(random), normal(random), normal(random));
       for (int i = 0; i < 4; ++i) {
-        const auto found = models::Distance(a, X_WA, b, X);
+        const auto found = geometry::Distance(a, X_WA, b, X);
         X.translation() -= (gap(random) - found.distance) * found.normal;
       }
       v = 1e-3 * Vector3d(normal(random), normal(random), normal(random));
@@ -97,24 +97,24 @@ std::vector<Isometry3d> Walk(const models::Collider& a, const models::Collider& 
 
 struct Scene {
   Scene(const Shape& shape_a, const Shape& shape_b, double least, double most)
-      : a(models::MakeCollider(shape_a, "a")), b(models::MakeCollider(shape_b, "b")) {
+      : a(geometry::MakeCollider(shape_a, "a")), b(geometry::MakeCollider(shape_b, "b")) {
     std::mt19937_64 random(3);
     X_WA = RandomPose(&random);
     X_WA.translation() = Vector3d(0.1, -0.2, 0.3);
     poses = Walk(*a, *b, X_WA, least, most);
   }
-  std::shared_ptr<const models::Collider> a, b;
+  std::shared_ptr<const geometry::Collider> a, b;
   Isometry3d X_WA;
   std::vector<Isometry3d> poses;
 };
 
 void Ours(benchmark::State& state, const Scene& scene, bool warm) {
-  models::PairCache cache;
+  geometry::PairCache cache;
   std::size_t i = 0;
   const AllocationCounter allocations(state);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(models::Distance(*scene.a, scene.X_WA, *scene.b, scene.poses[i], 10.0,
-                                              warm ? &cache : nullptr));
+    benchmark::DoNotOptimize(geometry::Distance(*scene.a, scene.X_WA, *scene.b, scene.poses[i],
+                                                10.0, warm ? &cache : nullptr));
     i = (i + 1) % scene.poses.size();
   }
 }
@@ -148,7 +148,7 @@ void Register(const Named& first, const Named& second) {
   add("/warm", kNear, kFar, warm);
   add("/overlap", kDeep, kShallow, cold);
   // FCL measures a half-space in collisions only, and its penetration search aborts now and then.
-  if (second.shape.index() != Shape(models::HalfSpace{}).index()) {
+  if (second.shape.index() != Shape(geometry::HalfSpace{}).index()) {
     add("/cold/fcl", kNear, kFar, Fcl);
   }
 }

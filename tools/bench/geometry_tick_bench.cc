@@ -7,10 +7,10 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include "models/robot/kinematics.h"
-#include "systems/bullet_distance.h"
-#include "systems/model_links.h"
-#include "tests/system_bench.h"
+#include "oca/models/robot/kinematics.h"
+#include "oca/systems/sensing/bullet_distance.h"
+#include "oca/systems/sensing/model_links.h"
+#include "tests/systems/system_bench.h"
 #include "tools/bench/allocation_counter.h"
 #include "tools/bench/bench_scene.h"
 #include "tools/bench/fcl_bodies.h"
@@ -30,11 +30,11 @@ struct TickScene {
          path ? PathConfigurations(kConfigurations) : RandomConfigurations(*arm, kConfigurations)) {
       systems::LinkPoses links;
       systems::NameLinks(*arm, links);
-      links.poses = models::LinkPoses(*arm, q);
+      links.poses = robot::LinkPoses(*arm, q);
       poses.push_back(std::move(links));
     }
   }
-  std::shared_ptr<const models::RobotModel> arm;
+  std::shared_ptr<const robot::RobotModel> arm;
   systems::ObstacleSet obstacles;
   std::vector<systems::LinkPoses> poses;
 };

@@ -4,7 +4,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "framework/simulator.h"
+#include "oca/framework/simulation/simulator.h"
 #include "tools/bench/engine_floors.h"
 #include "tools/bench/tick_diagram.h"
 

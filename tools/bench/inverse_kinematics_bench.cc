@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "models/robot/inverse_kinematics.h"
-#include "models/robot/kinematics.h"
-#include "models/robot/urdf.h"
+#include "oca/models/robot/inverse_kinematics.h"
+#include "oca/models/robot/kinematics.h"
+#include "oca/models/robot/urdf.h"
 #include "tools/bench/bench_scene.h"
 
 namespace oca::bench {
@@ -22,12 +22,12 @@ namespace {
 constexpr int kPoses = 10000;
 
 void InverseKinematics(benchmark::State& state, const std::string& arm) {
-  const models::RobotModel model =
-      models::LoadUrdf(OCA_SOURCE_DIR "/models/robots/" + arm + "/" + arm + ".urdf");
-  const int tip = models::TipLink(model);
+  const robot::RobotModel model =
+      robot::LoadUrdf(OCA_SOURCE_DIR "/models/robots/" + arm + "/" + arm + ".urdf");
+  const int tip = robot::TipLink(model);
   std::vector<Eigen::Isometry3d> poses;
   for (const Eigen::VectorXd& q : RandomConfigurations(model, kPoses)) {
-    poses.push_back(models::LinkPoses(model, q)[tip]);
+    poses.push_back(robot::LinkPoses(model, q)[tip]);
   }
   const Eigen::VectorXd start = Eigen::VectorXd::Constant(model.num_positions(), 0.3);
   std::vector<double> times;
@@ -36,7 +36,7 @@ void InverseKinematics(benchmark::State& state, const std::string& arm) {
   for (auto _ : state) {
     const Eigen::Isometry3d& X_WG = poses[times.size() % poses.size()];
     const Clock::time_point begin = Clock::now();
-    const auto found = models::SolveInverseKinematics(model, tip, X_WG, start);
+    const auto found = robot::SolveInverseKinematics(model, tip, X_WG, start);
     times.push_back(std::chrono::duration<double, std::micro>(Clock::now() - begin).count());
     if (found.reached) ++reached;
   }

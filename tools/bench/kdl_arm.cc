@@ -19,11 +19,11 @@ Eigen::Isometry3d ToEigen(const KDL::Frame& frame) {
   return X;
 }
 
-KDL::Chain MakeChain(const models::RobotModel& model) {
+KDL::Chain MakeChain(const robot::RobotModel& model) {
   KDL::Chain chain;
   chain.addSegment(KDL::Segment(KDL::Joint("base", KDL::Joint::None), ToKdl(model.X_WB())));
-  for (const models::Joint& joint : model.joints()) {
-    if (joint.parent_link != joint.child_link - 1 || joint.type == models::JointType::kPrismatic) {
+  for (const robot::Joint& joint : model.joints()) {
+    if (joint.parent_link != joint.child_link - 1 || joint.type == robot::JointType::kPrismatic) {
       throw std::invalid_argument("model: got a branch or a slider; expected a chain of hinges");
     }
     const KDL::Frame tip = ToKdl(joint.X_PJ);
@@ -38,7 +38,7 @@ KDL::Chain MakeChain(const models::RobotModel& model) {
 
 }  // namespace
 
-KdlArm::KdlArm(const models::RobotModel& model)
+KdlArm::KdlArm(const robot::RobotModel& model)
     : model_(model),
       chain_(MakeChain(model)),
       poses_solver_(chain_),

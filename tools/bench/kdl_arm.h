@@ -8,7 +8,7 @@
 #include <kdl/chainjnttojacsolver.hpp>
 #include <vector>
 
-#include "models/robot/robot_model.h"
+#include "oca/models/robot/robot_model.h"
 
 namespace oca::bench {
 
@@ -16,7 +16,7 @@ namespace oca::bench {
 /// the pose and one for the Jacobian of each segment, from the base every time.
 class KdlArm {
  public:
-  explicit KdlArm(const models::RobotModel& model);
+  explicit KdlArm(const robot::RobotModel& model);
 
   /// Poses of all links and the Jacobians of all bodies below each other.
   void Calc(const Eigen::VectorXd& q);
@@ -24,7 +24,7 @@ class KdlArm {
   const Eigen::MatrixXd& jacobian() const { return J_; }
 
  private:
-  const models::RobotModel& model_;
+  const robot::RobotModel& model_;
   KDL::Chain chain_;
   KDL::ChainFkSolverPos_recursive poses_solver_;
   KDL::ChainJntToJacSolver jacobian_solver_;

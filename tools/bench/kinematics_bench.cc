@@ -8,8 +8,8 @@
 
 #include <kdl/utilities/svd_eigen_HH.hpp>
 
-#include "models/robot/jacobian_mapping.h"
-#include "models/robot/kinematics.h"
+#include "oca/models/robot/jacobian_mapping.h"
+#include "oca/models/robot/kinematics.h"
 #include "tools/bench/allocation_counter.h"
 #include "tools/bench/bench_scene.h"
 #include "tools/bench/kdl_arm.h"
@@ -34,7 +34,7 @@ void Poses(benchmark::State& state) {
   const auto arm = PrimitiveArm();
   std::vector<Eigen::Isometry3d> X_WL(arm->links().size());
   OverPath(state, [&](const Eigen::VectorXd& q, std::size_t) {
-    models::ForwardKinematics(*arm, q, X_WL);
+    robot::ForwardKinematics(*arm, q, X_WL);
     benchmark::DoNotOptimize(X_WL.data());
     benchmark::ClobberMemory();
   });
@@ -45,8 +45,8 @@ void Kinematics(benchmark::State& state) {
   std::vector<Eigen::Isometry3d> X_WL(arm->links().size());
   Eigen::MatrixXd J(6 * arm->num_bodies(), arm->num_positions());
   OverPath(state, [&](const Eigen::VectorXd& q, std::size_t) {
-    models::ForwardKinematics(*arm, q, X_WL);
-    models::StackedJacobian(*arm, X_WL, J);
+    robot::ForwardKinematics(*arm, q, X_WL);
+    robot::StackedJacobian(*arm, X_WL, J);
     benchmark::DoNotOptimize(J.data());
     benchmark::ClobberMemory();
   });
@@ -62,25 +62,25 @@ void KdlKinematics(benchmark::State& state) {
 }
 
 /// Wrenches on the last two bodies, as one obstacle near the hand causes.
-std::vector<models::BodyWrench> SomeWrenches(const models::RobotModel& arm) {
-  std::vector<models::BodyWrench> wrenches(arm.bodies().size());
+std::vector<robot::BodyWrench> SomeWrenches(const robot::RobotModel& arm) {
+  std::vector<robot::BodyWrench> wrenches(arm.bodies().size());
   const std::size_t n = wrenches.size();
   wrenches[n - 1] = {Eigen::Vector3d(1.0, 2.0, -1.0), Eigen::Vector3d(0.1, 0.0, 0.2)};
   wrenches[n - 2] = {Eigen::Vector3d(0.5, 0.0, -1.0), Eigen::Vector3d(0.0, 0.3, 0.1)};
   return wrenches;
 }
 
-void Mapping(benchmark::State& state, models::MappingMethod method) {
+void Mapping(benchmark::State& state, robot::MappingMethod method) {
   const auto arm = PrimitiveArm();
   const auto wrenches = SomeWrenches(*arm);
   std::vector<std::vector<Eigen::Isometry3d>> poses;
   for (const auto& q : PathConfigurations(kConfigurations)) {
-    poses.push_back(models::LinkPoses(*arm, q));
+    poses.push_back(robot::LinkPoses(*arm, q));
   }
-  models::MappingWorkspace workspace(*arm);
+  robot::MappingWorkspace workspace(*arm);
   Eigen::VectorXd delta(arm->num_positions());
   OverPath(state, [&](const Eigen::VectorXd&, std::size_t i) {
-    models::MapWrenches(*arm, poses[i], wrenches, {method, 1.0, 0.1}, workspace, delta);
+    robot::MapWrenches(*arm, poses[i], wrenches, {method, 1.0, 0.1}, workspace, delta);
     benchmark::DoNotOptimize(delta.data());
     benchmark::ClobberMemory();
   });
@@ -115,11 +115,10 @@ void KdlMapping(benchmark::State& state) {
 BENCHMARK(Poses)->Name("geometry/poses");
 BENCHMARK(Kinematics)->Name("geometry/kinematics");
 BENCHMARK(KdlKinematics)->Name("geometry/kinematics/kdl");
-BENCHMARK_CAPTURE(Mapping, t, models::MappingMethod::kTranspose)
-    ->Name("geometry/mapping/transpose");
-BENCHMARK_CAPTURE(Mapping, p, models::MappingMethod::kPseudoInverse)
+BENCHMARK_CAPTURE(Mapping, t, robot::MappingMethod::kTranspose)->Name("geometry/mapping/transpose");
+BENCHMARK_CAPTURE(Mapping, p, robot::MappingMethod::kPseudoInverse)
     ->Name("geometry/mapping/pseudo_inverse");
-BENCHMARK_CAPTURE(Mapping, d, models::MappingMethod::kDamped)->Name("geometry/mapping/damped");
+BENCHMARK_CAPTURE(Mapping, d, robot::MappingMethod::kDamped)->Name("geometry/mapping/damped");
 BENCHMARK(KdlMapping)->Name("geometry/mapping/pseudo_inverse/kdl");
 
 }  // namespace

@@ -9,14 +9,14 @@
 #include <cmath>
 #include <vector>
 
-#include "models/qp/projection_solver.h"
+#include "oca/models/qp/projection_solver.h"
 #include "tools/bench/allocation_counter.h"
 
 namespace oca::bench {
 namespace {
 
 /// Problem number `tick`: smooth in time, with a few rows active at each.
-void FillProblem(double tick, models::ProjectionQp& qp) {
+void FillProblem(double tick, qp::ProjectionQp& qp) {
   const int n = qp.num_variables();
   for (int j = 0; j < n; ++j) {
     qp.wish[j] = 0.6 * std::sin(0.010 * tick + j);
@@ -34,13 +34,13 @@ void SolveQp(benchmark::State& state) {
   constexpr int kProblems = 500;
   const int n = static_cast<int>(state.range(0));
   const int m = static_cast<int>(state.range(1));
-  std::vector<models::ProjectionQp> problems(kProblems, models::ProjectionQp(n, m));
+  std::vector<qp::ProjectionQp> problems(kProblems, qp::ProjectionQp(n, m));
   for (int k = 0; k < kProblems; ++k) {
     problems[k].num_rows = m;
     FillProblem(k, problems[k]);
   }
-  models::ProjectionSolver solver(n, m);
-  models::QpSolution solution(problems[0]);
+  qp::ProjectionSolver solver(n, m);
+  qp::QpSolution solution(problems[0]);
   std::vector<double> times;
   times.reserve(10'000'000);
   double iterations = 0.0;

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "framework/signal_log.h"
-#include "framework/simulator.h"
+#include "oca/framework/simulation/signal_log.h"
+#include "oca/framework/simulation/simulator.h"
 #include "tools/bench/allocation_counter.h"
 #include "tools/bench/engine_floors.h"
 #include "tools/bench/tick_diagram.h"

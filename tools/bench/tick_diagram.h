@@ -7,9 +7,9 @@
 #include <memory>
 #include <string>
 
-#include "framework/diagram.h"
-#include "framework/port_access.h"
-#include "framework/simulator.h"
+#include "oca/framework/dataflow/diagram.h"
+#include "oca/framework/dataflow/port_access.h"
+#include "oca/framework/simulation/simulator.h"
 #include "tools/bench/allocation_counter.h"
 #include "tools/bench/engine_blocks.h"
 

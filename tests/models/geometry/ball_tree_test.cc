@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/geometry/ball_tree.h"
+#include "oca/models/geometry/ball_tree.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace oca::models {
+namespace oca::geometry {
 namespace ball_tree_test {
 
 using Eigen::Vector3d;
@@ -132,4 +132,4 @@ TEST(BallTreeTest, SearchVisitsTheNearestAndFewOthers) {
 }
 
 }  // namespace ball_tree_test
-}  // namespace oca::models
+}  // namespace oca::geometry

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/geometry/collider.h"
+#include "oca/models/geometry/collider.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,11 +7,11 @@
 #include <limits>
 #include <string>
 
-#include "models/error.h"
-#include "models/geometry/hull_support.h"
+#include "oca/models/error.h"
+#include "oca/models/geometry/hull_support.h"
 #include "tests/models/geometry/random_bodies.h"
 
-namespace oca::models {
+namespace oca::geometry {
 namespace collider_test {
 
 using Eigen::Vector3d;
@@ -21,7 +21,7 @@ using testing::HasSubstr;
 std::string RefusalOf(const Shape& shape) {
   try {
     MakeCollider(shape, "obstacle 'box'");
-  } catch (const ModelError& error) {
+  } catch (const models::ModelError& error) {
     return error.what();
   }
   return "accepted";
@@ -109,4 +109,4 @@ TEST(HullSupportTest, VectorInstructionsFindAVertexAsFarAsTheLoop) {
 }
 
 }  // namespace collider_test
-}  // namespace oca::models
+}  // namespace oca::geometry

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/geometry/convex_hull.h"
+#include "oca/models/geometry/convex_hull.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,10 +10,10 @@
 #include <map>
 #include <utility>
 
-#include "models/error.h"
+#include "oca/models/error.h"
 #include "tests/models/geometry/random_bodies.h"
 
-namespace oca::models {
+namespace oca::geometry {
 namespace convex_hull_test {
 
 using Eigen::Vector3d;
@@ -35,7 +35,7 @@ std::vector<Vector3d> Cube(double edge, int per_edge) {
 std::string RefusalOf(const std::vector<Vector3d>& points) {
   try {
     MakeConvexHull(points, "link 3");
-  } catch (const ModelError& error) {
+  } catch (const models::ModelError& error) {
     return error.what();
   }
   return "accepted";
@@ -166,4 +166,4 @@ TEST(ConvexHullTest, ThinnestPlateIsAMillionthOfItsExtent) {
 }
 
 }  // namespace convex_hull_test
-}  // namespace oca::models
+}  // namespace oca::geometry

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 
-#include "models/geometry/bullet_penetration.h"
-#include "models/geometry/closed_forms.h"
-#include "models/geometry/gjk.h"
-#include "models/geometry/polytope_depth.h"
+#include "oca/models/geometry/bullet_penetration.h"
+#include "oca/models/geometry/closed_forms.h"
+#include "oca/models/geometry/gjk.h"
+#include "oca/models/geometry/polytope_depth.h"
 #include "tests/models/geometry/random_bodies.h"
 
-namespace oca::models::internal {
+namespace oca::geometry::internal {
 namespace core_methods_test {
 
 using Eigen::Isometry3d;
@@ -125,4 +125,4 @@ TEST(CoreMethodsTest, GjkReportsALowerBoundBeyondItsLimit) {
 }
 
 }  // namespace core_methods_test
-}  // namespace oca::models::internal
+}  // namespace oca::geometry::internal

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/geometry/decomposition.h"
+#include "oca/models/geometry/decomposition.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,13 +8,13 @@
 #include <fstream>
 #include <thread>
 
-#include "models/error.h"
-#include "models/geometry/collider.h"
-#include "models/geometry/distance.h"
-#include "models/robot/urdf.h"
+#include "oca/models/error.h"
+#include "oca/models/geometry/collider.h"
+#include "oca/models/geometry/distance.h"
+#include "oca/models/robot/urdf.h"
 #include "tests/temporary_folder.h"
 
-namespace oca::models {
+namespace oca::geometry {
 namespace decomposition_test {
 
 using Eigen::Isometry3d;
@@ -134,9 +134,12 @@ TEST_F(DecompositionTest, MakesCompoundsOfARobotsMeshesIfAskedTo) {
   ASSERT_EQ(::setenv("XDG_CACHE_HOME", cache_.c_str(), 1), 0);
   const std::string robot = R"(<robot name="r"><link name="l"><collision><geometry>)"
                             R"(<mesh filename="angle.stl"/></geometry></collision></link></robot>)";
-  LoadOptions options;
+  robot::LoadOptions options;
   const auto shape = [&] {
-    return ParseUrdf(robot, "r.urdf", options, folder_.path()).links()[0].collisions.at(0).shape;
+    return robot::ParseUrdf(robot, "r.urdf", options, folder_.path())
+        .links()[0]
+        .collisions.at(0)
+        .shape;
   };
   EXPECT_TRUE(std::holds_alternative<ConvexMesh>(shape()));
   options.decompose_meshes = true;
@@ -157,11 +160,11 @@ TEST_F(DecompositionTest, LooksForItsFolderAsXdgSays) {
 
 TEST_F(DecompositionTest, RefusesWhatIsNoMeshAndNoConcavity) {
   for (const double concavity : {0.0, 1.0, -1.0, std::nan("")}) {
-    EXPECT_THROW(LoadDecomposition(mesh_, Vector3d::Ones(), concavity, {}), ModelError);
+    EXPECT_THROW(LoadDecomposition(mesh_, Vector3d::Ones(), concavity, {}), models::ModelError);
   }
-  EXPECT_THROW(LoadDecomposition(folder_.path() / "none.stl"), ModelError);
-  EXPECT_THROW(DecomposeMesh({}, "nothing"), ModelError);
+  EXPECT_THROW(LoadDecomposition(folder_.path() / "none.stl"), models::ModelError);
+  EXPECT_THROW(DecomposeMesh({}, "nothing"), models::ModelError);
 }
 
 }  // namespace decomposition_test
-}  // namespace oca::models
+}  // namespace oca::geometry

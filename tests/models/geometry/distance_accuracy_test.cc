@@ -9,10 +9,10 @@
 #include <iostream>
 #include <vector>
 
-#include "models/geometry/point_forms.h"
+#include "oca/models/geometry/point_forms.h"
 #include "tests/models/geometry/random_bodies.h"
 
-namespace oca::models {
+namespace oca::geometry {
 namespace distance_accuracy_test {
 
 using Eigen::Isometry3d;
@@ -212,4 +212,4 @@ TEST(DistanceEnumerationTest, BoxesApartAreAsFarAsTheirMeshes) {
 }
 
 }  // namespace distance_accuracy_test
-}  // namespace oca::models
+}  // namespace oca::geometry

@@ -18,7 +18,7 @@
 
 #include "tests/models/geometry/random_bodies.h"
 
-namespace oca::models {
+namespace oca::geometry {
 namespace distance_bullet_test {
 
 using Eigen::Isometry3d;
@@ -115,4 +115,4 @@ TEST_P(DistanceBulletTest, PairsOfAllKindsAgreeApartAndInOverlap) {
 INSTANTIATE_TEST_SUITE_P(Shares, DistanceBulletTest, testing::Range(0, kShares));
 
 }  // namespace distance_bullet_test
-}  // namespace oca::models
+}  // namespace oca::geometry

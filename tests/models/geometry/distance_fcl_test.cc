@@ -9,7 +9,7 @@
 
 #include "tests/models/geometry/random_bodies.h"
 
-namespace oca::models {
+namespace oca::geometry {
 namespace distance_fcl_test {
 
 using Eigen::Isometry3d;
@@ -79,4 +79,4 @@ TEST_P(DistanceFclTest, SeparatedPairsOfAllKindsAgree) {
 INSTANTIATE_TEST_SUITE_P(Shares, DistanceFclTest, testing::Range(0, kShares));
 
 }  // namespace distance_fcl_test
-}  // namespace oca::models
+}  // namespace oca::geometry

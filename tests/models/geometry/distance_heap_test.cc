@@ -4,7 +4,7 @@
 #include "tests/allocation_count.h"
 #include "tests/models/geometry/random_bodies.h"
 
-namespace oca::models {
+namespace oca::geometry {
 namespace distance_heap_test {
 
 TEST(DistanceHeapTest, NoQueryAllocates) {
@@ -37,4 +37,4 @@ TEST(DistanceHeapTest, TheCounterCounts) {
 }
 
 }  // namespace distance_heap_test
-}  // namespace oca::models
+}  // namespace oca::geometry

@@ -6,7 +6,7 @@
 
 #include "tests/models/geometry/random_bodies.h"
 
-namespace oca::models {
+namespace oca::geometry {
 namespace distance_invariance_test {
 
 using Eigen::AngleAxisd;
@@ -130,4 +130,4 @@ TEST(DistanceInvarianceTest, TheLimitDividesNearFromFar) {
 }
 
 }  // namespace distance_invariance_test
-}  // namespace oca::models
+}  // namespace oca::geometry

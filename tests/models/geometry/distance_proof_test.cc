@@ -7,7 +7,7 @@
 
 #include "tests/models/geometry/random_bodies.h"
 
-namespace oca::models {
+namespace oca::geometry {
 namespace distance_proof_test {
 
 using Eigen::Isometry3d;
@@ -154,4 +154,4 @@ TEST(DistanceProofTest, AWrongAnswerWouldBeNoticed) {
 }
 
 }  // namespace distance_proof_test
-}  // namespace oca::models
+}  // namespace oca::geometry

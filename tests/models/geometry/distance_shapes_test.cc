@@ -3,10 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "models/error.h"
+#include "oca/models/error.h"
 #include "tests/models/geometry/random_bodies.h"
 
-namespace oca::models {
+namespace oca::geometry {
 namespace distance_shapes_test {
 
 using Eigen::Isometry3d;
@@ -28,7 +28,7 @@ double ToSphere(const Shape& shape, double x, double y, double z) {
 std::string RefusalOf(const Shape& shape) {
   try {
     Make(shape);
-  } catch (const ModelError& error) {
+  } catch (const models::ModelError& error) {
     return error.what();
   }
   return "";
@@ -166,4 +166,4 @@ TEST(DistanceShapesTest, FacesThatTouchAreNoDistanceApart) {
 }
 
 }  // namespace distance_shapes_test
-}  // namespace oca::models
+}  // namespace oca::geometry

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Values worked out by hand, boundaries and refused input of Distance.
-#include "models/geometry/distance.h"
+#include "oca/models/geometry/distance.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-namespace oca::models {
+namespace oca::geometry {
 namespace distance_test {
 
 using Eigen::AngleAxisd;
@@ -224,4 +224,4 @@ TEST(DistanceTest, APoseThatIsNotFiniteIsReported) {
 }
 
 }  // namespace distance_test
-}  // namespace oca::models
+}  // namespace oca::geometry

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace oca::models {
+namespace oca::geometry {
 
 using StlTriangle = std::array<std::array<float, 3>, 3>;
 
@@ -96,4 +96,4 @@ inline std::string Collada(const std::string& unit, const std::string& up,
 )";
 }
 
-}  // namespace oca::models
+}  // namespace oca::geometry

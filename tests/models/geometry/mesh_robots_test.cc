@@ -4,10 +4,10 @@
 
 #include <filesystem>
 
-#include "models/geometry/distance.h"
-#include "models/geometry/mesh.h"
+#include "oca/models/geometry/distance.h"
+#include "oca/models/geometry/mesh.h"
 
-namespace oca::models {
+namespace oca::geometry {
 namespace mesh_robots_test {
 
 namespace fs = std::filesystem;
@@ -91,4 +91,4 @@ TEST_F(MeshRobotsTest, HullOfAKnownLinkStaysAsItIs) {
 }
 
 }  // namespace mesh_robots_test
-}  // namespace oca::models
+}  // namespace oca::geometry

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/geometry/mesh_surface.h"
+#include "oca/models/geometry/mesh_surface.h"
 
 #include <gtest/gtest.h>
 
 #include <utility>
 
-#include "models/geometry/convex_hull.h"
+#include "oca/models/geometry/convex_hull.h"
 #include "tests/models/geometry/mesh_files.h"
 #include "tests/temporary_folder.h"
 
-namespace oca::models {
+namespace oca::geometry {
 namespace mesh_surface_test {
 
 using Eigen::Vector3d;
@@ -85,4 +85,4 @@ TEST(MeshSurfaceTest, IsSilentUpToOnePerCent) {
 }
 
 }  // namespace mesh_surface_test
-}  // namespace oca::models
+}  // namespace oca::geometry

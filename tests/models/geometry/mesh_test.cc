@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/geometry/mesh.h"
+#include "oca/models/geometry/mesh.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,11 +9,11 @@
 #include <limits>
 #include <random>
 
-#include "models/error.h"
+#include "oca/models/error.h"
 #include "tests/models/geometry/mesh_files.h"
 #include "tests/temporary_folder.h"
 
-namespace oca::models {
+namespace oca::geometry {
 namespace mesh_test {
 
 using Eigen::Vector3d;
@@ -51,7 +51,7 @@ void ExpectTetrahedron(const TriangleMesh& mesh, const Vector3d& high) {
 std::string RefusalOf(const std::filesystem::path& file, const Vector3d& scale = Vector3d::Ones()) {
   try {
     LoadConvexHull(file, scale);
-  } catch (const ModelError& error) {
+  } catch (const models::ModelError& error) {
     EXPECT_THAT(error.what(), AllOf(HasSubstr(file.string() + ": "), HasSubstr("; got "),
                                     HasSubstr("; expected ")));
     return error.what();
@@ -101,7 +101,7 @@ TEST(MeshTest, StlCountThatOverflowsIsRefused) {
     try {
       LoadMesh(folder.Write("many.stl", bytes));
       ADD_FAILURE() << head;
-    } catch (const ModelError& error) {
+    } catch (const models::ModelError& error) {
       EXPECT_NE(std::string(error.what())
                     .find("ends too early; got 284 bytes; expected "
                           "107374182684 for its 2147483652 triangles"),
@@ -239,4 +239,4 @@ TEST(MeshTest, RefusesAColladaOfNothingButOpeningTags) {
 }
 
 }  // namespace mesh_test
-}  // namespace oca::models
+}  // namespace oca::geometry

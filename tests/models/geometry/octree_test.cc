@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Octrees written by OctoMap itself are the truth; damaged ones must be refused in words.
-#include "models/geometry/octree.h"
+#include "oca/models/geometry/octree.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,10 +13,10 @@
 #include <sstream>
 #include <vector>
 
-#include "models/error.h"
+#include "oca/models/error.h"
 #include "tests/temporary_folder.h"
 
-namespace oca::models {
+namespace oca::geometry {
 namespace octree_test {
 
 using ::testing::HasSubstr;
@@ -70,7 +70,7 @@ class OctreeTest : public ::testing::Test {
   std::string Refusal(const std::string& name, const std::string& content) {
     try {
       LoadOctree(folder_.Write(name, content));
-    } catch (const ModelError& error) {
+    } catch (const models::ModelError& error) {
       return error.what();
     }
     return "accepted";
@@ -178,4 +178,4 @@ TEST_F(OctreeTest, NeverCrashesOnRandomBytes) {
 }
 
 }  // namespace octree_test
-}  // namespace oca::models
+}  // namespace oca::geometry

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/geometry/point_cloud.h"
+#include "oca/models/geometry/point_cloud.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,11 +7,11 @@
 #include <cstring>
 #include <limits>
 
-#include "models/error.h"
+#include "oca/models/error.h"
 #include "tests/models/geometry/random_bodies.h"
 #include "tests/temporary_folder.h"
 
-namespace oca::models {
+namespace oca::geometry {
 namespace point_cloud_test {
 
 using Eigen::Isometry3d;
@@ -30,7 +30,7 @@ class PointCloudTest : public ::testing::Test {
   std::string Refusal(const std::string& name, const std::string& content) {
     try {
       LoadPointCloud(File(name, content));
-    } catch (const ModelError& error) {
+    } catch (const models::ModelError& error) {
       return error.what();
     }
     return "accepted";
@@ -38,7 +38,7 @@ class PointCloudTest : public ::testing::Test {
   std::string MapRefusal(const std::string& name, const std::string& content, double cell = 1.0) {
     try {
       LoadHeightmap(File(name, content), cell, 1.0);
-    } catch (const ModelError& error) {
+    } catch (const models::ModelError& error) {
       return error.what();
     }
     return "accepted";
@@ -166,8 +166,8 @@ TEST_F(PointCloudTest, RefusesWhatIsNoCloudSayingWhere) {
                       "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS 1\nDATA "
                       "binary_compressed\n"),
               HasSubstr("DATA; got binary_compressed"));
-  EXPECT_THROW(LoadPointCloud(folder_.path() / "absent.csv"), ModelError);
-  EXPECT_THROW(LoadPointCloud("/dev/zero"), ModelError);
+  EXPECT_THROW(LoadPointCloud(folder_.path() / "absent.csv"), models::ModelError);
+  EXPECT_THROW(LoadPointCloud("/dev/zero"), models::ModelError);
 }
 
 TEST_F(PointCloudTest, MeasuresTheDistanceToTheNearestBallOfACloud) {
@@ -262,4 +262,4 @@ TEST_F(PointCloudTest, RefusesWhatIsNoHeightmap) {
 }
 
 }  // namespace point_cloud_test
-}  // namespace oca::models
+}  // namespace oca::geometry

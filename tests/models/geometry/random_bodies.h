@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "models/geometry/collider.h"
-#include "models/geometry/distance.h"
+#include "oca/models/geometry/collider.h"
+#include "oca/models/geometry/distance.h"
 
-namespace oca::models {
+namespace oca::geometry {
 
 /// Random shapes and poses for tests; the same seed gives the same sequence.
 class RandomBodies {
@@ -110,4 +110,4 @@ inline double SlabWidth(const Collider& a, const Eigen::Isometry3d& X_WA, const 
   return normal.dot(Farthest(a, X_WA, -normal) - Farthest(b, X_WB, normal));
 }
 
-}  // namespace oca::models
+}  // namespace oca::geometry

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/motion/following.h"
+#include "oca/models/motion/following.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-namespace oca::models {
+namespace oca::motion {
 namespace following_test {
 
 constexpr double kDt = 0.01;
@@ -38,4 +38,4 @@ TEST(FollowingVelocityTest, WithoutAnAccelerationLimitOnlyTheGainCounts) {
 }
 
 }  // namespace following_test
-}  // namespace oca::models
+}  // namespace oca::motion

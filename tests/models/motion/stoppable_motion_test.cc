@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/motion/stoppable_motion.h"
+#include "oca/models/motion/stoppable_motion.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-namespace oca::models {
+namespace oca::motion {
 namespace stoppable_motion_test {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -268,4 +268,4 @@ TEST(StoppableMotionTest, ComesBackFromAnywhere) {
 }
 
 }  // namespace stoppable_motion_test
-}  // namespace oca::models
+}  // namespace oca::motion

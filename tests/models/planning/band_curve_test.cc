@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/planning/band_curve.h"
+#include "oca/models/planning/band_curve.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace oca::models {
+namespace oca::planning {
 namespace band_curve_test {
 
 using Eigen::VectorXd;
@@ -81,4 +81,4 @@ TEST(BandCurveTest, RestsAtItsEndAndStaysThere) {
 }
 
 }  // namespace band_curve_test
-}  // namespace oca::models
+}  // namespace oca::planning

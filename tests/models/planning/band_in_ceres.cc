@@ -7,10 +7,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "models/random.h"
-#include "models/robot/urdf.h"
+#include "oca/models/random.h"
+#include "oca/models/robot/urdf.h"
 
-namespace oca::models::test {
+namespace oca::planning::test {
 namespace {
 
 using Eigen::VectorXd;
@@ -21,7 +21,7 @@ using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 class SampleCost final : public ceres::CostFunction {
  public:
   SampleCost(const BandScene& scene, const BandSettings& settings, const BandCurve& curve,
-             double time, double weight, Clearance& clearance)
+             double time, double weight, robot::Clearance& clearance)
       : scene_(scene),
         settings_(settings),
         basis_(curve.BasisAt(time)),
@@ -62,7 +62,7 @@ class SampleCost final : public ceres::CostFunction {
 
  private:
   void AddMotion(const VectorXd x[3], Eigen::Map<VectorXd>& r, RowMajor slopes[3]) const {
-    const RobotModel& model = *scene_.model;
+    const robot::RobotModel& model = *scene_.model;
     const double prices[3] = {settings_.nearness, settings_.calm, settings_.smoothness};
     const VectorXd middle = 0.5 * (model.upper_limits() + model.lower_limits());
     const VectorXd half = 0.5 * (model.upper_limits() - model.lower_limits());
@@ -98,10 +98,10 @@ class SampleCost final : public ceres::CostFunction {
       const BandBody& body = scene_.bodies[b];
       if (!body.stands) clearance_.MoveBody(static_cast<int>(b), body.pose(time_));
     }
-    std::vector<NearPair> pairs;
+    std::vector<robot::NearPair> pairs;
     clearance_.Collect(settings_.margin, pairs);
     const double price = std::sqrt(weight_ * settings_.clearance);
-    for (const NearPair& pair : pairs) {
+    for (const robot::NearPair& pair : pairs) {
       const int i = 6 * n_ + pair.link * static_cast<int>(scene_.bodies.size()) + pair.body;
       r[i] = price * (settings_.margin - pair.distance);
       if (!rows) continue;
@@ -114,19 +114,19 @@ class SampleCost final : public ceres::CostFunction {
   const BandSettings& settings_;
   const BandCurve::Basis basis_;
   const double time_, weight_;
-  Clearance& clearance_;
+  robot::Clearance& clearance_;
   const int n_;
 };
 
 }  // namespace
 
 BandScene MakeBandScene(std::uint64_t seed) {
-  LoadOptions options;
+  robot::LoadOptions options;
   options.X_WB.translation() = Eigen::Vector3d(0.0, 0.0, 0.85);
   BandScene scene;
-  scene.model = std::make_shared<const RobotModel>(
-      LoadUrdf(OCA_SOURCE_DIR "/models/robots/lwr4/lwr4.urdf", options));
-  Random random(seed);
+  scene.model = std::make_shared<const robot::RobotModel>(
+      robot::LoadUrdf(OCA_SOURCE_DIR "/models/robots/lwr4/lwr4.urdf", options));
+  models::Random random(seed);
   for (int b = 0; b < 1 + static_cast<int>(seed % 3); ++b) {
     const auto edge = [&] { return random.Uniform(0.1, 0.4); };
     const double azimuth = random.Uniform(0.5, 2.4), radius = random.Uniform(0.4, 0.9);
@@ -134,8 +134,8 @@ BandScene MakeBandScene(std::uint64_t seed) {
     X.translation() << radius * std::cos(azimuth), radius * std::sin(azimuth),
         random.Uniform(0.8, 1.4);
     const Eigen::Vector3d size(edge(), edge(), edge());
-    scene.bodies.push_back(
-        {Name("box"), MakeCollider(Box{size}, "box"), [X](double) { return X; }, true});
+    scene.bodies.push_back({models::Name("box"), geometry::MakeCollider(geometry::Box{size}, "box"),
+                            [X](double) { return X; }, true});
   }
   scene.request = [](double time, int derivative, Eigen::Ref<VectorXd> out) {
     constexpr double kTurn = 1.75 * std::numbers::pi / 2.0;
@@ -156,9 +156,9 @@ BandCurve StraightBand() {
 
 CeresAnswer RelaxByCeres(const BandScene& scene, const BandSettings& settings, int most,
                          double least_gain, BandCurve& curve) {
-  std::vector<PlacedBody> placed;
+  std::vector<robot::PlacedBody> placed;
   for (const BandBody& body : scene.bodies) placed.push_back({body.collider, body.pose(0.0)});
-  Clearance clearance(scene.model, false, placed);
+  robot::Clearance clearance(scene.model, false, placed);
   Eigen::MatrixXd& controls = curve.controls();
   ceres::Problem problem;
   const std::vector<double> times = curve.times();
@@ -187,4 +187,4 @@ CeresAnswer RelaxByCeres(const BandScene& scene, const BandSettings& settings, i
           static_cast<int>(summary.iterations.size()) - 1};
 }
 
-}  // namespace oca::models::test
+}  // namespace oca::planning::test

@@ -5,13 +5,13 @@
 #include <memory>
 #include <vector>
 
-#include "models/planning/elastic_band.h"
+#include "oca/models/planning/elastic_band.h"
 
-namespace oca::models::test {
+namespace oca::planning::test {
 
 /// An LWR 4 that shall turn joint 1 by 157.5 degrees in 10 s, and boxes of 0.1 to 0.4 m on its way.
 struct BandScene {
-  std::shared_ptr<const RobotModel> model;
+  std::shared_ptr<const robot::RobotModel> model;
   std::vector<BandBody> bodies;
   BandRequest request;
 };
@@ -32,4 +32,4 @@ struct CeresAnswer {
 CeresAnswer RelaxByCeres(const BandScene& scene, const BandSettings& settings, int most,
                          double least_gain, BandCurve& curve);
 
-}  // namespace oca::models::test
+}  // namespace oca::planning::test

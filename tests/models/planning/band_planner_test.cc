@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/planning/band_planner.h"
+#include "oca/models/planning/band_planner.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/models/planning/scene.h"
 
-namespace oca::models {
+namespace oca::planning {
 namespace band_planner_test {
 
 using Eigen::VectorXd;
@@ -14,8 +14,9 @@ using Eigen::VectorXd;
 class Turn {
  public:
   Turn() : model(test::Arm("planar3")) {
-    for (const PlacedBody& post : test::Post()) {
-      bodies.push_back({Name("post"), post.collider, [X = post.X_WO](double) { return X; }, true});
+    for (const robot::PlacedBody& post : test::Post()) {
+      bodies.push_back(
+          {models::Name("post"), post.collider, [X = post.X_WO](double) { return X; }, true});
     }
     for (VectorXd& x : task.deviation) x.setZero(model->num_positions());
     task.request = [n = model->num_positions()](double time, int derivative,
@@ -33,14 +34,14 @@ class Turn {
     BandPlanner planner(model, settings);
     return planner.Plan(task, nullptr);
   }
-  std::shared_ptr<const RobotModel> model;
+  std::shared_ptr<const robot::RobotModel> model;
   std::vector<BandBody> bodies;
   BandTask task;
 };
 
 /// Moves against y with `speed`, m/s.
-BandBody Flying(const char* name, const PlacedBody& body, double speed) {
-  return {Name(name), body.collider,
+BandBody Flying(const char* name, const robot::PlacedBody& body, double speed) {
+  return {models::Name(name), body.collider,
           [X = body.X_WO, speed](double time) {
             Eigen::Isometry3d moved = X;
             moved.translation().y() -= speed * time;
@@ -73,8 +74,9 @@ TEST(BandPlannerTest, PlansTheSameTwice) {
 TEST(BandPlannerTest, SaysWhatIsInTheWayWhereThereIsNoWay) {
   Turn turn;
   // A wall of posts at the goal.
-  const PlacedBody wall = test::BoxAt({0.4, 4.0, 2.0}, {0.0, 2.2, 0.0});
-  turn.bodies.push_back({Name("wall"), wall.collider, [X = wall.X_WO](double) { return X; }, true});
+  const robot::PlacedBody wall = test::BoxAt({0.4, 4.0, 2.0}, {0.0, 2.2, 0.0});
+  turn.bodies.push_back(
+      {models::Name("wall"), wall.collider, [X = wall.X_WO](double) { return X; }, true});
   const BandPlan plan = turn.Plan();
   if (plan.check.clear()) {  // it rests in front of the wall
     EXPECT_FALSE(plan.curve.controls().rightCols(3).isZero(1e-3));
@@ -86,8 +88,9 @@ TEST(BandPlannerTest, SaysWhatIsInTheWayWhereThereIsNoWay) {
 
 TEST(BandPlannerTest, BoundsItsWorkAndGetsThereByMoreSearches) {
   Turn turn;
-  const PlacedBody wall = test::BoxAt({0.4, 4.0, 2.0}, {0.0, 2.2, 0.0});
-  turn.bodies.push_back({Name("wall"), wall.collider, [X = wall.X_WO](double) { return X; }, true});
+  const robot::PlacedBody wall = test::BoxAt({0.4, 4.0, 2.0}, {0.0, 2.2, 0.0});
+  turn.bodies.push_back(
+      {models::Name("wall"), wall.collider, [X = wall.X_WO](double) { return X; }, true});
   for (const long bound : {2000L, 6000L}) {
     for (turn.task.search = 0; turn.task.search < 4; ++turn.task.search) {
       const BandPlan plan = turn.Plan({.paths = 0, .most_evaluations = bound});
@@ -112,19 +115,19 @@ TEST(BandPlannerTest, DoesNotReturnWhereSomethingComesBetweenArmAndRequest) {
   };
   turn.task.request_end = 0.0;
   turn.task.deviation[0][0] = -0.6;
-  const PlacedBody wall = test::BoxAt({3.0, 0.1, 1.0}, {1.6, 0.3, 0.0});
+  const robot::PlacedBody wall = test::BoxAt({3.0, 0.1, 1.0}, {1.6, 0.3, 0.0});
   turn.bodies = {Flying("wall", wall, 0.08)};
   const BandPlan plan = turn.Plan();
   EXPECT_TRUE(plan.check.clear()) << plan.check.min_distance << " at " << plan.check.time;
 }
 
 TEST(BandPlannerTest, DucksInTimeAwayFromWhatComes) {
-  LoadOptions options;
+  robot::LoadOptions options;
   options.X_WB.translation() = Eigen::Vector3d(0.0, 0.0, 0.85);
   options.acceleration_limits = VectorXd::Constant(1, 10.0);
   Turn turn;
-  turn.model = std::make_shared<const RobotModel>(
-      LoadUrdf(OCA_SOURCE_DIR "/models/robots/lwr4/lwr4.urdf", options));
+  turn.model = std::make_shared<const robot::RobotModel>(
+      robot::LoadUrdf(OCA_SOURCE_DIR "/models/robots/lwr4/lwr4.urdf", options));
   VectorXd home(7);
   home << 0.0, 1.48, 0.0, -0.61, 0.0, 0.52, 0.0;
   for (VectorXd& x : turn.task.deviation) x.setZero(7);
@@ -132,7 +135,7 @@ TEST(BandPlannerTest, DucksInTimeAwayFromWhatComes) {
     out = derivative == 0 ? home : VectorXd::Zero(7);
   };
   turn.task.request_end = 0.0;
-  const PlacedBody cube = test::BoxAt({0.2, 0.2, 0.2}, {0.45, 1.6, 1.2});
+  const robot::PlacedBody cube = test::BoxAt({0.2, 0.2, 0.2}, {0.45, 1.6, 1.2});
   turn.bodies = {Flying("cube", cube, 1.6)};
   const BandPlan plan = turn.Plan();
   EXPECT_TRUE(plan.check.clear()) << plan.check.min_distance;
@@ -144,4 +147,4 @@ TEST(BandPlannerTest, DucksInTimeAwayFromWhatComes) {
 }
 
 }  // namespace band_planner_test
-}  // namespace oca::models
+}  // namespace oca::planning

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/planning/certified_motion.h"
+#include "oca/models/planning/certified_motion.h"
 
 #include <gtest/gtest.h>
 
-#include "models/random.h"
+#include "oca/models/random.h"
 #include "tests/models/planning/scene.h"
 
-namespace oca::models {
+namespace oca::planning {
 namespace certified_motion_test {
 
 using test::Arm;
@@ -14,7 +14,7 @@ using test::BoxAt;
 
 TEST(CertifiedMotionTest, SeesAThinPlateBetweenTwoClearPositions) {
   // 1 mm thick: samples half a radian apart would step over it.
-  Clearance clearance(Arm("planar2"), false, {BoxAt({0.4, 0.001, 0.4}, {0.7, 0.0, 0.0})});
+  robot::Clearance clearance(Arm("planar2"), false, {BoxAt({0.4, 0.001, 0.4}, {0.7, 0.0, 0.0})});
   CertifiedMotion motion(clearance, 0.001);
   const Eigen::Vector2d below(-0.5, 0.0);
   const Eigen::Vector2d above(0.5, 0.0);
@@ -27,7 +27,7 @@ TEST(CertifiedMotionTest, SeesAThinPlateBetweenTwoClearPositions) {
 }
 
 TEST(CertifiedMotionTest, HoldsTheMarginFromBothSides) {
-  Clearance clearance(Arm("planar2"), false, test::Post());
+  robot::Clearance clearance(Arm("planar2"), false, test::Post());
   const Eigen::Vector2d from(0.0, 0.0);
   const Eigen::Vector2d to(0.5, 0.0);
   double least = 1.0;  // over the motion, finely sampled
@@ -41,12 +41,12 @@ TEST(CertifiedMotionTest, HoldsTheMarginFromBothSides) {
 }
 
 TEST(CertifiedMotionTest, CallsNoMotionClearThatSamplesShowIsNot) {
-  Clearance clearance(
+  robot::Clearance clearance(
       Arm("lwr4"), true,
       {BoxAt({0.1, 0.2, 0.3}, {0.4, 0.2, 0.6}), BoxAt({0.2, 0.2, 0.2}, {-0.4, 0, 0.7})});
   constexpr double kMargin = 0.01;
   CertifiedMotion motion(clearance, kMargin);
-  Random random(11);
+  models::Random random(11);
   int clear = 0;
   int blocked = 0;
   for (int i = 0; i < 500; ++i) {
@@ -68,10 +68,10 @@ TEST(CertifiedMotionTest, CallsNoMotionClearThatSamplesShowIsNot) {
 }
 
 TEST(CertifiedMotionTest, OfAMotionThatRestsAsksForItsPositionOnly) {
-  Clearance clearance(Arm("planar2"), false, test::Post());
+  robot::Clearance clearance(Arm("planar2"), false, test::Post());
   CertifiedMotion motion(clearance, 0.01);
   EXPECT_TRUE(motion.Clear(Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()));
 }
 
 }  // namespace certified_motion_test
-}  // namespace oca::models
+}  // namespace oca::planning

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/planning/clairvoyant.h"
+#include "oca/models/planning/clairvoyant.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "models/error.h"
+#include "oca/models/error.h"
 #include "tests/models/planning/scene.h"
 
-namespace oca::models {
+namespace oca::planning {
 namespace clairvoyant_test {
 
 using Eigen::VectorXd;
@@ -29,7 +29,7 @@ class Rest {
   }
   /// A ball through the arm at x, in y from 1 m on at `speed`; 1 s in the script before it starts.
   void Throw(double x, double speed) {
-    bodies.push_back({Name("ball"), MakeCollider(Sphere{0.05}, "ball"),
+    bodies.push_back({models::Name("ball"), geometry::MakeCollider(geometry::Sphere{0.05}, "ball"),
                       [x, speed](double time) {
                         Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
                         X.translation().x() = x;
@@ -38,7 +38,7 @@ class Rest {
                       },
                       false});
   }
-  std::shared_ptr<const RobotModel> model;
+  std::shared_ptr<const robot::RobotModel> model;
   std::vector<BandBody> bodies;
   ClairvoyantTask task;
 };
@@ -81,11 +81,11 @@ TEST(ClairvoyantTest, StaysWithinTheLimitsOrSaysThatItCannot) {
   Rest rest;
   rest.Throw(0.8, 2.0);  // in the arm half a second after it starts, and through it
   const auto within = [&](double acceleration_limit) {
-    std::vector<Joint> joints = rest.model->joints();
-    for (Joint& joint : joints) joint.acceleration_limit = acceleration_limit;
+    std::vector<robot::Joint> joints = rest.model->joints();
+    for (robot::Joint& joint : joints) joint.acceleration_limit = acceleration_limit;
     rest.model =
-        std::make_shared<const RobotModel>(rest.model->name(), rest.model->links(), joints,
-                                           rest.model->X_WB(), rest.model->disabled_pairs());
+        std::make_shared<const robot::RobotModel>(rest.model->name(), rest.model->links(), joints,
+                                                  rest.model->X_WB(), rest.model->disabled_pairs());
     return rest.Plan();
   };
   const ClairvoyantPlan plan = within(3.0);
@@ -143,10 +143,10 @@ TEST(ClairvoyantTest, EndsElsewhereWhereTheGoalIsInTheWay) {
 TEST(ClairvoyantTest, RefusesATaskWithoutLengthAndAStartOfOtherJoints) {
   Rest rest;
   rest.task.duration = 0.0;
-  EXPECT_THROW(rest.Plan(), ModelError);
+  EXPECT_THROW(rest.Plan(), models::ModelError);
   rest.task.duration = 3.0;
   rest.task.start = VectorXd::Zero(2);
-  EXPECT_THROW(rest.Plan(), ModelError);
+  EXPECT_THROW(rest.Plan(), models::ModelError);
 }
 
 TEST(ClairvoyantTest, PlansTheSameTwice) {
@@ -159,4 +159,4 @@ TEST(ClairvoyantTest, PlansTheSameTwice) {
 }
 
 }  // namespace clairvoyant_test
-}  // namespace oca::models
+}  // namespace oca::planning

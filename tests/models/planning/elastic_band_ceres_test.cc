@@ -2,16 +2,16 @@
 // The same bands for Ceres, which knows nothing of their blocks.
 #include <gtest/gtest.h>
 
-#include "models/random.h"
+#include "oca/models/random.h"
 #include "tests/models/planning/band_in_ceres.h"
 
-namespace oca::models::test {
+namespace oca::planning::test {
 namespace elastic_band_ceres_test {
 
 constexpr std::uint64_t kScenes = 20;
 
 TEST(ElasticBandCeresTest, ABandCostsWhatItsFormulaSays) {
-  Random random(7);
+  models::Random random(7);
   for (std::uint64_t seed = 0; seed < kScenes; ++seed) {
     const BandScene scene = MakeBandScene(seed);
     ElasticBand band(scene.model, {});
@@ -54,4 +54,4 @@ TEST(ElasticBandCeresTest, FromTheSameStartItMostlyEndsWhereCeresDoes) {
 }
 
 }  // namespace elastic_band_ceres_test
-}  // namespace oca::models::test
+}  // namespace oca::planning::test

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/planning/elastic_band.h"
+#include "oca/models/planning/elastic_band.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "models/random.h"
+#include "oca/models/random.h"
 #include "tests/models/planning/scene.h"
 
-namespace oca::models {
+namespace oca::planning {
 namespace elastic_band_test {
 
 using Eigen::VectorXd;
@@ -17,12 +17,13 @@ using Eigen::VectorXd;
 class Sweep {
  public:
   Sweep() {
-    LoadOptions options;
+    robot::LoadOptions options;
     options.X_WB.translation() = Eigen::Vector3d(0.0, 0.0, 0.85);
-    model = std::make_shared<const RobotModel>(
-        LoadUrdf(OCA_SOURCE_DIR "/models/robots/lwr4/lwr4.urdf", options));
-    const PlacedBody box = test::BoxAt({0.2, 0.2, 0.2}, {0.0, 0.6, 1.0});
-    bodies.push_back({Name("box"), box.collider, [X = box.X_WO](double) { return X; }, true});
+    model = std::make_shared<const robot::RobotModel>(
+        robot::LoadUrdf(OCA_SOURCE_DIR "/models/robots/lwr4/lwr4.urdf", options));
+    const robot::PlacedBody box = test::BoxAt({0.2, 0.2, 0.2}, {0.0, 0.6, 1.0});
+    bodies.push_back(
+        {models::Name("box"), box.collider, [X = box.X_WO](double) { return X; }, true});
     home.resize(7);
     home << 0.0, 1.48, 0.0, -0.61, 0.0, 0.52, 0.0;
   }
@@ -40,7 +41,7 @@ class Sweep {
     for (int i = 0; i <= 26; ++i) times.push_back(0.4 * i);
     return {7, times};
   }
-  std::shared_ptr<const RobotModel> model;
+  std::shared_ptr<const robot::RobotModel> model;
   std::vector<BandBody> bodies;
   VectorXd home;
 };
@@ -53,7 +54,7 @@ TEST(ElasticBandTest, TheRequestItselfGoesThroughTheBox) {
   const BandCheck check = band.Check(curve);
   EXPECT_LT(check.min_distance, -0.1);
   EXPECT_FALSE(check.clear());
-  EXPECT_EQ(check.body, Name("box"));
+  EXPECT_EQ(check.body, models::Name("box"));
   EXPECT_LT(check.first, check.time);
   EXPECT_GT(check.last, check.time);
 }
@@ -63,7 +64,7 @@ TEST(ElasticBandTest, ItsGradientIsTheDerivativeOfItsCost) {
   for (const bool end_fixed : {true, false}) {
     ElasticBand band(sweep.model, {});
     BandCurve curve = sweep.Curve();
-    Random random(5);
+    models::Random random(5);
     for (Eigen::Index i = 0; i < curve.controls().size(); ++i) {
       curve.controls().data()[i] = random.Uniform(-0.3, 0.3);
     }
@@ -136,9 +137,9 @@ TEST(ElasticBandTest, IsNotClearWhereItExceedsLimitsThatTheRequestKeeps) {
   ElasticBand band(sweep.model, {});
   BandCurve curve = sweep.Curve();
   const auto check = [&](double away) {
-    const PlacedBody far = test::BoxAt({0.2, 0.2, 0.2}, {0.0, 9.0, 1.0});
+    const robot::PlacedBody far = test::BoxAt({0.2, 0.2, 0.2}, {0.0, 9.0, 1.0});
     const std::vector<BandBody> bodies{
-        {Name("far"), far.collider, [X = far.X_WO](double) { return X; }, true}};
+        {models::Name("far"), far.collider, [X = far.X_WO](double) { return X; }, true}};
     curve.Follow([&](double) -> VectorXd {
       VectorXd x = VectorXd::Zero(7);
       x[1] = away;
@@ -157,15 +158,16 @@ TEST(ElasticBandTest, IsNotClearWhereItExceedsLimitsThatTheRequestKeeps) {
 
 /// A scene of one planar joint set to `lower` and `upper`, far from a box; the arm rests at 0.
 struct Rest {
-  Rest(double lower, double upper, double velocity = kUnlimited) {
+  Rest(double lower, double upper, double velocity = robot::kUnlimited) {
     const auto arm = test::Arm("planar3");
-    std::vector<Joint> joints = arm->joints();
+    std::vector<robot::Joint> joints = arm->joints();
     joints[1].lower_limit = lower;
     joints[1].upper_limit = upper;
     joints[1].velocity_limit = velocity;
-    model = std::make_shared<const RobotModel>(arm->name(), arm->links(), joints);
-    const PlacedBody box = test::BoxAt({0.1, 0.1, 0.1}, {0.0, 9.0, 0.0});
-    bodies.push_back({Name("box"), box.collider, [X = box.X_WO](double) { return X; }, true});
+    model = std::make_shared<const robot::RobotModel>(arm->name(), arm->links(), joints);
+    const robot::PlacedBody box = test::BoxAt({0.1, 0.1, 0.1}, {0.0, 9.0, 0.0});
+    bodies.push_back(
+        {models::Name("box"), box.collider, [X = box.X_WO](double) { return X; }, true});
   }
   /// A band whose joint 1 starts at `from` and goes to `to`.
   BandCheck Check(double from, double to) const {
@@ -184,16 +186,16 @@ struct Rest {
     EXPECT_TRUE(relaxed.controls().allFinite());
     return band.Check(curve);
   }
-  std::shared_ptr<const RobotModel> model;
+  std::shared_ptr<const robot::RobotModel> model;
   std::vector<BandBody> bodies;
 };
 
 TEST(ElasticBandTest, KeepsALimitOnOneSideAndNoneOfARangeThatOverflows) {
-  const Rest above(-kUnlimited, 0.5);
+  const Rest above(-robot::kUnlimited, 0.5);
   EXPECT_TRUE(above.Check(0.0, 0.4).clear());
   EXPECT_FALSE(above.Check(0.0, 0.6).clear());
   EXPECT_TRUE(above.Check(0.0, -2.0).clear());
-  const Rest below(-0.5, kUnlimited);
+  const Rest below(-0.5, robot::kUnlimited);
   EXPECT_FALSE(below.Check(0.0, -0.6).clear());
   EXPECT_TRUE(below.Check(0.0, 2.0).clear());
   EXPECT_TRUE(Rest(-1e308, 1e308).Check(0.0, 2.0).clear());
@@ -208,7 +210,8 @@ TEST(ElasticBandTest, AllowsAnArmBeyondALimitToComeBack) {
 }
 
 TEST(ElasticBandTest, DividesByNoLimit) {
-  for (const double limit : {1e-300, 0.0, 1e308, kUnlimited}) Rest(-1, 1, limit).Check(0.0, 0.5);
+  for (const double limit : {1e-300, 0.0, 1e308, robot::kUnlimited})
+    Rest(-1, 1, limit).Check(0.0, 0.5);
 }
 
 TEST(ElasticBandTest, TouchesWhatStandsSoonerThanWhatMovesAndWhereItBeginsToo) {
@@ -271,4 +274,4 @@ TEST(ElasticBandTest, WithoutBodiesTheRequestIsBest) {
 }
 
 }  // namespace elastic_band_test
-}  // namespace oca::models
+}  // namespace oca::planning

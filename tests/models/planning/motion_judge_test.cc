@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/planning/motion_judge.h"
+#include "oca/models/planning/motion_judge.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "tests/models/planning/scene.h"
 
-namespace oca::models {
+namespace oca::planning {
 namespace motion_judge_test {
 
 using Eigen::VectorXd;
@@ -17,12 +17,12 @@ using Eigen::VectorXd;
 constexpr double kReach = 0.5;
 
 /// planar3 with these limits on the acceleration of every joint.
-std::shared_ptr<const RobotModel> ArmOfAcceleration(double limit) {
+std::shared_ptr<const robot::RobotModel> ArmOfAcceleration(double limit) {
   const auto arm = test::Arm("planar3");
-  std::vector<Joint> joints = arm->joints();
-  for (Joint& joint : joints) joint.acceleration_limit = limit;
-  return std::make_shared<const RobotModel>(arm->name(), arm->links(), joints, arm->X_WB(),
-                                            arm->disabled_pairs());
+  std::vector<robot::Joint> joints = arm->joints();
+  for (robot::Joint& joint : joints) joint.acceleration_limit = limit;
+  return std::make_shared<const robot::RobotModel>(arm->name(), arm->links(), joints, arm->X_WB(),
+                                                   arm->disabled_pairs());
 }
 
 /// A motion of joint `joint`: sine of `amplitude` and `rate`; the others rest at 0.
@@ -39,7 +39,8 @@ BandRequest Rest() { return Swing(0, 0.0, 1.0); }
 BandBody BallAt(double x, double y) {
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
   X.translation() = Eigen::Vector3d(x, y, 0.0);
-  return {Name("ball"), MakeCollider(Sphere{0.1}, "ball"), [X](double) { return X; }, true};
+  return {models::Name("ball"), geometry::MakeCollider(geometry::Sphere{0.1}, "ball"),
+          [X](double) { return X; }, true};
 }
 
 class MotionJudgeTest : public testing::Test {
@@ -54,7 +55,7 @@ class MotionJudgeTest : public testing::Test {
     for (int i = 0; i <= 8; ++i) times.push_back(duration * i / 8);
     return times;
   }
-  std::shared_ptr<const RobotModel> model = test::Arm("planar3");
+  std::shared_ptr<const robot::RobotModel> model = test::Arm("planar3");
   BandRequest request = Rest();
   BandCurve deviation;
   std::vector<BandBody> bodies;
@@ -146,10 +147,10 @@ TEST_F(MotionJudgeTest, TakesAMotionToItsLimitOfPositionAndNotAbove) {
 
 TEST_F(MotionJudgeTest, KeepsALimitOnOneSide) {
   const auto with = [&](double lower, double upper) {
-    std::vector<Joint> joints = model->joints();
+    std::vector<robot::Joint> joints = model->joints();
     joints[2].lower_limit = lower;
     joints[2].upper_limit = upper;
-    model = std::make_shared<const RobotModel>(model->name(), model->links(), joints);
+    model = std::make_shared<const robot::RobotModel>(model->name(), model->links(), joints);
   };
   const auto stands = [&](double at) {
     request = [at](double, int derivative, Eigen::Ref<VectorXd> out) {
@@ -162,17 +163,17 @@ TEST_F(MotionJudgeTest, KeepsALimitOnOneSide) {
     deviation.Follow([](double) -> VectorXd { return VectorXd::Zero(3); });
     return Judge(1.0).position;
   };
-  with(-kUnlimited, 0.5);
+  with(-robot::kUnlimited, 0.5);
   EXPECT_EQ(stands(0.49), 0.0);
   EXPECT_EQ(stands(-2.0), 0.0);
   EXPECT_EQ(stands(0.51), 2.0);
-  with(-0.5, kUnlimited);
+  with(-0.5, robot::kUnlimited);
   EXPECT_EQ(stands(-0.51), 2.0);
   EXPECT_EQ(stands(2.0), 0.0);
   with(-1e308, 1e308);
   EXPECT_EQ(stands(2.0), 0.0);
   // Exactly at a limit below, or above, 0.
-  with(-kUnlimited, -0.5);
+  with(-robot::kUnlimited, -0.5);
   request = [](double, int derivative, Eigen::Ref<VectorXd> out) {
     out.setZero();
     if (derivative == 0) out[2] = -0.5;
@@ -234,4 +235,4 @@ TEST_F(MotionJudgeTest, CountsWhatTheMotionEndsOffTheRequest) {
 }
 
 }  // namespace motion_judge_test
-}  // namespace oca::models
+}  // namespace oca::planning

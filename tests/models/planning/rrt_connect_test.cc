@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/planning/rrt_connect.h"
+#include "oca/models/planning/rrt_connect.h"
 
 #include <gtest/gtest.h>
 
-#include "models/planning/certified_motion.h"
+#include "oca/models/planning/certified_motion.h"
 #include "tests/models/planning/scene.h"
 
-namespace oca::models {
+namespace oca::planning {
 namespace rrt_connect_test {
 
 using test::Arm;
@@ -15,8 +15,9 @@ using test::BoxAt;
 const Eigen::VectorXd kStart = Eigen::Vector2d(0.0, 0.0);
 const Eigen::VectorXd kGoal = Eigen::Vector2d(1.5, 0.0);
 
-void ExpectClear(Clearance& clearance, const std::vector<Eigen::VectorXd>& path, double margin) {
-  const RobotModel& model = clearance.model();
+void ExpectClear(robot::Clearance& clearance, const std::vector<Eigen::VectorXd>& path,
+                 double margin) {
+  const robot::RobotModel& model = clearance.model();
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
     for (int k = 0; k <= 200; ++k) {
       const Eigen::VectorXd q = path[i] + 0.005 * k * (path[i + 1] - path[i]);
@@ -29,14 +30,14 @@ void ExpectClear(Clearance& clearance, const std::vector<Eigen::VectorXd>& path,
 }
 
 TEST(RrtConnectTest, GoesStraightWhereNothingStands) {
-  Clearance clearance(Arm("planar2"));
+  robot::Clearance clearance(Arm("planar2"));
   const auto path = RrtConnect(clearance, kStart, kGoal);
   ASSERT_TRUE(path);
   EXPECT_EQ(*path, (std::vector<Eigen::VectorXd>{kStart, kGoal}));
 }
 
 TEST(RrtConnectTest, FoldsTheArmToPassAPostAndStaysClearBetweenThePoints) {
-  Clearance clearance(Arm("planar2"), false, test::Post());
+  robot::Clearance clearance(Arm("planar2"), false, test::Post());
   CertifiedMotion motion(clearance, 0.01);
   ASSERT_FALSE(motion.Clear(kStart, kGoal));
   const auto path = RrtConnect(clearance, kStart, kGoal, {.seed = 3});
@@ -48,7 +49,7 @@ TEST(RrtConnectTest, FoldsTheArmToPassAPostAndStaysClearBetweenThePoints) {
 }
 
 TEST(RrtConnectTest, FindsAWayForSevenJoints) {
-  Clearance clearance(Arm("lwr4"), true, {BoxAt({0.2, 0.2, 0.2}, {0.0, 0.6, 0.15})});
+  robot::Clearance clearance(Arm("lwr4"), true, {BoxAt({0.2, 0.2, 0.2}, {0.0, 0.6, 0.15})});
   Eigen::VectorXd start(7);
   start << 0.0, 1.48, 0.0, -0.61, 0.0, 0.52, 0.0;
   Eigen::VectorXd goal = start;
@@ -62,14 +63,14 @@ TEST(RrtConnectTest, FindsAWayForSevenJoints) {
 }
 
 TEST(RrtConnectTest, GivesTheSamePathForTheSameSeedOnly) {
-  Clearance clearance(Arm("planar2"), false, test::Post());
+  robot::Clearance clearance(Arm("planar2"), false, test::Post());
   const auto path = RrtConnect(clearance, kStart, kGoal, {.seed = 3});
   EXPECT_EQ(path, RrtConnect(clearance, kStart, kGoal, {.seed = 3}));
   EXPECT_NE(path, RrtConnect(clearance, kStart, kGoal, {.seed = 4}));
 }
 
 TEST(RrtConnectTest, TheWorkIsBoundedHoweverFarTheWay) {
-  Clearance clearance(Arm("planar2"), false, test::Post());
+  robot::Clearance clearance(Arm("planar2"), false, test::Post());
   for (const double far : {1e3, 1e6, 1e15}) {
     Eigen::VectorXd goal = kGoal;
     goal[0] += far;
@@ -81,17 +82,17 @@ TEST(RrtConnectTest, TheWorkIsBoundedHoweverFarTheWay) {
 
 TEST(RrtConnectTest, HasNoPathThroughAClosedWallOrFromContact) {
   // A ring of plates around the stretched arm's end: it cannot fold out of it.
-  std::vector<PlacedBody> walls{BoxAt({0.5, 0.01, 0.4}, {0.3, 0.2, 0.0}),
-                                BoxAt({0.5, 0.01, 0.4}, {0.3, -0.2, 0.0})};
-  Clearance closed(Arm("planar2"), false, walls);
+  std::vector<robot::PlacedBody> walls{BoxAt({0.5, 0.01, 0.4}, {0.3, 0.2, 0.0}),
+                                       BoxAt({0.5, 0.01, 0.4}, {0.3, -0.2, 0.0})};
+  robot::Clearance closed(Arm("planar2"), false, walls);
   EXPECT_FALSE(RrtConnect(closed, kStart, kGoal, {.most_nodes = 300}));
-  Clearance touching(Arm("planar2"), false, {BoxAt({0.1, 0.1, 0.1}, {0.5, 0.0, 0.0})});
+  robot::Clearance touching(Arm("planar2"), false, {BoxAt({0.1, 0.1, 0.1}, {0.5, 0.0, 0.0})});
   EXPECT_FALSE(RrtConnect(touching, kStart, kGoal));
   EXPECT_FALSE(RrtConnect(touching, kGoal, kStart));
 }
 
 TEST(RrtConnectTest, ShortensAPathAndKeepsItClear) {
-  Clearance clearance(Arm("planar2"), false, test::Post());
+  robot::Clearance clearance(Arm("planar2"), false, test::Post());
   const auto length = [](const std::vector<Eigen::VectorXd>& path) {
     double sum = 0.0;
     for (std::size_t i = 0; i + 1 < path.size(); ++i) sum += (path[i + 1] - path[i]).norm();
@@ -106,4 +107,4 @@ TEST(RrtConnectTest, ShortensAPathAndKeepsItClear) {
 }
 
 }  // namespace rrt_connect_test
-}  // namespace oca::models
+}  // namespace oca::planning

@@ -6,10 +6,10 @@
 #include <IpIpoptApplication.hpp>
 #include <IpTNLP.hpp>
 
-#include "models/qp/projection_solver.h"
-#include "random_qp.h"
+#include "oca/models/qp/projection_solver.h"
+#include "tests/models/qp/random_qp.h"
 
-namespace oca::models::test {
+namespace oca::qp::test {
 namespace ipopt_comparison_test {
 
 using Ipopt::Index;
@@ -150,4 +150,4 @@ TEST(IpoptComparisonTest, AgreesOnProblemsOfEveryKind) {
 }
 
 }  // namespace ipopt_comparison_test
-}  // namespace oca::models::test
+}  // namespace oca::qp::test

@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "models/qp/projection_qp.h"
+#include "oca/models/qp/projection_qp.h"
 
-namespace oca::models::test {
+namespace oca::qp::test {
 
 /// How far an answer is from optimal by the definition alone, in long double, with all multipliers
 /// of the box made up: signs, stationarity, and each row, divided by its length, kept where it has
@@ -57,4 +57,4 @@ inline long double KktResidual(const ProjectionQp& qp, const QpSolution& solutio
   return worst;
 }
 
-}  // namespace oca::models::test
+}  // namespace oca::qp::test

@@ -6,10 +6,10 @@
 #include <limits>
 #include <vector>
 
-#include "models/qp/projection_solver.h"
-#include "random_qp.h"
+#include "oca/models/qp/projection_solver.h"
+#include "tests/models/qp/random_qp.h"
 
-namespace oca::models::test {
+namespace oca::qp::test {
 namespace projection_enumeration_test {
 
 using Real = long double;
@@ -133,4 +133,4 @@ TEST(ProjectionEnumerationTest, TheBestOfAllCandidatesIsTheAnswer) {
 }
 
 }  // namespace projection_enumeration_test
-}  // namespace oca::models::test
+}  // namespace oca::qp::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/qp/projection_solver.h"
+#include "oca/models/qp/projection_solver.h"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,11 @@
 #include <cmath>
 #include <limits>
 
-#include "kkt_judge.h"
-#include "random_qp.h"
 #include "tests/allocation_count.h"
+#include "tests/models/qp/kkt_judge.h"
+#include "tests/models/qp/random_qp.h"
 
-namespace oca::models::test {
+namespace oca::qp::test {
 namespace projection_solver_test {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -236,4 +236,4 @@ TEST(ProjectionSolverTest, SolvesWithoutTheHeap) {
 }
 
 }  // namespace projection_solver_test
-}  // namespace oca::models::test
+}  // namespace oca::qp::test

@@ -3,9 +3,9 @@
 
 #include <random>
 
-#include "models/qp/projection_qp.h"
+#include "oca/models/qp/projection_qp.h"
 
-namespace oca::models::test {
+namespace oca::qp::test {
 
 /// Problems as an avoidance loop meets them, and worse: `kind` 0 plain, 1 rows that repeat and
 /// oppose each other, 2 rows nearly parallel, 3 integers, so that many are active at one point,
@@ -61,4 +61,4 @@ class RandomQps {
   std::mt19937 random_;
 };
 
-}  // namespace oca::models::test
+}  // namespace oca::qp::test

@@ -6,13 +6,13 @@
 #include <cstdlib>
 #include <vector>
 
-#include "models/robot/jacobian_mapping.h"
-#include "models/robot/kinematics.h"
-#include "models/robot/urdf.h"
-#include "random_robot.h"
+#include "oca/models/robot/jacobian_mapping.h"
+#include "oca/models/robot/kinematics.h"
+#include "oca/models/robot/urdf.h"
 #include "tests/allocation_count.h"
+#include "tests/models/robot/random_robot.h"
 
-namespace oca::models::test {
+namespace oca::robot::test {
 namespace allocation_test {
 
 TEST(AllocationTest, TheCounterSeesWhatEigenAndTheStandardLibraryTake) {
@@ -59,4 +59,4 @@ TEST(AllocationTest, KinematicsAndMappingTakeNoMemory) {
 }
 
 }  // namespace allocation_test
-}  // namespace oca::models::test
+}  // namespace oca::robot::test

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/attach_objects.h"
+#include "oca/models/robot/attach_objects.h"
 
 #include <gmock/gmock.h>
 
-#include "models/error.h"
-#include "models/robot/kinematics.h"
-#include "models/robot/urdf.h"
-#include "random_robot.h"
+#include "oca/models/error.h"
+#include "oca/models/robot/kinematics.h"
+#include "oca/models/robot/urdf.h"
+#include "tests/models/robot/random_robot.h"
 
-namespace oca::models::test {
+namespace oca::robot::test {
 namespace attach_objects_test {
 
 using testing::HasSubstr;
@@ -21,7 +21,7 @@ AttachedObject Box(const std::string& id, const std::string& link) {
   box.id = id;
   box.link = link;
   box.X_LO.translation() = Eigen::Vector3d(0.1, 0.0, 0.0);
-  box.shape = models::Box{Eigen::Vector3d(0.2, 0.1, 0.1)};
+  box.shape = geometry::Box{Eigen::Vector3d(0.2, 0.1, 0.1)};
   return box;
 }
 
@@ -76,18 +76,18 @@ TEST(AttachObjectsTest, UnknownLinksAndTakenNamesAreRefused) {
     AttachObjects(robot, objects);
   };
   EXPECT_THAT([&] { attach(Box("cup", "planar3_tpi")); },
-              ThrowsMessage<ModelError>(HasSubstr("nearest is 'planar3_tip'")));
+              ThrowsMessage<models::ModelError>(HasSubstr("nearest is 'planar3_tip'")));
   EXPECT_THAT([&] { attach(Box("planar3_link_1", "planar3_tip")); },
-              ThrowsMessage<ModelError>(HasSubstr("got one that is taken")));
+              ThrowsMessage<models::ModelError>(HasSubstr("got one that is taken")));
   EXPECT_THAT([&] { attach(Box("", "planar3_tip")); },
-              ThrowsMessage<ModelError>(HasSubstr("got an empty one")));
+              ThrowsMessage<models::ModelError>(HasSubstr("got an empty one")));
   AttachedObject cup = Box("cup", "planar3_tip");
   cup.touches = {"planar3_link_9"};
-  EXPECT_THAT([&] { attach(cup); }, ThrowsMessage<ModelError>(HasSubstr("'cup' touches")));
+  EXPECT_THAT([&] { attach(cup); }, ThrowsMessage<models::ModelError>(HasSubstr("'cup' touches")));
   cup = Box("cup", "planar3_tip");
   cup.X_LO.linear() *= 2.0;
-  EXPECT_THAT([&] { attach(cup); }, ThrowsMessage<ModelError>(HasSubstr("no rotation")));
+  EXPECT_THAT([&] { attach(cup); }, ThrowsMessage<models::ModelError>(HasSubstr("no rotation")));
 }
 
 }  // namespace attach_objects_test
-}  // namespace oca::models::test
+}  // namespace oca::robot::test

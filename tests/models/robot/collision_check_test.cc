@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/collision_check.h"
+#include "oca/models/robot/collision_check.h"
 
 #include <gmock/gmock.h>
 
-#include "models/error.h"
-#include "models/robot/srdf.h"
-#include "models/robot/urdf.h"
-#include "random_robot.h"
+#include "oca/models/error.h"
+#include "oca/models/robot/srdf.h"
+#include "oca/models/robot/urdf.h"
+#include "tests/models/robot/random_robot.h"
 
-namespace oca::models::test {
+namespace oca::robot::test {
 namespace collision_check_test {
 
 using testing::HasSubstr;
@@ -21,10 +21,10 @@ RobotModel Slides(double x_low, double x_high) {
   const char* names[] = {"mast", "near", "far", "plate"};
   const double at[] = {0.0, 1.0, 2.0, 1.05};
   for (int i = 0; i < 4; ++i) {
-    links[i].name = Name(names[i]);
+    links[i].name = models::Name(names[i]);
     CollisionElement ball;
     ball.X_LC.translation() = Eigen::Vector3d(at[i], 0.0, 1.0);
-    ball.shape = Sphere{0.1};
+    ball.shape = geometry::Sphere{0.1};
     ball.source = names[i];
     links[i].collisions.push_back(ball);
   }
@@ -32,7 +32,7 @@ RobotModel Slides(double x_low, double x_high) {
   const char* joint_names[] = {"x", "y", "bolt"};
   const int parents[] = {0, 1, 1};
   for (int j = 0; j < 3; ++j) {
-    joints[j].name = Name(joint_names[j]);
+    joints[j].name = models::Name(joint_names[j]);
     joints[j].type = j < 2 ? JointType::kPrismatic : JointType::kFixed;
     joints[j].axis = Eigen::Vector3d::Unit(j % 2);
     joints[j].parent_link = parents[j];
@@ -40,7 +40,7 @@ RobotModel Slides(double x_low, double x_high) {
     joints[j].lower_limit = j == 0 ? x_low : -0.5;
     joints[j].upper_limit = j == 0 ? x_high : 0.5;
   }
-  return {Name("slides"), std::move(links), std::move(joints)};
+  return {models::Name("slides"), std::move(links), std::move(joints)};
 }
 
 TEST(CollisionCheckTest, TellsAdjacentNeverAndSometimesByHand) {
@@ -100,7 +100,7 @@ TEST(CollisionCheckTest, SolidsThatNeverPartAreAlwaysInCollision) {
   std::vector<Joint> joints = model.joints();
   joints[1].lower_limit = -0.01;
   joints[1].upper_limit = 0.01;
-  model = RobotModel(Name("stuck"), model.links(), joints);
+  model = RobotModel(models::Name("stuck"), model.links(), joints);
   const auto pairs = CheckCollisions(model, {.samples = 100});
   EXPECT_EQ(pairs[1].kind, PairKind::kAlways);
   EXPECT_EQ(pairs[1].collisions, 100);
@@ -129,7 +129,8 @@ TEST_P(ProductSrdfTest, IsWhatSamplingFinds) {
   const RobotModel model = LoadUrdf(ProductFile(path + ".urdf"), options);
   for (const auto& pair : CheckCollisions(model, {.samples = 3000, .seed = 99})) {
     // The one pair that a person disabled: see the file.
-    if (model.links()[pair.link_b].name == Name("iiwa14_link_7") && pair.link_a == 5) continue;
+    if (model.links()[pair.link_b].name == models::Name("iiwa14_link_7") && pair.link_a == 5)
+      continue;
     const bool disabled = model.collision_disabled(pair.link_a, pair.link_b);
     const std::string names =
         model.links()[pair.link_a].name.text() + " " + model.links()[pair.link_b].name.text();
@@ -151,21 +152,22 @@ INSTANTIATE_TEST_SUITE_P(Robots, ProductSrdfTest,
 
 TEST(CollisionCheckTest, RefusesWhatCannotBeSampled) {
   EXPECT_THAT([] { CheckCollisions(Slides(-1, 1), {.samples = 0}); },
-              ThrowsMessage<ModelError>(HasSubstr("samples")));
+              ThrowsMessage<models::ModelError>(HasSubstr("samples")));
   EXPECT_THAT([] { CheckCollisions(Slides(-1, 1), {.margin = -0.01}); },
-              ThrowsMessage<ModelError>(HasSubstr("margin")));
+              ThrowsMessage<models::ModelError>(HasSubstr("margin")));
   EXPECT_THAT([] { CheckCollisions(Slides(-1, kUnlimited), {}); },
-              ThrowsMessage<ModelError>(HasSubstr("joint 'x': limits")));
-  EXPECT_THAT([] { CheckCollisions(Slides(-1e9, 1e9), {}); },
-              ThrowsMessage<ModelError>(HasSubstr("joint 'x': limits; got [-1e+09, 1e+09]")));
+              ThrowsMessage<models::ModelError>(HasSubstr("joint 'x': limits")));
+  EXPECT_THAT(
+      [] { CheckCollisions(Slides(-1e9, 1e9), {}); },
+      ThrowsMessage<models::ModelError>(HasSubstr("joint 'x': limits; got [-1e+09, 1e+09]")));
   EXPECT_THAT([] { CheckCollisions(Slides(-1e308, 1e308), {}); },
-              ThrowsMessage<ModelError>(HasSubstr("joint 'x': limits")));
+              ThrowsMessage<models::ModelError>(HasSubstr("joint 'x': limits")));
   auto joints = Slides(-1, 1).joints();
   joints[2].X_PJ.translation().x() = 1e308;
-  const RobotModel far(Name("far"), Slides(-1, 1).links(), joints);
+  const RobotModel far(models::Name("far"), Slides(-1, 1).links(), joints);
   EXPECT_THAT([&] { CheckCollisions(far, {.samples = 2}); },
-              ThrowsMessage<ModelError>(HasSubstr("links 'mast' and 'plate': distance")));
+              ThrowsMessage<models::ModelError>(HasSubstr("links 'mast' and 'plate': distance")));
 }
 
 }  // namespace collision_check_test
-}  // namespace oca::models::test
+}  // namespace oca::robot::test

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/filtered_inverse.h"
+#include "oca/models/robot/filtered_inverse.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "models/robot/saturated_task.h"
+#include "oca/models/robot/saturated_task.h"
 
-namespace oca::models {
+namespace oca::robot {
 namespace filtered_inverse_test {
 
 TEST(FilteredInverseTest, IsExactAboveTheThresholdAndDampedBelowByHand) {
@@ -83,4 +83,4 @@ TEST(SaturatedTaskTest, WithoutATaskItClipsTheWish) {
 }
 
 }  // namespace filtered_inverse_test
-}  // namespace oca::models
+}  // namespace oca::robot

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/inverse_kinematics.h"
+#include "oca/models/robot/inverse_kinematics.h"
 
 #include <gmock/gmock.h>
 
@@ -10,15 +10,15 @@
 #include <span>
 #include <string>
 
-#include "models/error.h"
-#include "models/planning/clearance.h"
-#include "models/robot/attach_objects.h"
-#include "models/robot/kinematics.h"
-#include "models/robot/pose_error.h"
-#include "models/robot/urdf.h"
-#include "random_robot.h"
+#include "oca/models/error.h"
+#include "oca/models/robot/attach_objects.h"
+#include "oca/models/robot/clearance.h"
+#include "oca/models/robot/kinematics.h"
+#include "oca/models/robot/pose_error.h"
+#include "oca/models/robot/urdf.h"
+#include "tests/models/robot/random_robot.h"
 
-namespace oca::models::test {
+namespace oca::robot::test {
 namespace inverse_kinematics_test {
 
 using testing::HasSubstr;
@@ -252,9 +252,9 @@ TEST(InverseKinematicsTest, LeavesJointsThatDoNotCarryTheLink) {
 RobotModel Curl() {
   std::vector<Link> links(4);
   std::vector<Joint> joints(3);
-  for (int i = 0; i < 4; ++i) links[i].name = Name("link_" + std::to_string(i));
+  for (int i = 0; i < 4; ++i) links[i].name = models::Name("link_" + std::to_string(i));
   for (int j = 0; j < 3; ++j) {
-    joints[j].name = Name("joint_" + std::to_string(j));
+    joints[j].name = models::Name("joint_" + std::to_string(j));
     joints[j].type = JointType::kRevolute;
     joints[j].parent_link = j;
     joints[j].child_link = j + 1;
@@ -264,7 +264,7 @@ RobotModel Curl() {
     joints[j].lower_limit = -12.0;
     joints[j].upper_limit = 12.0;
   }
-  return {Name("curl"), std::move(links), std::move(joints)};
+  return {models::Name("curl"), std::move(links), std::move(joints)};
 }
 
 TEST(InverseKinematicsTest, FollowsAChainOfMimics) {
@@ -280,7 +280,7 @@ TEST(InverseKinematicsTest, FollowsAChainOfMimics) {
 TEST(InverseKinematicsTest, StaysWithinWhatAMimicLeaves) {
   auto joints = Curl().joints();
   joints[2].upper_limit = 0.5;  // so 2 rad for the first
-  const RobotModel model(Name("curl"), Curl().links(), joints);
+  const RobotModel model(models::Name("curl"), Curl().links(), joints);
   const auto goal = TipPose(Curl(), Eigen::VectorXd::Constant(1, 2.5));
   const auto found = SolveTip(model, goal, Eigen::VectorXd::Zero(1));
   EXPECT_FALSE(found.reached);
@@ -296,7 +296,7 @@ TEST(InverseKinematicsTest, IsNotLedAstrayByARangeThatNobodyMeasured) {
       joint.upper_limit = wide;
       joint.mimic.reset();
     }
-    const RobotModel model(Name("crane"), Curl().links(), joints);
+    const RobotModel model(models::Name("crane"), Curl().links(), joints);
     const auto goal = TipPose(model, Eigen::Vector3d(2.5, 1.0, -2.0));
     const auto found = SolveTip(model, goal, Eigen::Vector3d(0.0, -1.0, -1.0));
     EXPECT_TRUE(found.reached) << wide;
@@ -310,7 +310,8 @@ TEST(InverseKinematicsTest, KeepsAwayFromAnObstacleIfItCan) {
   const auto X_WL = LinkPoses(*model, Bent());
   // A ball beside the elbow, which the redundant joint can turn away.
   const Eigen::Vector3d elbow = X_WL[model->FindLink("lwr4_link_4")].translation();
-  PlacedBody ball{MakeCollider(Sphere{0.05}, "ball"), Eigen::Isometry3d::Identity()};
+  PlacedBody ball{geometry::MakeCollider(geometry::Sphere{0.05}, "ball"),
+                  Eigen::Isometry3d::Identity()};
   ball.X_WO.translation() = elbow + Eigen::Vector3d(0.0, 0.16, 0.0);
   Clearance surroundings(model, false, {ball});
   surroundings.MoveTo(Bent());
@@ -331,7 +332,7 @@ TEST(InverseKinematicsTest, ThePoseCountsMoreThanTheClearance) {
   const auto model = std::make_shared<const RobotModel>(Arm("lwr4"));
   const int tip = TipLink(*model);
   const auto X_WL = LinkPoses(*model, Bent());
-  const PlacedBody ball{MakeCollider(Sphere{0.05}, "ball"), X_WL[tip]};
+  const PlacedBody ball{geometry::MakeCollider(geometry::Sphere{0.05}, "ball"), X_WL[tip]};
   Clearance surroundings(model, false, {ball});
   InverseKinematicsSettings settings;
   settings.clearance = 0.1;
@@ -344,37 +345,38 @@ TEST(InverseKinematicsTest, ThePoseCountsMoreThanTheClearance) {
 TEST(InverseKinematicsTest, RefusesWhatIsNotANumberOrNotPositive) {
   const RobotModel model = Arm("lwr4");
   const Eigen::Isometry3d X_WG = TipPose(model, Bent());
-  EXPECT_THROW(SolveTip(model, X_WG, Eigen::VectorXd::Zero(6)), ModelError);
+  EXPECT_THROW(SolveTip(model, X_WG, Eigen::VectorXd::Zero(6)), models::ModelError);
   Eigen::VectorXd start = Bent();
   start[2] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(SolveTip(model, X_WG, start), ModelError);
+  EXPECT_THROW(SolveTip(model, X_WG, start), models::ModelError);
   Eigen::Isometry3d lost = X_WG;
   lost.translation().x() = std::numeric_limits<double>::infinity();
-  EXPECT_THROW(SolveTip(model, lost, Bent()), ModelError);
+  EXPECT_THROW(SolveTip(model, lost, Bent()), models::ModelError);
   InverseKinematicsSettings settings;
   settings.starts = 0;
-  EXPECT_THROW(SolveTip(model, X_WG, Bent(), settings), ModelError);
+  EXPECT_THROW(SolveTip(model, X_WG, Bent(), settings), models::ModelError);
   settings = {};
   settings.clearance = -0.1;
-  EXPECT_THROW(SolveTip(model, X_WG, Bent(), settings), ModelError);
+  EXPECT_THROW(SolveTip(model, X_WG, Bent(), settings), models::ModelError);
   settings = {};
   settings.position_tolerance = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(SolveTip(model, X_WG, Bent(), settings), ModelError);
+  EXPECT_THROW(SolveTip(model, X_WG, Bent(), settings), models::ModelError);
 }
 
 TEST(TipLinkTest, IsTheOneThatCarriesNoOther) {
   const RobotModel model = Arm("lwr4");
   EXPECT_EQ(model.links()[TipLink(model)].name.text(), "lwr4_flange");
-  const AttachedObject box{"box", "lwr4_link_7", Eigen::Isometry3d::Identity(), Sphere{0.1}, {}};
+  const AttachedObject box{
+      "box", "lwr4_link_7", Eigen::Isometry3d::Identity(), geometry::Sphere{0.1}, {}};
   const RobotModel gripping = AttachObjects(model, std::span(&box, 1));
   EXPECT_EQ(gripping.links()[TipLink(gripping)].name.text(), "lwr4_flange");
   try {
     TipLink(Arm("lwr4_dual"));
     FAIL() << "accepted";
-  } catch (const ModelError& error) {
+  } catch (const models::ModelError& error) {
     EXPECT_THAT(error.what(), HasSubstr("left_lwr4_flange, right_lwr4_flange"));
   }
 }
 
 }  // namespace inverse_kinematics_test
-}  // namespace oca::models::test
+}  // namespace oca::robot::test

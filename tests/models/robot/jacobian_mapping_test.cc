@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/jacobian_mapping.h"
+#include "oca/models/robot/jacobian_mapping.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>
 #include <cmath>
 
-#include "models/robot/kinematics.h"
-#include "models/robot/urdf.h"
-#include "random_robot.h"
+#include "oca/models/robot/kinematics.h"
+#include "oca/models/robot/urdf.h"
+#include "tests/models/robot/random_robot.h"
 
-namespace oca::models::test {
+namespace oca::robot::test {
 namespace jacobian_mapping_test {
 
 // A robot at random positions under random wrenches, with its explicit stack.
@@ -167,7 +167,7 @@ RobotModel LongArm(double gap, double reach) {
   }
   joints[1].X_PJ.translation().x() = gap;
   joints[2].X_PJ.translation().x() = reach;
-  return {Name("long"), std::move(links), std::move(joints)};
+  return {models::Name("long"), std::move(links), std::move(joints)};
 }
 
 MappingStatus StatusOfLongArm(double reach, Eigen::VectorXd& delta) {
@@ -204,7 +204,7 @@ TEST(JacobianMappingTest, WhatIsRegularisedForLongLeversLeavesASliderAlone) {
   }
   joints[2].X_PJ.translation().x() = 0.1;
   joints[3].X_PJ.translation().x() = 1e9;
-  const RobotModel model{Name("long"), std::move(links), std::move(joints)};
+  const RobotModel model{models::Name("long"), std::move(links), std::move(joints)};
   const auto X_WL = LinkPoses(model, Eigen::Vector4d::Zero());
   std::vector<BodyWrench> wrenches(4);
   wrenches[3].force.z() = 1.0;
@@ -235,4 +235,4 @@ TEST(JacobianMappingTest, RobotThatCannotMoveHasAnEmptyAnswer) {
 }
 
 }  // namespace jacobian_mapping_test
-}  // namespace oca::models::test
+}  // namespace oca::robot::test

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/joint_limits.h"
+#include "oca/models/robot/joint_limits.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "models/error.h"
+#include "oca/models/error.h"
 
-namespace oca::models {
+namespace oca::robot {
 namespace joint_limits_test {
 
 using testing::AllOf;
@@ -27,7 +27,7 @@ class Chain {
   explicit Chain(int count) : joints(static_cast<std::size_t>(count)) {
     for (int j = 0; j < count; ++j) {
       Joint& joint = joints[static_cast<std::size_t>(j)];
-      joint.name = Name(std::string(1, static_cast<char>('a' + j)));
+      joint.name = models::Name(std::string(1, static_cast<char>('a' + j)));
       joint.type = JointType::kRevolute;
       joint.parent_link = j;
       joint.child_link = j + 1;
@@ -38,8 +38,9 @@ class Chain {
   }
   RobotModel Model() const {
     std::vector<Link> links(joints.size() + 1);
-    for (std::size_t i = 0; i < links.size(); ++i) links[i].name = Name("l" + std::to_string(i));
-    return {Name("chain"), links, joints};
+    for (std::size_t i = 0; i < links.size(); ++i)
+      links[i].name = models::Name("l" + std::to_string(i));
+    return {models::Name("chain"), links, joints};
   }
   std::vector<Joint> joints;
 };
@@ -98,18 +99,18 @@ TEST(JointLimitsTest, AMimicWithoutLimitsOrWithTheSameBindsNothing) {
 TEST(JointLimitsTest, RefusesAMimicThatLeavesNoPosition) {
   Chain chain(3);
   chain.joints[1].mimic = Mimic{0, 1.0, 2.5};
-  EXPECT_THAT([&] { chain.Model(); },
-              ThrowsMessage<ModelError>(AllOf(HasSubstr("joint 'b': mimic"), HasSubstr("'a'"),
-                                              HasSubstr("plus 2.5"), HasSubstr("[-1, 1]"))));
+  EXPECT_THAT([&] { chain.Model(); }, ThrowsMessage<models::ModelError>(
+                                          AllOf(HasSubstr("joint 'b': mimic"), HasSubstr("'a'"),
+                                                HasSubstr("plus 2.5"), HasSubstr("[-1, 1]"))));
   chain.joints[1].mimic = Mimic{0, 1.0, 2.0};  // just q = -1
   EXPECT_EQ(chain.Model().upper_limits()[0], -1.0);
   EXPECT_EQ(chain.Model().lower_limits()[0], -1.0);
   chain.joints[2].mimic = Mimic{0, 1.0, -0.5};  // each would do alone
-  EXPECT_THAT([&] { chain.Model(); },
-              ThrowsMessage<ModelError>(AllOf(HasSubstr("joint 'c': mimic"), EndsWith("keep"))));
+  EXPECT_THAT([&] { chain.Model(); }, ThrowsMessage<models::ModelError>(
+                                          AllOf(HasSubstr("joint 'c': mimic"), EndsWith("keep"))));
   chain.joints[2].mimic.reset();
   chain.joints[1].mimic = Mimic{0, 0.0, 1.5};  // stands still, beyond its limits
-  EXPECT_THAT([&] { chain.Model(); }, ThrowsMessage<ModelError>(HasSubstr("joint 'b'")));
+  EXPECT_THAT([&] { chain.Model(); }, ThrowsMessage<models::ModelError>(HasSubstr("joint 'b'")));
   chain.joints[1].mimic = Mimic{0, 0.0, 0.5};
   EXPECT_EQ(chain.Model().upper_limits()[0], 1.0);
 }
@@ -218,7 +219,7 @@ TEST(JointLimitsTest, TellsStatesThatCannotBe) {
   EXPECT_EQ(wrong(-1e6, 0), "");
   EXPECT_THAT(wrong(-1.1e6, 0), HasSubstr("expected -1e+06 to 1e+06"));
   chain.joints[1] = chain.joints[0];
-  chain.joints[1].name = Name("b");
+  chain.joints[1].name = models::Name("b");
   chain.joints[1].parent_link = 1;
   chain.joints[1].child_link = 2;
   chain.joints[1].mimic = Mimic{0, 100.0, 0.0};
@@ -233,4 +234,4 @@ TEST(JointLimitsTest, TellsStatesThatCannotBe) {
 }
 
 }  // namespace joint_limits_test
-}  // namespace oca::models
+}  // namespace oca::robot

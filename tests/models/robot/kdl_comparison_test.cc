@@ -7,13 +7,13 @@
 #include <kdl/treefksolverpos_recursive.hpp>
 #include <kdl/treejnttojacsolver.hpp>
 
-#include "models/error.h"
-#include "models/robot/kinematics.h"
-#include "models/robot/urdf.h"
-#include "random_robot.h"
+#include "oca/models/error.h"
+#include "oca/models/robot/kinematics.h"
+#include "oca/models/robot/urdf.h"
 #include "tests/kdl_convert.h"
+#include "tests/models/robot/random_robot.h"
 
-namespace oca::models::test {
+namespace oca::robot::test {
 namespace kdl_comparison_test {
 
 using oca::test::ToKdl;
@@ -151,7 +151,7 @@ TEST(PublicRobotsTest, EveryPublicDescriptionLoadsAsItIs) {
     // One of them names coarse meshes that are not there.
     if (entry.path().extension() != ".urdf") continue;
     if (entry.path().filename() == "model_for_sdf.urdf") {
-      EXPECT_THROW(LoadUrdf(entry.path()), ModelError);
+      EXPECT_THROW(LoadUrdf(entry.path()), models::ModelError);
       continue;
     }
     ++files;
@@ -165,4 +165,4 @@ TEST(PublicRobotsTest, EveryPublicDescriptionLoadsAsItIs) {
 }
 
 }  // namespace kdl_comparison_test
-}  // namespace oca::models::test
+}  // namespace oca::robot::test

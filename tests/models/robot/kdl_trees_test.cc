@@ -9,11 +9,11 @@
 #include <kdl/chainjnttojacsolver.hpp>
 #include <vector>
 
-#include "models/robot/kinematics.h"
-#include "random_robot.h"
+#include "oca/models/robot/kinematics.h"
 #include "tests/kdl_convert.h"
+#include "tests/models/robot/random_robot.h"
 
-namespace oca::models::test {
+namespace oca::robot::test {
 namespace kdl_trees_test {
 
 using oca::test::ToKdl;
@@ -115,4 +115,4 @@ TEST_P(KdlTreesTest, AgreeToThirteenDigits) {
 INSTANTIATE_TEST_SUITE_P(Quarters, KdlTreesTest, testing::Range(0, 4));
 
 }  // namespace kdl_trees_test
-}  // namespace oca::models::test
+}  // namespace oca::robot::test

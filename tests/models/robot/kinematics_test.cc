@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/kinematics.h"
+#include "oca/models/robot/kinematics.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "models/error.h"
-#include "models/robot/urdf.h"
-#include "random_robot.h"
+#include "oca/models/error.h"
+#include "oca/models/robot/urdf.h"
+#include "tests/models/robot/random_robot.h"
 
-namespace oca::models::test {
+namespace oca::robot::test {
 namespace kinematics_test {
 
 using testing::HasSubstr;
@@ -173,7 +173,7 @@ TEST(KinematicsTest, RefusesPositionsOfWrongLengthOnEitherSide) {
   const RobotModel model = Planar3();
   for (const int length : {0, 2, 4}) {
     EXPECT_THAT([&] { LinkPoses(model, Eigen::VectorXd::Zero(length)); },
-                ThrowsMessage<ModelError>(HasSubstr("expected 3")));
+                ThrowsMessage<models::ModelError>(HasSubstr("expected 3")));
   }
   EXPECT_NO_THROW(LinkPoses(model, Eigen::VectorXd::Zero(3)));
 }
@@ -182,7 +182,7 @@ TEST(KinematicsTest, RefusesPositionsThatAreNotFiniteNamingTheJoint) {
   const RobotModel model = Planar3();
   for (const double bad : {std::nan(""), kUnlimited, -kUnlimited}) {
     EXPECT_THAT([&] { LinkPoses(model, Eigen::Vector3d(0.0, bad, 0.0)); },
-                ThrowsMessage<ModelError>(HasSubstr("'planar3_joint_2'")));
+                ThrowsMessage<models::ModelError>(HasSubstr("'planar3_joint_2'")));
   }
 }
 
@@ -255,4 +255,4 @@ TEST(KinematicsTest, DistanceRowIsTheSlopeOfTheDistanceOfTwoPoints) {
 }
 
 }  // namespace kinematics_test
-}  // namespace oca::models::test
+}  // namespace oca::robot::test

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "models/geometry/convex_hull.h"
-#include "models/robot/kinematics.h"
-#include "models/robot/link_colliders.h"
-#include "models/robot/urdf.h"
-#include "random_robot.h"
+#include "oca/models/geometry/convex_hull.h"
+#include "oca/models/robot/kinematics.h"
+#include "oca/models/robot/link_colliders.h"
+#include "oca/models/robot/urdf.h"
+#include "tests/models/robot/random_robot.h"
 
-namespace oca::models::test {
+namespace oca::robot::test {
 namespace product_models_test {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -35,13 +35,13 @@ Segment SegmentOf(const CollisionElement& element, const Eigen::Isometry3d& X_WL
   const Eigen::Isometry3d X_WC = X_WL * element.X_LC;
   double radius = 0.0;
   double length = 0.0;
-  if (const auto* sphere = std::get_if<Sphere>(&element.shape)) radius = sphere->radius;
-  if (const auto* capsule = std::get_if<Capsule>(&element.shape)) {
+  if (const auto* sphere = std::get_if<geometry::Sphere>(&element.shape)) radius = sphere->radius;
+  if (const auto* capsule = std::get_if<geometry::Capsule>(&element.shape)) {
     radius = capsule->radius;
     length = capsule->length;
   }
   // A capsule around a cylinder holds more than the cylinder.
-  if (const auto* cylinder = std::get_if<Cylinder>(&element.shape)) {
+  if (const auto* cylinder = std::get_if<geometry::Cylinder>(&element.shape)) {
     radius = cylinder->radius;
     length = cylinder->length;
   }
@@ -114,9 +114,9 @@ TEST(Lwr4Test, MovingLinksAreOneRoundShapeEach) {
   const RobotModel model = Lwr4();
   for (int link = 1; link <= 7; ++link) {
     ASSERT_EQ(model.links()[link].collisions.size(), 1u);
-    const Shape& shape = model.links()[link].collisions[0].shape;
-    EXPECT_EQ(std::holds_alternative<Capsule>(shape), link < 7);
-    EXPECT_EQ(std::holds_alternative<Sphere>(shape), link == 7);
+    const geometry::Shape& shape = model.links()[link].collisions[0].shape;
+    EXPECT_EQ(std::holds_alternative<geometry::Capsule>(shape), link < 7);
+    EXPECT_EQ(std::holds_alternative<geometry::Sphere>(shape), link == 7);
   }
 }
 
@@ -216,7 +216,7 @@ TEST(PlanarTest, TipsReachTheSumOfTheirLinks) {
     for (const int body : model.bodies()) {
       ASSERT_EQ(model.links()[body].collisions.size(), 1u);
       const CollisionElement& element = model.links()[body].collisions[0];
-      ASSERT_TRUE(std::holds_alternative<Capsule>(element.shape));
+      ASSERT_TRUE(std::holds_alternative<geometry::Capsule>(element.shape));
       EXPECT_LT((element.X_LC.linear().col(2) - Eigen::Vector3d::UnitX()).norm(), 1e-15);
     }
     EXPECT_TRUE(model.collision_disabled(1, 2));
@@ -231,7 +231,7 @@ TEST(WorldTest, TableAndPillarAreFixedBoxes) {
                               const Eigen::Vector3d& centre) {
     const int link = world.FindLink(name);
     EXPECT_EQ(world.body(link), -1);
-    EXPECT_EQ(std::get<Box>(world.links()[link].collisions[0].shape).size, size);
+    EXPECT_EQ(std::get<geometry::Box>(world.links()[link].collisions[0].shape).size, size);
     EXPECT_EQ(X_WL[link].translation(), centre);
   };
   expect_box("table", {1.6, 1.6, 0.05}, {0, 0, 0.725});
@@ -274,7 +274,7 @@ TEST(Lwr4Test, MeshesAreTheSameArmInItsHousings) {
     ASSERT_EQ(housing.collisions.size(), link == 5 ? 2u : 1u);  // forearm and fork
     ASSERT_EQ(housing.visuals.size(), housing.collisions.size());
     for (std::size_t i = 0; i < housing.collisions.size(); ++i) {
-      const auto& mesh = std::get<ConvexMesh>(housing.collisions[i].shape);
+      const auto& mesh = std::get<geometry::ConvexMesh>(housing.collisions[i].shape);
       EXPECT_GT(mesh.hull->vertices.size(), 50u) << link;
       EXPECT_FALSE(housing.visuals[i].mesh_file.empty());
     }
@@ -309,7 +309,7 @@ TEST(Lwr4Test, ElbowsBulgeSidewaysByHalves) {
   const auto reach = [&](int link, const Eigen::Vector3d& direction) {
     const CollisionElement& element = model.links()[link].collisions[0];
     double farthest = -kUnlimited;
-    for (const Eigen::Vector3d& p : std::get<ConvexMesh>(element.shape).hull->vertices) {
+    for (const Eigen::Vector3d& p : std::get<geometry::ConvexMesh>(element.shape).hull->vertices) {
       farthest = std::max(farthest, direction.dot(element.X_LC * p));
     }
     return farthest;
@@ -375,4 +375,4 @@ TEST(Ur5eTest, FlangeIsWhereThePublishedParametersPutIt) {
 }
 
 }  // namespace product_models_test
-}  // namespace oca::models::test
+}  // namespace oca::robot::test

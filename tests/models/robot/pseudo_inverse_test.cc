@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/pseudo_inverse.h"
+#include "oca/models/robot/pseudo_inverse.h"
 
 #include <gtest/gtest.h>
 
-#include "random_robot.h"
+#include "tests/models/robot/random_robot.h"
 
-namespace oca::models::test {
+namespace oca::robot::test {
 namespace pseudo_inverse_test {
 
 Eigen::MatrixXd RandomMatrix(Random& random, int rows, int columns) {
@@ -76,4 +76,4 @@ TEST(PseudoInverseTest, DampedTendsToItAsTheDampingVanishes) {
 }
 
 }  // namespace pseudo_inverse_test
-}  // namespace oca::models::test
+}  // namespace oca::robot::test

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "random_robot.h"
+#include "tests/models/robot/random_robot.h"
 
-namespace oca::models::test {
+namespace oca::robot::test {
 
 double Uniform(Random& random, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(random);
@@ -32,11 +32,11 @@ RobotModel RandomRobot(Random& random, int num_joints, bool chain, bool mimics) 
   };
   std::vector<Link> links(num_joints + 1);
   std::vector<Joint> joints(num_joints);
-  links[0].name = Name("link_0");
+  links[0].name = models::Name("link_0");
   for (int j = 0; j < num_joints; ++j) {
-    links[j + 1].name = Name("link_" + std::to_string(j + 1));
+    links[j + 1].name = models::Name("link_" + std::to_string(j + 1));
     Joint& joint = joints[j];
-    joint.name = Name("joint_" + std::to_string(j));
+    joint.name = models::Name("joint_" + std::to_string(j));
     joint.type = static_cast<JointType>(one_of(4));
     // The first one moves, so that every robot has a position.
     if (j == 0 && joint.type == JointType::kFixed) joint.type = JointType::kRevolute;
@@ -51,7 +51,7 @@ RobotModel RandomRobot(Random& random, int num_joints, bool chain, bool mimics) 
       joint.mimic = Mimic{0, Uniform(random, -2.0, 2.0), Uniform(random, -1.0, 1.0)};
     }
   }
-  return {Name("random"), std::move(links), std::move(joints), RandomPose(random)};
+  return {models::Name("random"), std::move(links), std::move(joints), RandomPose(random)};
 }
 
 std::string SharedRobot(const std::string& file) {
@@ -60,4 +60,4 @@ std::string SharedRobot(const std::string& file) {
 
 std::string ProductFile(const std::string& file) { return OCA_SOURCE_DIR "/models/" + file; }
 
-}  // namespace oca::models::test
+}  // namespace oca::robot::test

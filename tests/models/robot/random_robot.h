@@ -4,9 +4,9 @@
 #include <random>
 #include <string>
 
-#include "models/robot/robot_model.h"
+#include "oca/models/robot/robot_model.h"
 
-namespace oca::models::test {
+namespace oca::robot::test {
 
 using Random = std::mt19937;
 
@@ -24,4 +24,4 @@ std::string SharedRobot(const std::string& file);
 /// Path of a model of the product.
 std::string ProductFile(const std::string& file);
 
-}  // namespace oca::models::test
+}  // namespace oca::robot::test

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/robot_model.h"
+#include "oca/models/robot/robot_model.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
-#include "models/error.h"
-#include "models/robot/kinematics.h"
-#include "random_robot.h"
+#include "oca/models/error.h"
+#include "oca/models/robot/kinematics.h"
+#include "tests/models/robot/random_robot.h"
 
-namespace oca::models::test {
+namespace oca::robot::test {
 namespace robot_model_test {
 
 using testing::ElementsAre;
@@ -21,7 +21,7 @@ using testing::ThrowsMessage;
 std::vector<Link> Links() {
   std::vector<Link> links(5);
   const char* names[] = {"base", "arm", "plate", "hand", "shelf"};
-  for (int i = 0; i < 5; ++i) links[i].name = Name(names[i]);
+  for (int i = 0; i < 5; ++i) links[i].name = models::Name(names[i]);
   return links;
 }
 
@@ -30,7 +30,7 @@ std::vector<Joint> Joints() {
   const char* names[] = {"lift", "screws", "turn", "bolts"};
   const int parents[] = {0, 1, 2, 0};
   for (int j = 0; j < 4; ++j) {
-    joints[j].name = Name(names[j]);
+    joints[j].name = models::Name(names[j]);
     joints[j].parent_link = parents[j];
     joints[j].child_link = j + 1;
   }
@@ -43,13 +43,14 @@ std::vector<Joint> Joints() {
 }
 
 RobotModel Lift(std::vector<std::pair<int, int>> disabled = {}) {
-  return {Name("lift"), Links(), Joints(), Eigen::Isometry3d::Identity(), std::move(disabled)};
+  return {models::Name("lift"), Links(), Joints(), Eigen::Isometry3d::Identity(),
+          std::move(disabled)};
 }
 
 TEST(RobotModelTest, NumbersPositionsInTheOrderOfTheirJoints) {
   const RobotModel model = Lift();
   EXPECT_EQ(model.num_positions(), 2);
-  EXPECT_THAT(model.position_names(), ElementsAre(Name("lift"), Name("turn")));
+  EXPECT_THAT(model.position_names(), ElementsAre(models::Name("lift"), models::Name("turn")));
   EXPECT_EQ(model.joints()[1].position_index, -1);
   EXPECT_EQ(model.joints()[2].position_index, 1);
   EXPECT_EQ(model.FindPosition("turn"), 1);
@@ -78,9 +79,9 @@ TEST(RobotModelTest, UnitTellsAnglesFromLengths) {
   EXPECT_EQ(Lift().position_unit(), "mixed");
   auto joints = Joints();
   joints[0].type = JointType::kRevolute;
-  EXPECT_EQ(RobotModel(Name("r"), Links(), joints).position_unit(), "rad");
+  EXPECT_EQ(RobotModel(models::Name("r"), Links(), joints).position_unit(), "rad");
   joints[0].type = joints[2].type = JointType::kPrismatic;
-  EXPECT_EQ(RobotModel(Name("r"), Links(), joints).position_unit(), "m");
+  EXPECT_EQ(RobotModel(models::Name("r"), Links(), joints).position_unit(), "m");
 }
 
 TEST(RobotModelTest, DisabledPairsHaveNoOrder) {
@@ -105,7 +106,7 @@ TEST(RobotModelTest, MimicOfAMimicFollowsTheFirst) {
   joints[1].type = JointType::kRevolute;
   joints[1].mimic = Mimic{2, 2.0, 1.0};
   joints[2].mimic = Mimic{0, 3.0, -0.5};
-  const RobotModel model(Name("r"), Links(), joints);
+  const RobotModel model(models::Name("r"), Links(), joints);
   EXPECT_EQ(model.num_positions(), 1);
   EXPECT_EQ(model.steps()[1].column, 0);
   EXPECT_EQ(model.steps()[1].multiplier, 6.0);  // 2 (3 q - 0.5) + 1
@@ -114,17 +115,19 @@ TEST(RobotModelTest, MimicOfAMimicFollowsTheFirst) {
 
 TEST(RobotModelTest, UnknownNamesAreAnsweredWithTheNearest) {
   const RobotModel model = Lift();
-  EXPECT_THAT([&] { model.FindLink("hnad"); }, ThrowsMessage<ModelError>(HasSubstr("'hand'")));
-  EXPECT_THAT([&] { model.FindJoint("trun"); }, ThrowsMessage<ModelError>(HasSubstr("'turn'")));
+  EXPECT_THAT([&] { model.FindLink("hnad"); },
+              ThrowsMessage<models::ModelError>(HasSubstr("'hand'")));
+  EXPECT_THAT([&] { model.FindJoint("trun"); },
+              ThrowsMessage<models::ModelError>(HasSubstr("'turn'")));
   EXPECT_THAT([&] { model.FindPosition("screws"); },
-              ThrowsMessage<ModelError>(HasSubstr("which is fixed")));
+              ThrowsMessage<models::ModelError>(HasSubstr("which is fixed")));
 }
 
 void ExpectRefused(const char* reason, const std::function<void(std::vector<Joint>&)>& spoil) {
   auto joints = Joints();
   spoil(joints);
-  EXPECT_THAT([&] { RobotModel(Name("r"), Links(), joints); },
-              ThrowsMessage<ModelError>(HasSubstr(reason)));
+  EXPECT_THAT([&] { RobotModel(models::Name("r"), Links(), joints); },
+              ThrowsMessage<models::ModelError>(HasSubstr(reason)));
 }
 
 TEST(RobotModelTest, RefusesWhatIsNoTree) {
@@ -132,8 +135,8 @@ TEST(RobotModelTest, RefusesWhatIsNoTree) {
   ExpectRefused("parents first", [](auto& joints) { joints[1].parent_link = 3; });
   ExpectRefused("parents first", [](auto& joints) { joints[1].parent_link = -1; });
   ExpectRefused("parents first", [](auto& joints) { joints[1].child_link = 1; });
-  EXPECT_THAT([] { RobotModel(Name("r"), {}, {}); },
-              ThrowsMessage<ModelError>(HasSubstr("at least one")));
+  EXPECT_THAT([] { RobotModel(models::Name("r"), {}, {}); },
+              ThrowsMessage<models::ModelError>(HasSubstr("at least one")));
 }
 
 TEST(RobotModelTest, RefusesJointsThatCannotBeComputed) {
@@ -157,15 +160,15 @@ TEST(RobotModelTest, RefusesMimicRulesThatLeadNowhere) {
 
 TEST(RobotModelTest, RefusesDisabledPairsOfNoLink) {
   EXPECT_NO_THROW(Lift({{0, 4}}));
-  EXPECT_THROW(Lift({{0, 5}}), ModelError);
-  EXPECT_THROW(Lift({{-1, 0}}), ModelError);
+  EXPECT_THROW(Lift({{0, 5}}), models::ModelError);
+  EXPECT_THROW(Lift({{-1, 0}}), models::ModelError);
 }
 
 RobotModel WithInertia(double mass, const Eigen::Matrix3d& I,
                        const Eigen::Vector3d& p = Eigen::Vector3d::Zero()) {
   auto links = Links();
   links[1].inertia = {mass, p, I};
-  return {Name("lift"), std::move(links), Joints()};
+  return {models::Name("lift"), std::move(links), Joints()};
 }
 
 TEST(RobotModelTest, InertiasThatABodyCanHaveAreKept) {
@@ -184,24 +187,25 @@ TEST(RobotModelTest, InertiasThatABodyCanHaveAreKept) {
 TEST(RobotModelTest, InertiasOfNoBodyAreRefused) {
   const Eigen::Matrix3d ball = 0.01 * Eigen::Matrix3d::Identity();
   EXPECT_THAT([&] { WithInertia(-1.0, ball); },
-              ThrowsMessage<ModelError>(HasSubstr("'arm': mass; got -1 kg")));
+              ThrowsMessage<models::ModelError>(HasSubstr("'arm': mass; got -1 kg")));
   EXPECT_THAT([&] { WithInertia(std::nan(""), ball); },
-              ThrowsMessage<ModelError>(HasSubstr("not finite")));
+              ThrowsMessage<models::ModelError>(HasSubstr("not finite")));
   EXPECT_THAT(
       [&] {
         WithInertia(1.0, ball, {0.0, kUnlimited, 0.0});
       },
-      ThrowsMessage<ModelError>(HasSubstr("not finite")));
+      ThrowsMessage<models::ModelError>(HasSubstr("not finite")));
   EXPECT_THAT(
       [] { WithInertia(1.0, Eigen::Vector3d(0.1, 0.2, 0.31).asDiagonal().toDenseMatrix()); },
-      ThrowsMessage<ModelError>(HasSubstr("none above the sum of the other two")));
+      ThrowsMessage<models::ModelError>(HasSubstr("none above the sum of the other two")));
   EXPECT_THAT([] { WithInertia(1.0, Eigen::Vector3d(0.1, 0.1, -0.01).asDiagonal()); },
-              ThrowsMessage<ModelError>(HasSubstr("none below 0")));
+              ThrowsMessage<models::ModelError>(HasSubstr("none below 0")));
   // Products of inertia so large that a principal moment is negative.
   Eigen::Matrix3d I = ball;
   I(0, 1) = I(1, 0) = 0.02;
-  EXPECT_THAT([&] { WithInertia(1.0, I); }, ThrowsMessage<ModelError>(HasSubstr("none below 0")));
+  EXPECT_THAT([&] { WithInertia(1.0, I); },
+              ThrowsMessage<models::ModelError>(HasSubstr("none below 0")));
 }
 
 }  // namespace robot_model_test
-}  // namespace oca::models::test
+}  // namespace oca::robot::test

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/srdf.h"
+#include "oca/models/robot/srdf.h"
 
 #include <gmock/gmock.h>
 
 #include <fstream>
 #include <iterator>
 
-#include "models/error.h"
+#include "oca/models/error.h"
 #include "tests/temporary_folder.h"
 
-namespace oca::models::test {
+namespace oca::robot::test {
 namespace srdf_test {
 
 using testing::AllOf;
@@ -29,7 +29,7 @@ std::vector<std::pair<int, int>> Load(const std::string& content) {
 std::string RefusalOf(const std::string& content) {
   try {
     Load(content);
-  } catch (const ModelError& error) {
+  } catch (const models::ModelError& error) {
     return error.what();
   }
   return "accepted";
@@ -56,10 +56,10 @@ TEST(SrdfTest, DefaultsAreOverruledByNamedPairs) {
 
 TEST(SrdfTest, UnknownLinkIsRefusedWithItsLineAndTheNearestName) {
   EXPECT_THAT([] { Load("<robot>\n<disable_collisions link1='base' link2='amr'/></robot>"); },
-              ThrowsMessage<ModelError>(
+              ThrowsMessage<models::ModelError>(
                   AllOf(HasSubstr("srdf:2:"), HasSubstr("'amr'"), HasSubstr("'arm'"))));
   EXPECT_THAT([] { Load("<robot><disable_collisions link1='base'/></robot>"); },
-              ThrowsMessage<ModelError>(HasSubstr("link2")));
+              ThrowsMessage<models::ModelError>(HasSubstr("link2")));
 }
 
 TEST(SrdfTest, AllElementsOfMoveItAreAccepted) {
@@ -140,9 +140,9 @@ TEST(SrdfTest, AnotherRobotsFileAndXacroAreRefused) {
 }
 
 TEST(SrdfTest, OtherFilesAreRefused) {
-  EXPECT_THROW(Load(""), ModelError);
-  EXPECT_THROW(Load("<urdf/>"), ModelError);
-  EXPECT_THROW(LoadDisabledPairs("/nowhere.srdf", {}), ModelError);
+  EXPECT_THROW(Load(""), models::ModelError);
+  EXPECT_THROW(Load("<urdf/>"), models::ModelError);
+  EXPECT_THROW(LoadDisabledPairs("/nowhere.srdf", {}), models::ModelError);
 }
 
 TEST(SrdfTest, WhatIsWrittenIsRead) {
@@ -174,16 +174,17 @@ TEST(SrdfTest, WritingReplacesTheComputedPairsOfAFileAndKeepsTheRest) {
 TEST(SrdfTest, WritingRefusesAFileOfAnotherRobotAndLeavesItAsItIs) {
   const oca::test::TemporaryFolder folder;
   const auto file = folder.Write("other.srdf", "<robot name='s'/>");
-  EXPECT_THAT([&] { SaveDisabledPairs(file, "r", {}); },
-              ThrowsMessage<ModelError>(AllOf(HasSubstr("got 's'"), HasSubstr("expected 'r'"))));
+  EXPECT_THAT(
+      [&] { SaveDisabledPairs(file, "r", {}); },
+      ThrowsMessage<models::ModelError>(AllOf(HasSubstr("got 's'"), HasSubstr("expected 'r'"))));
   EXPECT_EQ(std::filesystem::file_size(file), 17u);
-  EXPECT_THROW(SaveDisabledPairs(folder.Write("urdf", "<urdf/>"), "r", {}), ModelError);
+  EXPECT_THROW(SaveDisabledPairs(folder.Write("urdf", "<urdf/>"), "r", {}), models::ModelError);
   const auto urdf = folder.Write("r.urdf", "<robot name='r'><link name='l'/></robot>");
   EXPECT_THAT([&] { SaveDisabledPairs(urdf, "r", {}); },
-              ThrowsMessage<ModelError>(HasSubstr("got a URDF")));
+              ThrowsMessage<models::ModelError>(HasSubstr("got a URDF")));
   EXPECT_THAT([&] { SaveDisabledPairs(folder.path() / "none" / "x.srdf", "r", {}); },
-              ThrowsMessage<ModelError>(HasSubstr("x.srdf: SRDF to write")));
+              ThrowsMessage<models::ModelError>(HasSubstr("x.srdf: SRDF to write")));
 }
 
 }  // namespace srdf_test
-}  // namespace oca::models::test
+}  // namespace oca::robot::test

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/travel_bound.h"
+#include "oca/models/robot/travel_bound.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "models/geometry/distance.h"
-#include "models/robot/kinematics.h"
-#include "models/robot/urdf.h"
+#include "oca/models/geometry/distance.h"
+#include "oca/models/robot/kinematics.h"
+#include "oca/models/robot/urdf.h"
 
-namespace oca::models {
+namespace oca::robot {
 namespace travel_bound_test {
 
 RobotModel Arm(const std::string& name) {
@@ -51,7 +51,7 @@ TEST(TravelBoundTest, IsNeverBelowThePathOfAnyPoint) {
     const auto travel = Travel(arm, from, to);
     for (int link = 0; link < arm.num_links(); ++link) {
       for (const CollisionElement& element : arm.links()[link].collisions) {
-        const Collider collider(element.shape, "");
+        const geometry::Collider collider(element.shape, "");
         const Eigen::Vector3d aim(unit(random), unit(random), unit(random));
         const Eigen::Vector3d p =
             element.X_LC * (collider.Support(aim) + collider.radius() * aim.normalized());
@@ -80,7 +80,7 @@ TEST(LeastDistanceBetweenTest, IsExactHeadOnAndNeverAboveTheEnds) {
 TEST(LeastDistanceBetweenTest, HoldsForAnArmThatPassesABall) {
   // Dense sampling between two instants is the judge; the bound must not be above any sample.
   const RobotModel arm = Arm("lwr4");
-  const Collider ball(Sphere{0.1}, "ball");
+  const geometry::Collider ball(geometry::Sphere{0.1}, "ball");
   std::mt19937_64 random(9);
   std::uniform_real_distribution<double> angle(-1.5, 1.5), step(-0.1, 0.1), place(-0.8, 0.8);
   int dipped = 0;
@@ -93,10 +93,10 @@ TEST(LeastDistanceBetweenTest, HoldsForAnArmThatPassesABall) {
     for (int link = 1; link < arm.num_links(); ++link) {
       if (arm.links()[link].collisions.empty()) continue;
       const CollisionElement& element = arm.links()[link].collisions[0];
-      const Collider collider(element.shape, "");
+      const geometry::Collider collider(element.shape, "");
       const auto at = [&](double s) {
         const auto X_WL = LinkPoses(arm, from + s * (to - from));
-        return Distance(collider, X_WL[link] * element.X_LC, ball, X_WO).distance;
+        return geometry::Distance(collider, X_WL[link] * element.X_LC, ball, X_WO).distance;
       };
       const double before = at(0.0), after = at(1.0);
       const double bound = LeastDistanceBetween(before, after, travel[link]);
@@ -111,4 +111,4 @@ TEST(LeastDistanceBetweenTest, HoldsForAnArmThatPassesABall) {
 }
 
 }  // namespace travel_bound_test
-}  // namespace oca::models
+}  // namespace oca::robot

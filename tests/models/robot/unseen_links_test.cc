@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/unseen_links.h"
+#include "oca/models/robot/unseen_links.h"
 
 #include <gmock/gmock.h>
 
-#include "models/error.h"
-#include "models/robot/attach_objects.h"
-#include "models/robot/urdf.h"
+#include "oca/models/error.h"
+#include "oca/models/robot/attach_objects.h"
+#include "oca/models/robot/urdf.h"
 #include "tests/models/geometry/mesh_files.h"
 #include "tests/temporary_folder.h"
 
-namespace oca::models::test {
+namespace oca::robot::test {
 namespace unseen_links_test {
 
 using testing::AllOf;
@@ -60,7 +60,7 @@ TEST(UnseenLinksTest, WhatItCarriesIsNotOfTheRobot) {
   AttachedObject box;
   box.id = "box";
   box.link = "fore";
-  box.shape = Sphere{0.1};
+  box.shape = geometry::Sphere{0.1};
   EXPECT_TRUE(NothingToSee(AttachObjects(Load(Arm("", kDrawn, kDrawn)), std::array{box})));
 }
 
@@ -85,10 +85,10 @@ TEST(VisualAsCollisionTest, MissingGivesThemToLinksThatHaveNoneOfTheirOwn) {
   const RobotModel model =
       Load(Arm("", std::string(kDrawn) + kSolid, kDrawn), VisualAsCollision::kMissing);
   ASSERT_EQ(model.links()[1].collisions.size(), 1u);
-  EXPECT_TRUE(std::holds_alternative<Sphere>(model.links()[1].collisions[0].shape));
+  EXPECT_TRUE(std::holds_alternative<geometry::Sphere>(model.links()[1].collisions[0].shape));
   ASSERT_EQ(model.links()[2].collisions.size(), 1u);
   const CollisionElement& box = model.links()[2].collisions[0];
-  EXPECT_EQ(std::get<Box>(box.shape).size, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(std::get<geometry::Box>(box.shape).size, Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(box.X_LC.translation(), Eigen::Vector3d(0, 0, 2));
   EXPECT_TRUE(model.links()[3].collisions.empty());
   EXPECT_FALSE(NothingToSee(model));
@@ -97,14 +97,14 @@ TEST(VisualAsCollisionTest, MissingGivesThemToLinksThatHaveNoneOfTheirOwn) {
 TEST(VisualAsCollisionTest, AllPutsThemInPlaceOfThoseOfEveryLinkThatIsDrawn) {
   const RobotModel model =
       Load(Arm(kSolid, std::string(kDrawn) + kSolid, kDrawn), VisualAsCollision::kAll);
-  EXPECT_TRUE(std::holds_alternative<Sphere>(model.links()[0].collisions[0].shape));
+  EXPECT_TRUE(std::holds_alternative<geometry::Sphere>(model.links()[0].collisions[0].shape));
   ASSERT_EQ(model.links()[1].collisions.size(), 1u);
-  EXPECT_TRUE(std::holds_alternative<Box>(model.links()[1].collisions[0].shape));
+  EXPECT_TRUE(std::holds_alternative<geometry::Box>(model.links()[1].collisions[0].shape));
 }
 
 TEST(VisualAsCollisionTest, MeshesBecomeHullsWithTheUsualWarning) {
   oca::test::TemporaryFolder folder;
-  folder.Write("angle.obj", AngleObj());
+  folder.Write("angle.obj", geometry::AngleObj());
   LoadOptions options;
   options.visual_as_collision = VisualAsCollision::kMissing;
   options.load_visuals = false;
@@ -112,17 +112,18 @@ TEST(VisualAsCollisionTest, MeshesBecomeHullsWithTheUsualWarning) {
   options.warn = [&](const std::string& line) { warnings.push_back(line); };
   const char* const kMesh = "<visual><geometry><mesh filename='angle.obj'/></geometry></visual>";
   const auto model = ParseUrdf(Arm("", kMesh, kSolid), "two.urdf", options, folder.path());
-  EXPECT_TRUE(std::holds_alternative<ConvexMesh>(model.links()[1].collisions.at(0).shape));
+  EXPECT_TRUE(
+      std::holds_alternative<geometry::ConvexMesh>(model.links()[1].collisions.at(0).shape));
   EXPECT_THAT(warnings, ElementsAre(HasSubstr("link 'upper': visual mesh 'angle.obj' counts as its "
                                               "convex hull, which adds 0.5 m^3")));
   // A mesh that would only be drawn need not exist; one that collides must.
   const char* const kLost = "<visual><geometry><mesh filename='lost.obj'/></geometry></visual>";
-  EXPECT_THAT(
-      [&] { ParseUrdf(Arm("", kLost, kSolid), "two.urdf", options, folder.path()); },
-      ThrowsMessage<ModelError>(AllOf(HasSubstr("link 'upper' visual"), HasSubstr("lost.obj"))));
+  EXPECT_THAT([&] { ParseUrdf(Arm("", kLost, kSolid), "two.urdf", options, folder.path()); },
+              ThrowsMessage<models::ModelError>(
+                  AllOf(HasSubstr("link 'upper' visual"), HasSubstr("lost.obj"))));
   options.visual_as_collision = VisualAsCollision::kNone;
   EXPECT_NO_THROW(ParseUrdf(Arm("", kLost, kSolid), "two.urdf", options, folder.path()));
 }
 
 }  // namespace unseen_links_test
-}  // namespace oca::models::test
+}  // namespace oca::robot::test

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/urdf_meshes.h"
+#include "oca/models/robot/urdf_meshes.h"
 
 #include <gmock/gmock.h>
 
 #include <vector>
 
-namespace oca::models::test {
+namespace oca::robot::test {
 namespace urdf_meshes_test {
 
 using testing::ElementsAre;
@@ -40,4 +40,4 @@ TEST(UrdfMeshesTest, PutsNewNamesInTheirPlace) {
 }
 
 }  // namespace urdf_meshes_test
-}  // namespace oca::models::test
+}  // namespace oca::robot::test

@@ -5,11 +5,11 @@
 #include <fstream>
 #include <iterator>
 
-#include "models/error.h"
-#include "models/robot/urdf.h"
-#include "random_robot.h"
+#include "oca/models/error.h"
+#include "oca/models/robot/urdf.h"
+#include "tests/models/robot/random_robot.h"
 
-namespace oca::models::test {
+namespace oca::robot::test {
 namespace urdf_refusal_test {
 
 using testing::AllOf;
@@ -17,10 +17,10 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 
 void ExpectRefused(const std::string& text, const char* reason, const char* element = "") {
-  EXPECT_THAT(
-      [&] { ParseUrdf(text, "bad.urdf"); },
-      ThrowsMessage<ModelError>(AllOf(HasSubstr("bad.urdf"), HasSubstr(reason), HasSubstr(element),
-                                      HasSubstr("; got "), HasSubstr("; expected "))))
+  EXPECT_THAT([&] { ParseUrdf(text, "bad.urdf"); },
+              ThrowsMessage<models::ModelError>(AllOf(HasSubstr("bad.urdf"), HasSubstr(reason),
+                                                      HasSubstr(element), HasSubstr("; got "),
+                                                      HasSubstr("; expected "))))
       << text;
 }
 
@@ -54,7 +54,7 @@ TEST(UrdfRefusalTest, TheExamplesBelowAreOtherwiseSound) {
 
 TEST(UrdfRefusalTest, FilesThatAreNoRobot) {
   EXPECT_THAT([] { LoadUrdf("/nowhere/arm.urdf"); },
-              ThrowsMessage<ModelError>(HasSubstr("/nowhere/arm.urdf")));
+              ThrowsMessage<models::ModelError>(HasSubstr("/nowhere/arm.urdf")));
   ExpectRefused("", "nothing");
   ExpectRefused(std::string("\x7f"
                             "ELF\0\0\0",
@@ -248,7 +248,7 @@ TEST(UrdfRefusalTest, DamagedTextIsReadOrRefusedButNeverCrashes) {
     if (i % 3 == 2) text.insert(place(), sound, place(), 40);
     try {
       EXPECT_EQ(ParseUrdf(text, "bad.urdf").name().empty(), false);
-    } catch (const ModelError&) {
+    } catch (const models::ModelError&) {
       ++refused;
     }
   }
@@ -256,4 +256,4 @@ TEST(UrdfRefusalTest, DamagedTextIsReadOrRefusedButNeverCrashes) {
 }
 
 }  // namespace urdf_refusal_test
-}  // namespace oca::models::test
+}  // namespace oca::robot::test

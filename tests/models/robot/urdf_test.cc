@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "models/robot/urdf.h"
+#include "oca/models/robot/urdf.h"
 
 #include <gmock/gmock.h>
 
@@ -7,12 +7,12 @@
 #include <fstream>
 #include <numbers>
 
-#include "models/error.h"
-#include "models/robot/kinematics.h"
-#include "random_robot.h"
+#include "oca/models/error.h"
+#include "oca/models/robot/kinematics.h"
+#include "tests/models/robot/random_robot.h"
 #include "tests/temporary_folder.h"
 
-namespace oca::models::test {
+namespace oca::robot::test {
 namespace urdf_test {
 
 using testing::HasSubstr;
@@ -43,11 +43,11 @@ const char* const kArm = R"(<robot name="arm">
 
 TEST(UrdfTest, ReadsTheTreeInTheOrderOfTheFile) {
   const RobotModel model = ParseUrdf(kArm, "arm.urdf");
-  EXPECT_EQ(model.name(), Name("arm"));
+  EXPECT_EQ(model.name(), models::Name("arm"));
   ASSERT_EQ(model.num_links(), 4);
-  EXPECT_EQ(model.position_names()[0], Name("z_last"));
-  EXPECT_EQ(model.position_names()[1], Name("turn"));
-  EXPECT_EQ(model.position_names()[2], Name("a_first"));
+  EXPECT_EQ(model.position_names()[0], models::Name("z_last"));
+  EXPECT_EQ(model.position_names()[1], models::Name("turn"));
+  EXPECT_EQ(model.position_names()[2], models::Name("a_first"));
   EXPECT_EQ(model.joints()[0].type, JointType::kRevolute);
   EXPECT_EQ(model.joints()[1].type, JointType::kContinuous);
   EXPECT_EQ(model.joints()[2].type, JointType::kPrismatic);
@@ -81,9 +81,9 @@ TEST(UrdfTest, ReadsCollisionShapesWithPoseAndPlace) {
   const RobotModel model = ParseUrdf(kArm, "arm.urdf");
   const std::vector<CollisionElement>& collisions = model.links()[1].collisions;
   ASSERT_EQ(collisions.size(), 3u);
-  EXPECT_EQ(std::get<Box>(collisions[0].shape).size, Eigen::Vector3d(1, 2, 3));
-  EXPECT_EQ(std::get<Sphere>(collisions[1].shape).radius, 0.5);
-  EXPECT_EQ(std::get<Cylinder>(collisions[2].shape).length, 4.0);
+  EXPECT_EQ(std::get<geometry::Box>(collisions[0].shape).size, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(std::get<geometry::Sphere>(collisions[1].shape).radius, 0.5);
+  EXPECT_EQ(std::get<geometry::Cylinder>(collisions[2].shape).length, 4.0);
   EXPECT_EQ(collisions[1].source, "arm.urdf:10");
   // Fixed axes: roll first, yaw last.
   const Eigen::Matrix3d R = (Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()) *
@@ -98,7 +98,7 @@ TEST(UrdfTest, ReadsVisualsAndInertia) {
   const RobotModel model = ParseUrdf(kArm, "arm.urdf");
   const Link& upper = model.links()[1];
   ASSERT_EQ(upper.visuals.size(), 1u);
-  EXPECT_TRUE(std::holds_alternative<Box>(*upper.visuals[0].shape));
+  EXPECT_TRUE(std::holds_alternative<geometry::Box>(*upper.visuals[0].shape));
   EXPECT_EQ(upper.visuals[0].colour, Eigen::Vector4d(1, 0, 0, 0.5));
   EXPECT_EQ(upper.inertia.mass, 2.0);
   EXPECT_EQ(upper.inertia.p_LC, Eigen::Vector3d(0, 0, 0.1));
@@ -120,19 +120,19 @@ TEST(UrdfTest, AccelerationLimitsAreOneForAllOrOneAPosition) {
   for (const int wrong : {2, 4}) {
     options.acceleration_limits = Eigen::VectorXd::Ones(wrong);
     EXPECT_THAT([&] { ParseUrdf(kArm, "arm.urdf", options); },
-                ThrowsMessage<ModelError>(HasSubstr("acceleration_limits")));
+                ThrowsMessage<models::ModelError>(HasSubstr("acceleration_limits")));
   }
   for (const double wrong : {0.0, -1.0, std::nan("")}) {
     options.acceleration_limits = Eigen::Vector3d(1, wrong, 1);
     EXPECT_THAT([&] { ParseUrdf(kArm, "arm.urdf", options); },
-                ThrowsMessage<ModelError>(HasSubstr("'turn'")));
+                ThrowsMessage<models::ModelError>(HasSubstr("'turn'")));
   }
 }
 
 TEST(UrdfTest, BasePoseThatIsNotFiniteIsRefused) {
   LoadOptions options;
   options.X_WB.translation().x() = std::nan("");
-  EXPECT_THROW(ParseUrdf(kArm, "arm.urdf", options), ModelError);
+  EXPECT_THROW(ParseUrdf(kArm, "arm.urdf", options), models::ModelError);
 }
 
 TEST(UrdfTest, BranchesAreVisitedDepthFirst) {
@@ -164,7 +164,7 @@ TEST(UrdfTest, NothingIsPrintedWhileUrdfdomComplains) {
                <material name="never defined"/></visual></link></robot>)",
             "r.urdf");
   EXPECT_THAT([] { ParseUrdf("<robot name='r' version='7.0'><link name='a'/></robot>", "r.urdf"); },
-              ThrowsMessage<ModelError>(HasSubstr("r.urdf")));
+              ThrowsMessage<models::ModelError>(HasSubstr("r.urdf")));
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
 }
@@ -190,7 +190,7 @@ class MeshTest : public testing::Test {
 TEST_F(MeshTest, RelativePathsStartAtTheFilesFolder) {
   std::ofstream(folder_ / "r.urdf") << WithMesh("parts/meshes/tetra.obj");
   const RobotModel model = LoadUrdf(folder_ / "r.urdf");
-  EXPECT_TRUE(std::holds_alternative<ConvexMesh>(model.links()[0].collisions[0].shape));
+  EXPECT_TRUE(std::holds_alternative<geometry::ConvexMesh>(model.links()[0].collisions[0].shape));
 }
 
 TEST_F(MeshTest, PackagesAreFoundByFolderOrByFunction) {
@@ -213,7 +213,7 @@ TEST_F(MeshTest, MissingFilesAreRefusedWithTheNameOfTheLink) {
       LoadOptions options;
       options.package_directories = {folder_};
       EXPECT_THAT([&] { ParseUrdf(WithMesh(path, element), "r.urdf", options, folder_); },
-                  ThrowsMessage<ModelError>(testing::AllOf(
+                  ThrowsMessage<models::ModelError>(testing::AllOf(
                       HasSubstr("missing mesh file"), HasSubstr("link 'a'"), HasSubstr(path))));
     }
   }
@@ -221,9 +221,9 @@ TEST_F(MeshTest, MissingFilesAreRefusedWithTheNameOfTheLink) {
 
 TEST_F(MeshTest, MeshesThatAreNoMeshesAreRefusedWithTheNameOfTheLink) {
   std::ofstream(folder_ / "junk.obj") << "nothing";
-  EXPECT_THAT(
-      [&] { ParseUrdf(WithMesh("junk.obj"), "r.urdf", {}, folder_); },
-      ThrowsMessage<ModelError>(testing::AllOf(HasSubstr("junk.obj"), HasSubstr("link 'a'"))));
+  EXPECT_THAT([&] { ParseUrdf(WithMesh("junk.obj"), "r.urdf", {}, folder_); },
+              ThrowsMessage<models::ModelError>(
+                  testing::AllOf(HasSubstr("junk.obj"), HasSubstr("link 'a'"))));
 }
 
 TEST(UrdfTest, PublicArmsHaveSevenJointsAndAMeshALink) {
@@ -233,7 +233,7 @@ TEST(UrdfTest, PublicArmsHaveSevenJointsAndAMeshALink) {
     EXPECT_EQ(model.num_positions(), 7);
     for (const Link& link : model.links()) {
       ASSERT_EQ(link.collisions.size(), 1u) << link.name.text();
-      EXPECT_TRUE(std::holds_alternative<ConvexMesh>(link.collisions[0].shape));
+      EXPECT_TRUE(std::holds_alternative<geometry::ConvexMesh>(link.collisions[0].shape));
     }
   }
 }
@@ -245,4 +245,4 @@ TEST(UrdfTest, AngleOfAQuarterTurnIsExactToTheLastDigits) {
 }
 
 }  // namespace urdf_test
-}  // namespace oca::models::test
+}  // namespace oca::robot::test

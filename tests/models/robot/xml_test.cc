@@ -5,12 +5,12 @@
 #include <filesystem>
 #include <fstream>
 
-#include "models/error.h"
-#include "models/robot/xml_file.h"
-#include "models/robot/xml_numbers.h"
+#include "oca/models/error.h"
+#include "oca/models/robot/xml_file.h"
+#include "oca/models/robot/xml_numbers.h"
 #include "tests/temporary_folder.h"
 
-namespace oca::models::test {
+namespace oca::robot::test {
 namespace xml_test {
 
 using testing::AllOf;
@@ -21,7 +21,7 @@ using testing::ThrowsMessage;
 
 void ExpectRefused(const std::string& text, const char* reason) {
   EXPECT_THAT([&] { ParseXml(text, "file.urdf"); },
-              ThrowsMessage<ModelError>(AllOf(HasSubstr("file.urdf"), HasSubstr(reason))));
+              ThrowsMessage<models::ModelError>(AllOf(HasSubstr("file.urdf"), HasSubstr(reason))));
 }
 
 TEST(XmlTest, ReadsDeclarationCommentsCdataAndAttributes) {
@@ -82,9 +82,9 @@ TEST(XmlTest, RefusesMoreThan64NestedElements) {
 
 TEST(XmlTest, RefusesFilesThatCannotBeRead) {
   EXPECT_THAT([] { ReadXmlFile("/nowhere/robot.urdf"); },
-              ThrowsMessage<ModelError>(HasSubstr("/nowhere/robot.urdf")));
+              ThrowsMessage<models::ModelError>(HasSubstr("/nowhere/robot.urdf")));
   EXPECT_THAT([] { ReadXmlFile(testing::TempDir()); },
-              ThrowsMessage<ModelError>(HasSubstr("no regular file")));
+              ThrowsMessage<models::ModelError>(HasSubstr("no regular file")));
 }
 
 TEST(XmlTest, RefusesFilesAbove50Megabytes) {
@@ -93,7 +93,8 @@ TEST(XmlTest, RefusesFilesAbove50Megabytes) {
   std::filesystem::resize_file(file, 50'000'000);
   EXPECT_EQ(ReadXmlFile(file).size(), 50'000'000u);
   std::filesystem::resize_file(file, 50'000'001);
-  EXPECT_THAT([&] { ReadXmlFile(file); }, ThrowsMessage<ModelError>(HasSubstr("50000001 bytes")));
+  EXPECT_THAT([&] { ReadXmlFile(file); },
+              ThrowsMessage<models::ModelError>(HasSubstr("50000001 bytes")));
 }
 
 TEST(XmlNumbersTest, ReadsNumbersSeparatedByAnySpace) {
@@ -108,4 +109,4 @@ TEST(XmlNumbersTest, RefusesWhatIsNoFiniteNumber) {
 }
 
 }  // namespace xml_test
-}  // namespace oca::models::test
+}  // namespace oca::robot::test

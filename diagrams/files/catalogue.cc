@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/diagrams/files/catalogue.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <exception>
+
+#include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/nearest.h"
+
+namespace oca::files {
+namespace {
+
+/// A value is missing, as that of an expression which could not be worked out.
+bool HasGap(const Value& value) {
+  if (value.null()) return true;
+  if (const Value::List* const list = value.list()) {
+    return std::any_of(list->begin(), list->end(), HasGap);
+  }
+  if (const Value::Map* const map = value.map()) {
+    return std::any_of(map->begin(), map->end(),
+                       [](const Value::Entry& entry) { return HasGap(entry.value); });
+  }
+  return false;
+}
+
+bool IsCamelCase(const std::string& name) {
+  const auto is = [](int (*kind)(int)) {
+    return [kind](char c) { return kind(static_cast<unsigned char>(c)) != 0; };
+  };
+  return !name.empty() && is(std::isupper)(name.front()) &&
+         std::all_of(name.begin(), name.end(), is(std::isalnum)) &&
+         (name.size() == 1 || std::any_of(name.begin(), name.end(), is(std::islower)));
+}
+
+/// What a file could not name, or twice.
+void CheckKeys(const CatalogueRow& row) {
+  std::vector<std::string> keys{"type"};
+  for (const Field& field : row.fields()) {
+    if (std::find(keys.begin(), keys.end(), field.key) != keys.end()) {
+      throw ConfigError(
+          fmt::format("catalogue: type '{}': parameter; got '{}', which is taken; "
+                      "expected a key of its own",
+                      row.type, field.key));
+    }
+    keys.push_back(field.key);
+  }
+}
+
+bool Before(const Catalogue::Row& row, const std::string& type) { return row->type < type; }
+
+}  // namespace
+
+std::unique_ptr<System> CatalogueRow::Make(const Value& params, const std::string& where,
+                                           const systems::ModelSet& models,
+                                           Problems& problems) const {
+  const std::shared_ptr<void> read = new_params();
+  Problems own;
+  ReadFields(params, fields(), where, read.get(), own);
+  problems.Add(own);
+  if (!own.empty()) return nullptr;
+  try {
+    return build(read.get(), models);
+  } catch (const WiringError&) {
+    throw;  // of the class, not of its parameters
+  } catch (const std::exception& error) {
+    // One that follows from what has been reported says nothing new.
+    if (problems.empty() || !HasGap(params)) {
+      problems.Add(params.location(), (where.empty() ? "" : where + ": ") + error.what());
+    }
+  }
+  return nullptr;
+}
+
+std::unique_ptr<System> CatalogueRow::MakeExample(const systems::ModelSet& models) const {
+  return build(example_params.get(), models);
+}
+
+Catalogue& Catalogue::AddRow(CatalogueRow row) {
+  if (!IsCamelCase(row.type)) {
+    throw ConfigError(
+        fmt::format("catalogue: type; got '{}'; expected a name such as MyBlock: "
+                    "letters and digits, first a capital",
+                    row.type));
+  }
+  CheckKeys(row);
+  const auto place = std::lower_bound(rows_.begin(), rows_.end(), row.type, Before);
+  if (place != rows_.end() && (*place)->type == row.type) {
+    throw ConfigError(
+        fmt::format("catalogue: type; got '{}', which is taken; expected a new one", row.type));
+  }
+  rows_.insert(place, std::make_shared<const CatalogueRow>(std::move(row)));
+  return *this;
+}
+
+const Catalogue::Row& Catalogue::Find(const std::string& type) const {
+  const auto place = std::lower_bound(rows_.begin(), rows_.end(), type, Before);
+  if (place != rows_.end() && (*place)->type == type) return *place;
+  std::vector<std::string> types;
+  for (const Row& row : rows_) types.push_back(row->type);
+  throw ConfigError(fmt::format("no system type '{}'{} (`simulator list` shows all)", type,
+                                DidYouMean(type, types)));
+}
+
+}  // namespace oca::files

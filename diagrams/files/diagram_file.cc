@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/diagrams/files/diagram_file.h"
+
+namespace oca::files {
+
+void SimulatorParams::Describe(Fields<SimulatorParams>& fields) {
+  fields.Add("duration", &SimulatorParams::duration, "s", "how long to run")
+      .AtLeast(0.0)
+      .AtMost(1e7);
+  fields.Include(&SimulatorParams::integration);
+  fields
+      .Add("realtime_factor", &SimulatorParams::realtime_factor, "",
+           "simulated seconds to a second of the wall clock; 0 runs as fast as possible")
+      .AtLeast(0.0);
+  fields.Add("seed", &SimulatorParams::seed, "", "of everything random in the run").AtLeast(0.0);
+}
+
+void AttachedParams::Describe(Fields<AttachedParams>& fields) {
+  fields.Add("id", &AttachedParams::id, "", "its name, as a link of the robot").Required();
+  fields.Add("link", &AttachedParams::link, "", "link that carries it").Required();
+  fields.Add("shape", &AttachedParams::shape, "", "its solid").Required();
+  fields.Add("pose", &AttachedParams::pose, "", "of the shape in the frame of that link");
+  fields.Add("touches", &AttachedParams::touches, "",
+             "links of the robot that it may touch, besides those rigidly connected to it");
+}
+
+void ModelParams::Describe(Fields<ModelParams>& fields) {
+  fields.Add("urdf", &ModelParams::urdf, "", "robot description: a path or package://NAME/PATH")
+      .Required();
+  fields.Add("srdf", &ModelParams::srdf, "", "pairs of links that are not checked for collision");
+  fields.Add("collision", &ModelParams::collision, "",
+             "what its collision meshes count as: their convex hull, or the convex parts of a "
+             "decomposition, which keep hollows");
+  fields.Add("visual_as_collision", &ModelParams::visual_as_collision, "",
+             "which links take what is drawn of them as their collision shapes: none, those that "
+             "are missing any, or all that are drawn");
+  fields.Add("base_pose", &ModelParams::base_pose, "", "pose of the root link in the world");
+  fields
+      .Add("acceleration_limits", &ModelParams::acceleration_limits, "rad/s^2",
+           "which URDF lacks; a number or one a joint")
+      .Above(0.0);
+  fields
+      .Add("jerk_limits", &ModelParams::jerk_limits, "rad/s^3",
+           "which URDF lacks; a number or one a joint")
+      .Above(0.0);
+  fields.Add("attached", &ModelParams::attached, "",
+             "tools and grasped objects: they move with a link of the robot and collide");
+}
+
+void ExpectParams::Describe(Fields<ExpectParams>& fields) {
+  fields.Add("at_least", &ExpectParams::at_least, "", "lower bound");
+  fields.Add("at_most", &ExpectParams::at_most, "", "upper bound");
+  fields.Add("equal", &ExpectParams::equal, "", "value, give or take `within`");
+  fields.Add("within", &ExpectParams::within, "", "distance from `equal` that is allowed")
+      .AtLeast(0.0);
+  fields.Add("at", &ExpectParams::at, "s", "when to look; the end of the run if left out")
+      .AtLeast(0.0);
+}
+
+const std::vector<Section>& Sections() {
+  static const std::vector<Section> sections = {
+      {"name", "short name of the diagram"},
+      {"description", "what it shows, in a sentence"},
+      {"include", "files to merge first; this file wins"},
+      {"parameters", "knobs of this file, used as ${name}"},
+      {"simulator", "duration, integrator, tolerances, seed"},
+      {"simulator_tolerances", "tolerances of single systems, by name"},
+      {"sampling",
+       "makes the file a family of scenarios: what the seed draws, and what is accepted"},
+      {"packages", "folders that package://NAME/ stands for"},
+      {"models", "robots and frames, by name"},
+      {"systems", "blocks, by name: type and parameters"},
+      {"connections", "list of `system.output -> system.input`"},
+      {"record", "signals to keep, with their rates in Hz"},
+      {"expect", "bounds on metrics and signals that the run must keep"},
+  };
+  return sections;
+}
+
+}  // namespace oca::files

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "oca/framework/dataflow/integrator_options.h"
+#include "oca/framework/dataflow/params.h"
+#include "oca/models/robot/urdf.h"
+#include "oca/systems/sensing/geometry_params.h"
+
+namespace oca::files {
+
+/// Section `simulator`.
+struct SimulatorParams {
+  double duration{10.0};
+  IntegratorOptions integration{};
+  int seed{0};
+  double realtime_factor{0.0};
+  static void Describe(Fields<SimulatorParams>& fields);
+};
+
+/// An entry of `attached` of a model: a tool or a grasped object.
+struct AttachedParams {
+  std::string id;
+  std::string link;
+  systems::ShapeParams shape;
+  std::optional<systems::PoseParams> pose;
+  std::vector<std::string> touches;
+  static void Describe(Fields<AttachedParams>& fields);
+};
+
+/// An entry of `models`.
+struct ModelParams {
+  std::string urdf;
+  std::string srdf;
+  systems::CollisionMeshes collision{systems::CollisionMeshes::kHull};  ///< of its meshes
+  robot::VisualAsCollision visual_as_collision{robot::VisualAsCollision::kNone};
+  systems::PoseParams base_pose;
+  std::optional<PerComponent> acceleration_limits;
+  std::optional<PerComponent> jerk_limits;
+  std::vector<AttachedParams> attached;
+  static void Describe(Fields<ModelParams>& fields);
+};
+
+/// An entry of `expect`: a bound on a metric or a signal.
+struct ExpectParams {
+  std::optional<double> at_least;
+  std::optional<double> at_most;
+  std::optional<double> equal;
+  double within{0.0};
+  std::optional<double> at;
+  static void Describe(Fields<ExpectParams>& fields);
+};
+
+/// Keys of a diagram file with their meaning; their order is that of the schema.
+struct Section {
+  const char* key;
+  const char* meaning;
+};
+const std::vector<Section>& Sections();
+
+}  // namespace oca::files

@@ -1,0 +1,367 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/diagrams/files/expression.h"
+
+#include <fmt/format.h>
+#include <muParser.h>
+
+#include <cctype>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/nearest.h"
+
+namespace oca::files {
+namespace {
+
+constexpr std::size_t kLargestCopies = 100000;
+constexpr int kDeepestTerm = 32;
+constexpr std::size_t kLongest = 1000;
+constexpr int kLongestChain = 100;
+
+std::string Trim(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+bool IsName(const std::string& text) {
+  if (text.empty() || (std::isalpha(static_cast<unsigned char>(text[0])) == 0 && text[0] != '_')) {
+    return false;
+  }
+  for (const unsigned char c : text) {
+    if (std::isalnum(c) == 0 && c != '_') return false;
+  }
+  return true;
+}
+
+bool IsQuoted(const std::string& text) {
+  return text.size() >= 2 && text.front() == '\'' && text.find('\'', 1) == text.size() - 1;
+}
+
+/// Position of `c` outside of parentheses, quotes and nested ternaries; npos if there is none.
+std::size_t FindTop(const std::string& text, char c, std::size_t from = 0) {
+  int depth = 0, ternaries = 0;
+  bool quoted = false;
+  for (std::size_t i = from; i < text.size(); ++i) {
+    if (text[i] == '\'') quoted = !quoted;
+    if (quoted) continue;
+    if (text[i] == '(') ++depth;
+    if (text[i] == ')') --depth;
+    if (depth != 0) continue;
+    if (text[i] == c && ternaries == 0) return i;
+    if (text[i] == '?') ++ternaries;
+    if (text[i] == ':') --ternaries;
+  }
+  return std::string::npos;
+}
+
+/// `(...)` whose first parenthesis closes at its end.
+bool IsParenthesised(const std::string& text) {
+  if (text.size() < 2 || text.front() != '(' || text.back() != ')') return false;
+  int depth = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i + 1 < text.size(); ++i) {
+    if (text[i] == '\'') quoted = !quoted;
+    if (quoted) continue;
+    if (text[i] == '(') ++depth;
+    if (text[i] == ')' && --depth == 0) return false;
+  }
+  return true;
+}
+
+bool IsLogical(const std::string& expression) {
+  int depth = 0;
+  for (std::size_t i = 0; i < expression.size(); ++i) {
+    if (expression[i] == '(') ++depth;
+    if (expression[i] == ')') --depth;
+    if (depth == 0 && std::string_view("<>=!&|").find(expression[i]) != std::string_view::npos) {
+      return true;
+    }
+  }
+  return false;
+}
+
+double Not(double x) { return x == 0.0 ? 1.0 : 0.0; }
+
+/// Names that an expression would not take for a parameter.
+bool IsReserved(const std::string& name) {
+  static const mu::Parser parser;
+  return name == "pi" || name == "deg" || name == "true" || name == "false" ||
+         parser.GetFunDef().contains(name);
+}
+
+/// Values in a tree; a text counts for every 16 characters.
+std::size_t SizeOf(const Value& value) {
+  std::size_t size = 1;
+  if (value.string() != nullptr) size += value.string()->size() / 16;
+  if (value.list() != nullptr) {
+    for (const Value& item : *value.list()) size += SizeOf(item);
+  }
+  if (value.map() != nullptr) {
+    for (const Value::Entry& entry : *value.map()) size += SizeOf(entry.value);
+  }
+  return size;
+}
+
+std::string Text(const Value& value) {
+  if (value.string() != nullptr) return *value.string();
+  double number = 0.0;
+  if (value.number(number)) return fmt::format("{}", number);
+  return value.Show();
+}
+
+}  // namespace
+
+Expressions::Expressions(const Value& parameters, Problems& problems) : problems_(problems) {
+  if (parameters.map() == nullptr) return;
+  for (const Value::Entry& entry : *parameters.map()) {
+    if (!IsName(entry.key) || IsReserved(entry.key)) {
+      problems_.Add(entry.location, fmt::format("parameters.{}: not a free name; expected letters, "
+                                                "digits and underscores, not pi, deg or a function",
+                                                entry.key));
+      continue;
+    }
+    written_[entry.key] = &entry.value;
+    places_[entry.key] = {entry.location, entry.value.location()};
+  }
+  for (const auto& [name, value] : written_) Parameter(name, value->location());
+}
+
+const Value* Expressions::Parameter(const std::string& name, const Location& location) {
+  if (const auto found = resolved_.find(name); found != resolved_.end()) return &found->second;
+  const auto written = written_.find(name);
+  if (written == written_.end()) {
+    std::vector<std::string> names{"pi", "deg"};
+    for (const auto& entry : written_) names.push_back(entry.first);
+    problems_.Add(location,
+                  fmt::format("${{...}}: unknown parameter '{}'{}", name, DidYouMean(name, names)));
+    return nullptr;
+  }
+  if (std::exchange(open_[name], true)) {
+    problems_.Add(location, fmt::format("parameters.{}: defined by itself", name));
+    return nullptr;
+  }
+  if (++chain_ > kLongestChain) {
+    problems_.Add(location, fmt::format("parameters.{}: defined through more than {} others", name,
+                                        kLongestChain));
+  }
+  Value value = chain_ > kLongestChain ? Value({}, location) : Resolve(*written->second);
+  --chain_;
+  open_[name] = false;
+  return &resolved_.insert_or_assign(name, std::move(value)).first->second;
+}
+
+const Value* Expressions::Use(const std::string& name, const Location& location) {
+  used_.insert(name);
+  const Value* const value = Parameter(name, location);
+  if (value == nullptr || copied_ > kLargestCopies) return nullptr;
+  copied_ += SizeOf(*value);
+  if (copied_ <= kLargestCopies) return value;
+  problems_.Add(location, fmt::format("${{{}}}: parameters that use parameters add up to more than "
+                                      "{} values",
+                                      name, kLargestCopies));
+  return nullptr;
+}
+
+std::vector<std::string> Expressions::Unused(const std::set<std::string>& known) const {
+  std::vector<std::string> lines;
+  std::vector<std::string> used(used_.begin(), used_.end());
+  used.insert(used.end(), known.begin(), known.end());
+  for (const auto& [name, place] : places_) {
+    if (used_.contains(name)) continue;
+    const auto& source = place.value.file;
+    const bool overridden = source && source->starts_with("-s ");
+    if (!known.contains(name)) {
+      lines.push_back(fmt::format("{}: warning: parameters.{}: nothing uses it{}",
+                                  place.key.ToString(), name, DidYouMean(name, used)));
+    } else if (overridden) {
+      lines.push_back(
+          fmt::format("{}: warning: nothing uses it with the parts that are chosen", *source));
+    }
+  }
+  return lines;
+}
+
+Value Expressions::Resolve(const Value& value) {
+  if (const Value::List* const list = value.list()) {
+    Value::List result;
+    for (const Value& item : *list) result.push_back(Resolve(item));
+    return Value(std::move(result), value.location());
+  }
+  if (const Value::Map* const map = value.map()) {
+    Value::Map result;
+    for (const Value::Entry& entry : *map) {
+      result.push_back({entry.key, entry.location, Resolve(entry.value)});
+    }
+    return Value(std::move(result), value.location());
+  }
+  if (value.string() == nullptr || value.string()->find("${") == std::string::npos) return value;
+  return ResolveText(*value.string(), value.location());
+}
+
+Value Expressions::ResolveText(const std::string& text, const Location& location) {
+  std::string result;
+  std::size_t at = 0;
+  while (true) {
+    const std::size_t open = text.find("${", at);
+    if (open == std::string::npos) break;
+    const std::size_t close = text.find('}', open);
+    if (close == std::string::npos) {
+      problems_.Add(location,
+                    fmt::format("got '{}'; expected a closing }}", text.substr(open, 40)));
+      return Value({}, location);
+    }
+    Value value = Evaluate(Trim(text.substr(open + 2, close - open - 2)), location, 0);
+    if (open == 0 && close + 1 == text.size()) return value;
+    if (value.list() != nullptr || value.map() != nullptr) {
+      problems_.Add(location, "a list or map inside a text; expected a number or text");
+    }
+    result += text.substr(at, open - at) + Text(value);
+    at = close + 1;
+  }
+  return Value(result + text.substr(at), location);
+}
+
+Value Expressions::Evaluate(const std::string& expression, const Location& location, int depth) {
+  if (depth > kDeepestTerm || expression.size() > kLongest) {
+    problems_.Add(location, "${...}: too long or nested too deep");
+    return Value({}, location);
+  }
+  if (IsParenthesised(expression)) {
+    return Evaluate(Trim(expression.substr(1, expression.size() - 2)), location, depth + 1);
+  }
+  if (const std::size_t question = FindTop(expression, '?'); question != std::string::npos) {
+    const std::size_t colon = FindTop(expression, ':', question + 1);
+    if (colon == std::string::npos) {
+      problems_.Add(location, fmt::format("${{{}}}: '?' without ':'", expression));
+      return Value({}, location);
+    }
+    const Value condition = Evaluate(Trim(expression.substr(0, question)), location, depth + 1);
+    double number = 0.0;
+    const bool* const boolean = condition.boolean();
+    if (boolean == nullptr && !condition.number(number)) {
+      if (!condition.null()) {
+        problems_.Add(location, fmt::format("${{{}}}: got {}; expected a condition", expression,
+                                            condition.Show()));
+      }
+      return Value({}, location);
+    }
+    const bool yes = boolean != nullptr ? *boolean : number != 0.0;
+    return Evaluate(Trim(yes ? expression.substr(question + 1, colon - question - 1)
+                             : expression.substr(colon + 1)),
+                    location, depth + 1);
+  }
+  if (IsQuoted(expression)) {
+    return Value(expression.substr(1, expression.size() - 2), location);
+  }
+  if (expression == "true" || expression == "false") return Value(expression == "true", location);
+  if (IsName(expression) && expression != "pi" && expression != "deg") {
+    const Value* const value = Use(expression, location);
+    return value == nullptr ? Value({}, location) : Value(value->data(), location);
+  }
+  if (const auto compared = Comparison(expression, location, depth)) return *compared;
+  return Arithmetic(expression, location);
+}
+
+std::optional<Value> Expressions::Comparison(const std::string& expression,
+                                             const Location& location, int depth) {
+  for (const char* const sign : {"==", "!="}) {
+    const std::size_t at = FindTop(expression, sign[0]);
+    if (at == std::string::npos || expression.compare(at, 2, sign) != 0) continue;
+    const std::string left = Trim(expression.substr(0, at));
+    const std::string right = Trim(expression.substr(at + 2));
+    if (!IsQuoted(left) && !IsQuoted(right)) continue;
+    const Value a = Evaluate(left, location, depth + 1);
+    const Value b = Evaluate(right, location, depth + 1);
+    if (a.null() || b.null()) return Value({}, location);
+    if (a.string() != nullptr && b.string() != nullptr) {
+      return Value((*a.string() == *b.string()) == (sign[0] == '='), location);
+    }
+    problems_.Add(location, fmt::format("${{{}}}: got {}; expected a text", expression,
+                                        (a.string() == nullptr ? a : b).Show()));
+    return Value({}, location);
+  }
+  return std::nullopt;
+}
+
+void Expressions::SayOnce(const Location& location, const std::string& what) {
+  if (said_.insert(what).second) problems_.Add(location, what);
+}
+
+void Expressions::SayNotFinite(const std::string& expression, const std::set<std::string>& names,
+                               const Location& location) {
+  std::string causes;
+  for (const std::string& name : names) {
+    const auto value = resolved_.find(name);
+    if (value == resolved_.end()) continue;
+    causes += fmt::format("; {} is {} ({})", name, value->second.Show(),
+                          value->second.location().ToString());
+  }
+  SayOnce(location, fmt::format("${{{}}}: the result is not finite{}", expression, causes));
+}
+
+Value Expressions::Arithmetic(const std::string& expression, const Location& location) {
+  try {
+    mu::Parser parser;
+    parser.DefineConst("pi", std::numbers::pi);
+    parser.DefineConst("deg", std::numbers::pi / 180.0);
+    parser.DefineInfixOprt("!", Not);
+    parser.SetExpr(expression);
+    // A parser that meets an unknown name says so; a known one is defined when it is met.
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < expression.size();) {
+      std::size_t end = i;
+      while (end < expression.size() &&
+             (std::isalnum(static_cast<unsigned char>(expression[end])) != 0 ||
+              expression[end] == '_')) {
+        ++end;
+      }
+      if (const std::string word = expression.substr(i, end - i); IsName(word)) names.insert(word);
+      i = std::max(end, i + 1);
+    }
+    for (const std::string& name : names) {
+      if (!written_.contains(name)) continue;
+      const Value* const value = Use(name, location);
+      if (value == nullptr) return Value({}, location);
+      double number = 0.0;
+      if (value->boolean() != nullptr) number = *value->boolean() ? 1.0 : 0.0;
+      if (value->boolean() == nullptr && !value->number(number)) {
+        SayOnce(location, fmt::format("${{{}}}: '{}' is {}; expected a number", expression, name,
+                                      value->Show()));
+        return Value({}, location);
+      }
+      parser.DefineConst(name, number);
+    }
+    if (names.contains("true")) parser.DefineConst("true", 1.0);
+    if (names.contains("false")) parser.DefineConst("false", 0.0);
+    const double result = parser.Eval();
+    if (const int count = parser.GetNumResults(); count != 1) {
+      problems_.Add(location, fmt::format("${{{}}}: got {} values; expected one (with a decimal "
+                                          "point, not a comma)",
+                                          expression, count));
+      return Value({}, location);
+    }
+    if (!std::isfinite(result)) {
+      SayNotFinite(expression, names, location);
+      return Value({}, location);
+    }
+    if (IsLogical(expression)) return Value(result != 0.0, location);
+    return Value(result, location);
+  } catch (const mu::Parser::exception_type& error) {
+    std::vector<std::string> names{"pi", "deg"};
+    for (const auto& entry : written_) names.push_back(entry.first);
+    const bool unknown = error.GetCode() == mu::ecUNASSIGNABLE_TOKEN;
+    problems_.Add(location, unknown
+                                ? fmt::format("${{{}}}: unknown parameter '{}'{}", expression,
+                                              error.GetToken(), DidYouMean(error.GetToken(), names))
+                                : fmt::format("${{{}}}: {}", expression, error.GetMsg()));
+    return Value({}, location);
+  }
+}
+
+}  // namespace oca::files

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/diagrams/files/output_sections.h"
+
+#include <fmt/format.h>
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <charconv>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "oca/diagrams/files/section.h"
+#include "oca/framework/dataflow/dynamic_port.h"
+#include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/nearest.h"
+
+namespace oca::files {
+namespace {
+
+std::vector<std::string> NamesOf(const NamedOutputs& outputs) {
+  std::vector<std::string> names;
+  for (const auto& output : outputs) names.push_back(output.first);
+  return names;
+}
+
+const OutputHandle* FindByName(const NamedOutputs& outputs, const std::string& name) {
+  const auto found = std::find_if(outputs.begin(), outputs.end(),
+                                  [&](const auto& output) { return output.first == name; });
+  return found == outputs.end() ? nullptr : &found->second;
+}
+
+std::optional<Period> ReadRate(const Value& value, const std::string& where, Problems& problems) {
+  double hertz = 0.0;
+  if (!value.number(hertz) || !(hertz > 0.0)) {
+    if (!value.null()) {
+      problems.Add(value.location(),
+                   fmt::format("{}: got {}; expected a rate > 0 Hz", where, value.Show()));
+    }
+    return std::nullopt;
+  }
+  try {
+    const Period inverse = Period::FromSeconds(hertz);
+    return Period(inverse.denominator(), inverse.numerator());
+  } catch (const ConfigError&) {
+    problems.Add(value.location(),
+                 fmt::format("{}: got {} Hz; expected a ratio of integers", where, hertz));
+    return std::nullopt;
+  }
+}
+
+void ReadSignal(const Value::Entry& entry, const NamedOutputs& outputs,
+                std::vector<RecordedSignal>& record, Problems& problems) {
+  const auto period = ReadRate(entry.value, "record.signals." + entry.key, problems);
+  bool matched = false;
+  for (const auto& [name, output] : outputs) {
+    if (fnmatch(entry.key.c_str(), name.c_str(), 0) != 0) continue;
+    matched = true;
+    const bool taken =
+        std::any_of(record.begin(), record.end(),
+                    [&, &own = name](const auto& other) { return other.name == own; });
+    if (period && !taken) record.push_back({name, output, *period});
+  }
+  if (!matched) {
+    problems.Add(entry.location, fmt::format("record.signals: no output matches '{}'{}", entry.key,
+                                             DidYouMean(entry.key, NamesOf(outputs))));
+  }
+}
+
+/// The members of a signal type's JSON object, from a value made by default.
+std::vector<std::string> MembersOf(const SignalType& type) {
+  std::vector<std::string> names;
+  const auto json = nlohmann::ordered_json::parse(DefaultJson(type));
+  if (json.is_object()) {
+    for (const auto& item : json.items()) names.push_back(item.key());
+  }
+  return names;
+}
+
+/// Reads one entry of `expect`.
+class ExpectationReader {
+ public:
+  ExpectationReader(const Value::Entry& entry, const NamedOutputs& outputs, const Diagram* diagram,
+                    Problems& problems)
+      : entry_(entry),
+        where_("expect." + entry.key),
+        outputs_(outputs),
+        diagram_(diagram),
+        problems_(problems) {
+    result_.name = entry.key;
+  }
+
+  /// The expectation, unless it looks at nothing there is.
+  std::optional<Expectation> Read(const NamedOutputs& metrics, double duration) {
+    ReadBound(duration);
+    const bool metric = entry_.key.find('.') == std::string::npos;
+    if (metric ? !AimAtMetric(metrics) : !AimAtPort()) return std::nullopt;
+    return result_;
+  }
+
+ private:
+  bool Fail(const std::string& what) {
+    problems_.Add(entry_.location, where_ + what);
+    return false;
+  }
+
+  void ReadBound(double duration) {
+    ExpectParams& bound = result_.bound;
+    ReadFields(entry_.value, FieldsOf<ExpectParams>(), where_, &bound, problems_);
+    if (!bound.at_least && !bound.at_most && !bound.equal) {
+      Fail(": no bound; expected at_least, at_most or equal (with within)");
+    }
+    if (bound.at_least && bound.at_most && *bound.at_least > *bound.at_most) {
+      Fail(
+          fmt::format(": no value is at least {} and at most {}", *bound.at_least, *bound.at_most));
+    }
+    if (bound.at && *bound.at > duration) {
+      Fail(fmt::format(".at: got {} s; expected at most the duration {} s", *bound.at, duration));
+    }
+  }
+
+  bool AimAtMetric(const NamedOutputs& metrics) {
+    if (metrics.empty()) return Fail(": a metric needs a system that judges the run");
+    result_.output = metrics.front().second;
+    result_.member = entry_.key;
+    result_.metric = true;
+    return CheckMember();
+  }
+
+  /// `system.port[i]` or `system.port.member`
+  bool AimAtPort() {
+    const std::string& key = entry_.key;
+    std::string port = key;
+    if (const std::size_t bracket = key.find('['); bracket != std::string::npos) {
+      port = key.substr(0, bracket);
+      if (!ReadIndex(key.substr(bracket + 1))) return Fail(": expected system.port[i]");
+    } else if (const auto dot = key.find('.', key.find('.') + 1); dot != std::string::npos) {
+      port = key.substr(0, dot);
+      result_.member = key.substr(dot + 1);
+    }
+    const OutputHandle* const output = FindByName(outputs_, port);
+    if (output == nullptr) {
+      return Fail(fmt::format(": no output '{}'{}", port, DidYouMean(port, NamesOf(outputs_))));
+    }
+    result_.output = *output;
+    if (&TypeOfPort(*output) != &kVectorType) return CheckMember();
+    if (diagram_ == nullptr) return false;
+    const int size = diagram_->SizeOf(*output);
+    if (result_.index < 0 && size == 1 && result_.member.empty()) result_.index = 0;
+    if (result_.index >= 0 && result_.index < size) return true;
+    return Fail(fmt::format(": expected {}[i] with i from 0 to {}", port, size - 1));
+  }
+
+  bool ReadIndex(const std::string& text) {
+    const char* const last = text.data() + text.size();
+    const auto [end, error] = std::from_chars(text.data(), last, result_.index);
+    return error == std::errc() && end + 1 == last && *end == ']' && result_.index >= 0;
+  }
+
+  bool CheckMember() {
+    const SignalType& type = TypeOfPort(result_.output);
+    const auto members = MembersOf(type);
+    const bool found = std::find(members.begin(), members.end(), result_.member) != members.end();
+    return found || Fail(fmt::format(": {} has no number '{}'{}", type.name, result_.member,
+                                     DidYouMean(result_.member, members)));
+  }
+
+  const Value::Entry& entry_;
+  const std::string where_;
+  const NamedOutputs& outputs_;
+  const Diagram* diagram_;
+  Problems& problems_;
+  Expectation result_;
+};
+
+}  // namespace
+
+std::vector<RecordedSignal> ReadRecord(const Value& root, const NamedOutputs& outputs,
+                                       Problems& problems) {
+  std::vector<RecordedSignal> record;
+  for (const Value::Entry& entry : SectionOf(root, "record", problems)) {
+    if (entry.key == "scene") continue;  // ReadSceneRate's
+    if (entry.key != "signals") {
+      const std::vector<std::string> known{"signals", "scene"};
+      problems.Add(entry.location, fmt::format("record.{}: unknown key{}; known: signals, scene",
+                                               entry.key, DidYouMean(entry.key, known)));
+    } else if (entry.value.map() == nullptr) {
+      problems.Add(entry.value.location(),
+                   fmt::format("record.signals: got {}; expected a map from names to rates",
+                               entry.value.Show()));
+    } else {
+      for (const Value::Entry& signal : *entry.value.map()) {
+        ReadSignal(signal, outputs, record, problems);
+      }
+    }
+  }
+  return record;
+}
+
+Period ReadSceneRate(const Value& root, const Period& otherwise, Problems& problems) {
+  const Value* const record = root.Find("record");
+  const Value* const scene = record == nullptr ? nullptr : record->Find("scene");
+  if (scene == nullptr) return otherwise;
+  return ReadRate(*scene, "record.scene", problems).value_or(otherwise);
+}
+
+std::vector<Expectation> ReadExpectations(const Value& root, const NamedOutputs& outputs,
+                                          const NamedOutputs& metrics, const Diagram* diagram,
+                                          double duration, Problems& problems) {
+  std::vector<Expectation> expectations;
+  for (const Value::Entry& entry : SectionOf(root, "expect", problems)) {
+    auto expectation = ExpectationReader(entry, outputs, diagram, problems).Read(metrics, duration);
+    if (expectation) expectations.push_back(std::move(*expectation));
+  }
+  return expectations;
+}
+
+}  // namespace oca::files

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/diagrams/files/package_paths.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <sstream>
+#include <string_view>
+
+#include "oca/diagrams/files/data_folders.h"
+#include "oca/framework/dataflow/error.h"
+
+namespace oca::files {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> PackageFolders() {
+  std::vector<fs::path> folders;
+  if (const char* const list = std::getenv("OCA_PACKAGE_PATH")) {
+    std::istringstream stream(list);
+    for (std::string folder; std::getline(stream, folder, ':');) {
+      if (!folder.empty()) folders.emplace_back(folder);
+    }
+  }
+  for (const fs::path& data : DataFolders()) {
+    for (const char* const kind : {"robots", "worlds"}) {
+      std::error_code error;
+      const fs::path models = data / "models" / kind;
+      if (fs::is_directory(models, error)) folders.push_back(models);
+    }
+  }
+  return folders;
+}
+
+fs::path ResolvePath(const std::string& name, const fs::path& folder,
+                     const std::map<std::string, fs::path>& packages) {
+  static const std::string kScheme = "package://";
+  if (!name.starts_with(kScheme))
+    return fs::path(name).is_absolute() ? fs::path(name) : folder / name;
+  const std::string rest = name.substr(kScheme.size());
+  const std::string package = rest.substr(0, rest.find('/'));
+  const fs::path inside = rest.size() > package.size() ? rest.substr(package.size() + 1) : "";
+  if (const auto found = packages.find(package); found != packages.end()) {
+    return found->second / inside;
+  }
+  std::string places;
+  for (const fs::path& place : PackageFolders()) {
+    std::error_code error;
+    if (fs::is_directory(place / package, error)) return place / package / inside;
+    places += (places.empty() ? "" : ", ") + place.string();
+  }
+  throw ConfigError(fmt::format("{}: no package '{}'; looked in packages, {}", name, package,
+                                places.empty() ? "OCA_PACKAGE_PATH" : places));
+}
+
+bool IsPartOfOca(const fs::path& file) {
+  constexpr std::string_view kParts = OCA_PARTS;  // their names, each between two |
+  if (kParts.find("|" + file.filename().string() + "|") == std::string_view::npos) return false;
+  const auto content = [](const fs::path& name) -> std::optional<std::string> {
+    std::ifstream stream(name, std::ios::binary);
+    if (!stream) return std::nullopt;
+    return std::string{std::istreambuf_iterator<char>(stream), {}};
+  };
+  const auto own = content(file);
+  const auto folders = DataFolders();
+  return own && std::any_of(folders.begin(), folders.end(), [&](const fs::path& data) {
+           return own == content(data / "diagrams/parts" / file.filename());
+         });
+}
+
+}  // namespace oca::files

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/framework/dataflow/diagram.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+#include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/nearest.h"
+#include "oca/framework/dataflow/schedule.h"
+#include "oca/framework/dataflow/schedule_compiler.h"
+#include "oca/framework/dataflow/wiring.h"
+
+namespace oca {
+namespace {
+
+void CheckName(const std::string& name, const char* what) {
+  const auto good = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
+  if (name.empty() || !std::all_of(name.begin(), name.end(), good)) {
+    throw WiringError(
+        {fmt::format("{} name: got '{}'; expected letters, digits and underscores", what, name)});
+  }
+}
+
+/// Of all systems inside, nested diagrams included.
+void AddPaths(const Diagram& diagram, const std::string& prefix, std::vector<std::string>& paths) {
+  for (const Diagram::Child& child : diagram.children()) {
+    paths.push_back(prefix + child.name);
+    const auto* nested = dynamic_cast<const Diagram*>(child.system.get());
+    if (nested != nullptr) AddPaths(*nested, paths.back() + ".", paths);
+  }
+}
+
+}  // namespace
+
+Diagram::Diagram() = default;
+Diagram::~Diagram() = default;
+
+const Schedule& Diagram::schedule() const {
+  if (own_schedule_ == nullptr) {
+    throw WiringError({"diagram: it is nested in another one, whose root makes the contexts"});
+  }
+  return *own_schedule_;
+}
+
+Context Diagram::MakeContext() const { return Context(&schedule()); }
+
+std::pair<const System*, std::string> Diagram::SplitPath(const std::string& path,
+                                                         const char* kind) const {
+  const std::size_t dot = path.rfind('.');
+  if (dot == std::string::npos) return {this, path};
+  const System* const system = FindSystem(path.substr(0, dot));
+  if (system != nullptr) return {system, path.substr(dot + 1)};
+  std::vector<std::string> names;
+  AddPaths(*this, "", names);
+  const std::string got = path.substr(0, dot);
+  throw WiringError({fmt::format("no {} port '{}': no system '{}'{}; systems are: {}", kind, path,
+                                 got, DidYouMean(got, names), fmt::join(names, ", "))});
+}
+
+InputHandle Diagram::FindInput(const std::string& path) const {
+  const auto [system, port] = SplitPath(path, "input");
+  return system == this ? System::FindInput(port) : system->FindInput(port);
+}
+
+OutputHandle Diagram::FindOutput(const std::string& path) const {
+  const auto [system, port] = SplitPath(path, "output");
+  if (system != this) return system->FindOutput(port);
+  return exported_outputs_[System::FindOutput(port).index].second;
+}
+
+const System* Diagram::FindSystem(const std::string& path) const {
+  const std::size_t dot = path.find('.');
+  for (const Child& child : children_) {
+    if (child.name != path.substr(0, dot)) continue;
+    if (dot == std::string::npos) return child.system.get();
+    const auto* nested = dynamic_cast<const Diagram*>(child.system.get());
+    return nested == nullptr ? nullptr : nested->FindSystem(path.substr(dot + 1));
+  }
+  return nullptr;
+}
+
+void Diagram::SetRoot(const Diagram* root) {
+  root_ = root;
+  for (const Child& child : children_) {
+    if (auto* nested = dynamic_cast<Diagram*>(child.system.get())) nested->SetRoot(root);
+  }
+}
+
+const Wiring& Diagram::wiring() const {
+  if (root_ != nullptr) return *root_->own_wiring_;
+  throw WiringError({"diagram: it is nested in another one, which has not been built"});
+}
+
+DiagramBuilder::DiagramBuilder() : diagram_(new Diagram) {}
+DiagramBuilder::~DiagramBuilder() = default;
+
+const System& DiagramBuilder::AddSystem(std::string name, std::unique_ptr<System> system) {
+  CheckName(name, "system");
+  if (system == nullptr) {
+    throw WiringError({fmt::format("system '{}': got nothing; expected a system", name)});
+  }
+  for (const Diagram::Child& child : diagram_->children_) {
+    if (child.name == name) {
+      throw WiringError({fmt::format("system name: '{}' is taken", name)});
+    }
+  }
+  if (auto* nested = dynamic_cast<Diagram*>(system.get())) {
+    nested->SetRoot(nullptr);
+    nested->own_wiring_.reset();
+    nested->own_schedule_.reset();
+    nested->schedule_ = nullptr;  // another schedule may come to lie where that one was
+  }
+  const System& reference = *system;
+  diagram_->children_.push_back({std::move(name), std::move(system)});
+  return reference;
+}
+
+void DiagramBuilder::ConnectPorts(const OutputHandle& from, const InputHandle& to) {
+  diagram_->connections_.push_back({from, to});
+}
+
+void DiagramBuilder::ExportInput(std::string name, const InputHandle& input, int size) {
+  CheckName(name, "input");
+  if (input.system == nullptr) {
+    throw WiringError({fmt::format("exported input '{}': its port belongs to no system", name)});
+  }
+  auto& exported = diagram_->exported_inputs_;
+  const auto same = std::find_if(exported.begin(), exported.end(),
+                                 [&](const auto& other) { return other.name == name; });
+  if (same != exported.end()) {
+    same->to.push_back(input);
+    return;
+  }
+  diagram_->AddInput(input.system->inputs().at(input.index));
+  diagram_->inputs_.back().name = name;
+  exported.push_back({std::move(name), {input}, size});
+}
+
+void DiagramBuilder::ExportOutput(std::string name, const OutputHandle& output) {
+  CheckName(name, "output");
+  for (const auto& other : diagram_->exported_outputs_) {
+    if (other.first == name) {
+      throw WiringError({fmt::format("output name: '{}' is exported twice", name)});
+    }
+  }
+  if (output.system == nullptr) {
+    throw WiringError({fmt::format("exported output '{}': its port belongs to no system", name)});
+  }
+  const System::OutputInfo& inner = output.system->outputs().at(output.index);
+  diagram_->AddOutput({name, inner.type, inner.spec, {}, -1});
+  diagram_->exported_outputs_.emplace_back(std::move(name), output);
+}
+
+std::unique_ptr<Diagram> DiagramBuilder::Build() {
+  auto wiring = std::make_unique<Wiring>(*diagram_);
+  diagram_->own_schedule_ = ScheduleCompiler::Compile(*diagram_, *wiring);
+  diagram_->own_wiring_ = std::move(wiring);
+  diagram_->SetRoot(diagram_.get());
+  return std::exchange(diagram_, std::unique_ptr<Diagram>(new Diagram));
+}
+
+std::unique_ptr<Diagram> MakeDiagramOf(std::unique_ptr<System> system,
+                                       const std::map<std::string, int>& sizes) {
+  DiagramBuilder builder;
+  const System& added = builder.AddSystem("system", std::move(system));
+  for (const System::InputInfo& input : added.inputs()) {
+    const auto size = sizes.find(input.name);
+    if (input.optional && size == sizes.end()) continue;
+    builder.ExportInput(input.name, added.FindInput(input.name),
+                        size == sizes.end() ? -1 : size->second);
+  }
+  for (const System::OutputInfo& output : added.outputs()) {
+    builder.ExportOutput(output.name, added.FindOutput(output.name));
+  }
+  return builder.Build();
+}
+
+}  // namespace oca

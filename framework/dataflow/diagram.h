@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "oca/framework/dataflow/context.h"
+#include "oca/framework/dataflow/dynamic_port.h"
+#include "oca/framework/dataflow/system.h"
+#include "oca/framework/dataflow/upstream.h"
+
+namespace oca {
+
+class Schedule;
+class Wiring;
+
+/// Systems and the connections between their ports; itself a System, so diagrams nest.
+///
+/// Made by DiagramBuilder. Nested diagrams are flattened when the root is built: nesting costs
+/// nothing at run time. Only a root diagram makes Contexts.
+///
+/// A path is dotted and goes through nesting: `arm.filter` is the system `filter` in the diagram
+/// `arm`, `arm.filter.velocities` a port of it, and `velocities` alone a port of this diagram.
+///
+/// Whoever wants to know how it is wired asks it. The answers speak of leaves, the systems that
+/// are no diagrams, whatever nesting lies between; a nested diagram answers through its root, which
+/// must have been built. They throw WiringError if a port or a system is of another diagram.
+class Diagram final : public System {
+ public:
+  struct Child {
+    std::string name;
+    std::unique_ptr<System> system;
+  };
+  struct Connection {
+    OutputHandle from;
+    InputHandle to;
+  };
+  struct ExportedInput {
+    std::string name;
+    std::vector<InputHandle> to;
+    int size{-1};  ///< of a Vector; -1: as the systems behind it settle it
+  };
+  struct Leaf {
+    std::string path;  ///< from the root
+    const System* system;
+  };
+
+  ~Diagram() override;
+
+  /// A Context at time 0 with every state at its initial value.
+  /// throws WiringError if this diagram is nested in another one.
+  Context MakeContext() const;
+
+  /// Typed ports by path. throw WiringError if there is no such port or its type differs.
+  template <class T>
+  Input<T> GetInput(const std::string& path) const {
+    return Typed<T>(FindInput(path));
+  }
+  template <class T>
+  Output<T> GetOutput(const std::string& path) const {
+    return Typed<T>(FindOutput(path));
+  }
+  /// Ports by path. throw WiringError naming what there is.
+  InputHandle FindInput(const std::string& path) const override;
+  /// A handle on the port of the leaf inside.
+  OutputHandle FindOutput(const std::string& path) const override;
+  /// The system at a path, leaf or diagram; nullptr if there is none.
+  const System* FindSystem(const std::string& path) const;
+
+  /// The leaves in this diagram, in order.
+  std::vector<Leaf> systems() const;
+  /// All that leaves in this diagram declare of a role, in order.
+  template <class Role>
+  struct Declared {
+    std::string path;
+    const System* system;
+    const Role* role;
+  };
+  template <class Role>
+  std::vector<Declared<Role>> FindRoles() const {
+    std::vector<Declared<Role>> found;
+    for (const Leaf& leaf : systems()) {
+      for (const Role* role : leaf.system->template roles<Role>()) {
+        found.push_back({leaf.path, leaf.system, role});
+      }
+    }
+    return found;
+  }
+  /// From the root; of the root itself empty.
+  std::string PathOf(const System& system) const;
+  std::string PathOf(const OutputHandle& output) const;
+  std::string PathOf(const InputHandle& input) const;
+  /// The output that drives an input; none if nothing does or if it comes from outside.
+  std::optional<OutputHandle> DriverOf(const InputHandle& input) const;
+  /// The input of the root through which an input comes from outside; none if it does not.
+  std::optional<InputHandle> ExportOf(const InputHandle& input) const;
+  /// The inputs of leaves that an output drives.
+  std::vector<InputHandle> ReadersOf(const OutputHandle& output) const;
+  /// All that a port depends on.
+  Upstream UpstreamOf(const OutputHandle& output, Through through) const;
+  Upstream UpstreamOf(const InputHandle& input, Through through) const;
+  /// The length of a Vector, as Build settled it; 0 for a port of another type.
+  int SizeOf(const OutputHandle& output) const;
+  int SizeOf(const InputHandle& input) const;
+  /// The unit of a Vector, as Build settled it; any if nothing says it.
+  Unit UnitOf(const OutputHandle& output) const;
+  Unit UnitOf(const InputHandle& input) const;
+
+  // As it was put together, without a look into nested diagrams.
+  const std::vector<Child>& children() const { return children_; }
+  const std::vector<Connection>& connections() const { return connections_; }
+  const std::vector<ExportedInput>& exported_inputs() const { return exported_inputs_; }
+  const std::vector<std::pair<std::string, OutputHandle>>& exported_outputs() const {
+    return exported_outputs_;
+  }
+  /// throws WiringError if this diagram is nested in another one.
+  const Schedule& schedule() const;
+
+ private:
+  friend class DiagramBuilder;
+  friend class ScheduleCompiler;
+  Diagram();
+
+  /// The wiring of the root. throws WiringError unless that was built.
+  const Wiring& wiring() const;
+  /// The system that a port's path leads to, and what is left: the name of the port.
+  std::pair<const System*, std::string> SplitPath(const std::string& path, const char* kind) const;
+  /// To this diagram and those inside, before and after their root is built.
+  void SetRoot(const Diagram* root);
+
+  std::vector<Child> children_;
+  std::vector<Connection> connections_;
+  std::vector<ExportedInput> exported_inputs_;
+  std::vector<std::pair<std::string, OutputHandle>> exported_outputs_;
+  const Diagram* root_{nullptr};              // once that is built
+  std::unique_ptr<const Wiring> own_wiring_;  // of a root
+  std::unique_ptr<Schedule> own_schedule_;    // of a root
+};
+
+/// Collects systems and connections; Build checks all of it and compiles the schedule.
+class DiagramBuilder {
+ public:
+  DiagramBuilder();
+  ~DiagramBuilder();
+
+  /// Adds a system made from `arguments`. throws WiringError if the name is taken or not a name
+  /// (letters, digits and underscores).
+  template <class S, class... Arguments>
+  const S& Add(std::string name, Arguments&&... arguments) {
+    auto system = std::make_unique<S>(std::forward<Arguments>(arguments)...);
+    const S& reference = *system;
+    AddSystem(std::move(name), std::move(system));
+    return reference;
+  }
+  const System& AddSystem(std::string name, std::unique_ptr<System> system);
+
+  template <class T>
+  void Connect(const Output<T>& from, const std::type_identity_t<Input<T>>& to) {
+    ConnectPorts(from, to);
+  }
+  template <class T>
+  void Connect(const Output<T>& from, const std::type_identity_t<OptionalInput<T>>& to) {
+    ConnectPorts(from, to);
+  }
+  /// For wiring known only at run time; a difference in type is found at Build.
+  void ConnectPorts(const OutputHandle& from, const InputHandle& to);
+  /// Makes an input, or several that share a name, an input of the diagram.
+  /// `size` settles the length of a Vector input that the systems leave open.
+  void ExportInput(std::string name, const InputHandle& input, int size = -1);
+  void ExportOutput(std::string name, const OutputHandle& output);
+
+  /// The finished diagram; the builder is empty afterwards.
+  /// throws WiringError with all problems: unconnected inputs, inputs with two drivers, unequal
+  /// types, sizes or units, algebraic loops.
+  std::unique_ptr<Diagram> Build();
+
+ private:
+  std::unique_ptr<Diagram> diagram_;
+};
+
+/// A root diagram of one system that exports its ports under their own names: all outputs, all
+/// required inputs, and the inputs that `sizes` names (lengths of Vectors, -1: not said).
+std::unique_ptr<Diagram> MakeDiagramOf(std::unique_ptr<System> system,
+                                       const std::map<std::string, int>& sizes = {});
+
+}  // namespace oca

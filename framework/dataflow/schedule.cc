@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/framework/dataflow/schedule.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <new>
+
+#include "oca/framework/dataflow/error.h"
+
+namespace oca {
+
+std::uint64_t Schedule::ClassChanged(const Context& context, std::uint32_t source_class) const {
+  auto& state = reinterpret_cast<ClassState*>(arena(context) + class_states_offset)[source_class];
+  if (state.checked != context.header().epoch) {
+    const std::uint64_t* version = versions(context);
+    std::uint64_t newest = 1;  // what reads nothing is computed once
+    for (std::uint32_t i = classes[source_class].begin; i < classes[source_class].end; ++i) {
+      if (version[class_sources[i]] == 0) FailUnfixed(context, class_sources[i]);
+      newest = std::max(newest, version[class_sources[i]]);
+    }
+    state = {newest, context.header().epoch};
+  }
+  return state.changed;
+}
+
+void Schedule::Pull(const Context& context, int node) const {
+  NodeState& state = node_states(context)[node];
+  const Node& target = nodes[node];
+  // What the target needs depends on no more sources than the target itself.
+  if (state.computed >= ClassChanged(context, target.source_class)) {
+    state.checked = context.header().epoch;
+    return;
+  }
+  PullRange(context, target.pull_begin, target.pull_end);
+}
+
+void Schedule::PullRange(const Context& context, std::uint32_t begin, std::uint32_t end) const {
+  NodeState* const states_of_nodes = node_states(context);
+  std::byte* const memory = arena(context);
+  const std::uint64_t epoch = context.header().epoch;
+  Profile* const profile = context.header().profile;
+  std::uint32_t last_class = Slot::kNone;  // neighbours mostly share their class
+  std::uint64_t changed = 0;
+  std::uint32_t index = 0;
+  try {
+    for (std::uint32_t i = begin; i < end; ++i) {
+      index = pulls[i];
+      NodeState& state = states_of_nodes[index];
+      if (state.checked == epoch) continue;
+      const Node& node = nodes[index];
+      if (node.source_class != last_class) {
+        last_class = node.source_class;
+        changed = ClassChanged(context, last_class);
+      }
+      if (state.computed < changed) {
+        Call(node.function, *node.system, memory, node.first_slot, profile);
+        const std::byte* const value = memory + node.out.offset;
+        const bool finite = node.vector
+                                ? AllFinite(reinterpret_cast<const double*>(value), node.out.size)
+                                : node.type->check(value, Look::kFinite).ok();
+        if (!finite) FailNode(context, index);
+        state.computed = epoch;
+      }
+      state.checked = epoch;
+    }
+  } catch (const SimulationError&) {
+    throw;
+  } catch (const std::exception& error) {
+    const System* const system = nodes[index].system;
+    Fail(context, system, system->outputs()[PortOf(index)].name, error.what());
+  }
+}
+
+int Schedule::PortOf(std::uint32_t node) const {
+  const auto& all = nodes[node].system->outputs();
+  const int first = nodes[node].system->first_output_;
+  for (int i = 0; i < static_cast<int>(all.size()); ++i) {
+    if (outputs[first + i].node == static_cast<int>(node)) return i;
+  }
+  return 0;
+}
+
+void Schedule::FailNode(const Context& context, std::uint32_t index) const {
+  const System* const system = nodes[index].system;
+  const Node& node = nodes[index];
+  const std::string& port = system->outputs()[PortOf(index)].name;
+  if (node.vector) Fail(context, system, port, "the value is not finite (NaN or infinity)");
+  const Fault fault = node.type->check(arena(context) + node.out.offset, Look::kFinite);
+  Fail(context, system, port, fmt::format("the value: {}", fault.text()).c_str());
+}
+
+void Schedule::FailUnfixed(const Context& context, std::uint32_t source) const {
+  for (const System* const system : systems) {
+    for (std::size_t i = 0; i < system->inputs().size(); ++i) {
+      if (inputs[system->first_input_ + i].source != static_cast<int>(source)) continue;
+      Fail(context, system, system->inputs()[i].name, "the exported input has not been fixed");
+    }
+  }
+}
+
+void Schedule::CheckInputsFixed(const Context& context) const {
+  for (const InputEntry& input : exported_inputs) {
+    if (versions(context)[input.source] == 0) FailUnfixed(context, input.source);
+  }
+}
+
+void Schedule::Fail(const Context& context, const System* system, const std::string& port,
+                    const char* what) const {
+  throw SimulationError(PathOf(*system), port, context.time(), what);
+}
+
+void Schedule::CheckStart(const Context& context, bool initialized) const {
+  for (const ShownState& shown : shown_states) {
+    if (shown.set_at_start && !initialized) continue;
+    const auto* values = reinterpret_cast<const double*>(arena(context) + shown.slot.offset);
+    const Fault fault = shown.plausible->Check(values);
+    if (fault.ok()) continue;
+    Fail(context, shown.system, shown.system->outputs()[shown.output].name, fault.text());
+  }
+}
+
+std::string Schedule::PathOf(const System& system) const {
+  const auto found = std::find(systems.begin(), systems.end(), &system);
+  return found == systems.end() ? "diagram" : paths[found - systems.begin()];
+}
+
+void Schedule::EvaluateDerivatives(Context& context, double* result) const {
+  if (derivative_pull_begin != derivative_pull_end) {
+    PullRange(context, derivative_pull_begin, derivative_pull_end);
+  }
+  for (const Derivative& derivative : derivatives) {
+    try {
+      Call(derivative.function, *derivative.system, arena(context), derivative.first_slot,
+           context.header().profile);
+    } catch (const SimulationError&) {
+      throw;
+    } catch (const std::exception& error) {
+      Fail(context, derivative.system, derivative.state, error.what());
+    }
+  }
+  const auto* computed = reinterpret_cast<const double*>(arena(context) + derivative_offset);
+  if (!AllFinite(computed, static_cast<std::size_t>(continuous_size))) FailDerivative(context);
+  std::memcpy(result, computed, sizeof(double) * static_cast<std::size_t>(continuous_size));
+}
+
+void Schedule::FailDerivative(const Context& context) const {
+  for (const Derivative& derivative : derivatives) {
+    const auto* values = reinterpret_cast<const double*>(arena(context) + derivative.out.offset);
+    if (!AllFinite(values, derivative.out.size)) {
+      Fail(context, derivative.system, derivative.state,
+           "the derivative is not finite (NaN or infinity)");
+    }
+  }
+}
+
+void Schedule::RunEvent(Context& context, const Event& event) const {
+  PullRange(context, event.pull_begin, event.pull_end);
+  std::byte* const memory = arena(context);
+  for (const int index : event.writes) {
+    const StateEntry& state = states[index];
+    if (state.type == &kVectorType) {
+      std::memcpy(memory + state.next.offset, memory + state.slot.offset,
+                  sizeof(double) * state.slot.size);
+    } else {
+      state.type->assign(memory + state.next.offset, memory + state.slot.offset);
+    }
+  }
+  try {
+    Call(event.function, *event.system, memory, event.first_slot, context.header().profile);
+  } catch (const SimulationError&) {
+    throw;
+  } catch (const std::exception& error) {
+    Fail(context, event.system, "", error.what());
+  }
+  for (const int index : event.writes) {
+    const StateEntry& state = states[index];
+    const bool finite = state.type == &kVectorType
+                            ? AllFinite(reinterpret_cast<const double*>(memory + state.next.offset),
+                                        state.next.size)
+                            : state.type->check(memory + state.next.offset, Look::kFinite).ok();
+    if (!finite) FailState(context, event, state);
+  }
+}
+
+void Schedule::FailState(const Context& context, const Event& event,
+                         const StateEntry& state) const {
+  const char* const what = "the new state is not finite (NaN or infinity)";
+  if (state.type == &kVectorType) Fail(context, event.system, state.info->name, what);
+  const Fault fault = state.type->check(arena(context) + state.next.offset, Look::kFinite);
+  Fail(context, event.system, state.info->name,
+       fmt::format("the new state: {}", fault.text()).c_str());
+}
+
+double Schedule::EvaluateWitness(Context& context, int index) const {
+  const Witness& witness = witnesses[index];
+  PullRange(context, witness.pull_begin, witness.pull_end);
+  try {
+    Call(witness.function, *witness.system, arena(context), witness.first_slot,
+         context.header().profile);
+  } catch (const SimulationError&) {
+    throw;
+  } catch (const std::exception& error) {
+    Fail(context, witness.system, witness.name, error.what());
+  }
+  const double value = witness_states(context)[index].value;
+  if (!std::isfinite(value)) {
+    Fail(context, witness.system, witness.name,
+         "the witness function is not finite (NaN or infinity)");
+  }
+  return value;
+}
+
+Schedule::Change Schedule::Commit(Context& context, const Event& event) const {
+  Change change = Change::kNone;
+  std::byte* const memory = arena(context);
+  for (const int index : event.writes) {
+    const StateEntry& state = states[index];
+    // Whether the integrator starts afresh must not hang on the value: a run that is resumed here
+    // starts afresh in any case and has to give the same bits.
+    if (state.continuous) {
+      change = Change::kState;
+    } else if (state.in_derivatives && change == Change::kNone) {
+      change = Change::kDerivative;
+    }
+    if (state.type == &kVectorType) {
+      const std::size_t bytes = sizeof(double) * state.slot.size;
+      if (std::memcmp(memory + state.slot.offset, memory + state.next.offset, bytes) == 0) continue;
+      std::memcpy(memory + state.slot.offset, memory + state.next.offset, bytes);
+    } else {
+      state.type->assign(memory + state.slot.offset, memory + state.next.offset);
+    }
+    MarkChanged(context, state.source);
+  }
+  return change;
+}
+
+void Schedule::SetTimeAndState(Context& context, double time, const double* state) const {
+  if (state != continuous(context)) {
+    std::memcpy(continuous(context), state,
+                sizeof(double) * static_cast<std::size_t>(continuous_size));
+  }
+  Context::Header& header = context.header();
+  header.time = time;
+  versions(context)[kTimeSource] = versions(context)[kContinuousSource] = ++header.epoch;
+}
+
+void Schedule::TakeCapacity(Context& context) const {
+  for (const Event& event : events) {
+    if (event.stage != System::Stage::kUpdate && event.stage != System::Stage::kReset) continue;
+    const bool writes_objects = std::any_of(event.writes.begin(), event.writes.end(),
+                                            [&](int i) { return states[i].type != &kVectorType; });
+    try {
+      PullRange(context, event.pull_begin, event.pull_end);
+      if (writes_objects) RunEvent(context, event);
+    } catch (const SimulationError&) {
+      continue;
+    }
+    for (const int index : event.writes) {
+      if (states[index].type != &kVectorType) GrowLikeNext(context, states[index]);
+    }
+  }
+}
+
+void Schedule::GrowLikeNext(Context& context, const StateEntry& state) const {
+  const SignalType& type = *state.type;
+  std::byte* const at = arena(context) + state.slot.offset;
+  const std::unique_ptr<std::byte, void (*)(std::byte*)> memory(
+      static_cast<std::byte*>(operator new(type.size, std::align_val_t(64))),
+      [](std::byte* bytes) { operator delete(bytes, std::align_val_t(64)); });
+  type.construct(memory.get());
+  type.assign(memory.get(), at);
+  type.assign(at, arena(context) + state.next.offset);
+  type.assign(at, memory.get());
+  type.destroy(memory.get());
+}
+
+const Schedule::InputEntry& Schedule::input(const InputHandle& handle) const {
+  if (handle.system == root) return exported_inputs[handle.index];
+  return inputs[handle.system->first_input_ + handle.index];
+}
+
+const Schedule& Schedule::Of(const Handle& handle, const Context& context) {
+  const Schedule* const schedule = handle.system == nullptr ? nullptr : handle.system->schedule_;
+  if (schedule == nullptr || schedule != context.schedule_) {
+    throw WiringError(
+        {"port or state: its system is not part of the diagram that made the context"});
+  }
+  return *schedule;
+}
+
+}  // namespace oca

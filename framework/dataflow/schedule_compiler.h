@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "oca/framework/dataflow/diagram.h"
+#include "oca/framework/dataflow/schedule.h"
+#include "oca/framework/dataflow/wiring.h"
+
+namespace oca {
+
+/// Turns a wired diagram into a Schedule: orders the calculations, finds what each depends on, and
+/// lays all values out in one arena.
+class ScheduleCompiler {
+ public:
+  /// `wiring` is that of the root. throws WiringError with all problems of the diagram.
+  static std::unique_ptr<Schedule> Compile(Diagram& root, Wiring& wiring);
+
+ private:
+  ScheduleCompiler(Diagram& root, Wiring& wiring);
+
+  void IndexLeaves();
+  void MakeSources();
+  void OrderNodes();
+  std::vector<int> ReportLoop(const std::vector<int>& open_predecessors,
+                              const std::vector<std::vector<int>>& predecessors);
+  void LayOut();
+  void LayOutObject(Slot& slot, const SignalType& type);
+  void CompileNodes();
+  void CompilePlausible();
+  void CompileStates();
+  void CompileWitnesses();
+  void CompileEvents();
+
+  /// The node behind an output or an input's driver; -1 for what is always up to date.
+  int NodeOf(int leaf, const Read& read) const;
+  /// The sources that reading this depends on.
+  std::set<std::uint32_t> SourcesOf(int leaf, const Read& read) const;
+  Slot SlotOf(int leaf, const Read& read) const;
+  std::uint32_t AddSlots(int leaf, const Calculation& calculation, const std::vector<Slot>& writes);
+  /// Appends to schedule_->pulls all nodes that the reads need; returns the range.
+  std::pair<std::uint32_t, std::uint32_t> AddPulls(const std::vector<int>& wanted);
+  std::vector<int> NodesOf(int leaf, const std::vector<Read>& reads) const;
+  std::uint32_t Allocate(std::size_t bytes, std::size_t align = 8);
+
+  struct NodeInfo {
+    int leaf;
+    int output;
+    std::vector<int> predecessors;
+    std::set<std::uint32_t> sources;
+  };
+
+  Diagram& root_;
+  Wiring& wiring_;
+  std::unique_ptr<Schedule> schedule_;
+  std::vector<NodeInfo> nodes_;            // in evaluation order once ordered
+  std::vector<std::vector<int>> node_of_;  // leaf, output -> node
+  std::vector<char> marked_;               // scratch of AddPulls
+  std::size_t arena_{0};
+};
+
+}  // namespace oca

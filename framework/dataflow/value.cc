@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/framework/dataflow/value.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "oca/framework/dataflow/error.h"
+
+namespace oca {
+
+std::string Location::ToString() const {
+  const std::string name = file ? *file : std::string("parameters");
+  return line > 0 ? fmt::format("{}:{}:{}", name, line, column) : name;
+}
+
+Value::Value() = default;
+Value::Value(Data data, Location location)
+    : data_(std::move(data)), location_(std::move(location)) {}
+Value::Value(const Value& other) = default;
+Value::Value(Value&& other) noexcept = default;
+Value& Value::operator=(const Value& other) = default;
+Value& Value::operator=(Value&& other) noexcept = default;
+Value::~Value() = default;
+
+bool Value::number(double& out) const {
+  if (const auto* whole = std::get_if<std::int64_t>(&data_)) {
+    out = static_cast<double>(*whole);
+    return true;
+  }
+  if (const auto* real = std::get_if<double>(&data_)) {
+    out = *real;
+    return true;
+  }
+  return false;
+}
+
+const Value* Value::Find(const std::string& key) const {
+  if (map() == nullptr) return nullptr;
+  const auto found =
+      std::find_if(map()->begin(), map()->end(), [&](const Entry& e) { return e.key == key; });
+  return found == map()->end() ? nullptr : &found->value;
+}
+
+std::string Value::Show() const {
+  struct Visitor {
+    std::string operator()(std::monostate) const { return "nothing"; }
+    std::string operator()(bool value) const { return value ? "true" : "false"; }
+    std::string operator()(std::int64_t value) const { return fmt::format("{}", value); }
+    std::string operator()(double value) const { return fmt::format("{}", value); }
+    std::string operator()(const std::string& value) const {
+      constexpr std::size_t kLongest = 60;
+      return value.size() > kLongest ? fmt::format("'{}...'", value.substr(0, kLongest))
+                                     : fmt::format("'{}'", value);
+    }
+    std::string operator()(const List&) const { return "a list"; }
+    std::string operator()(const Map&) const { return "a map"; }
+  };
+  return std::visit(Visitor(), data_);
+}
+
+void Problems::Add(const Location& location, const std::string& what) {
+  all_.push_back(fmt::format("{}: error: {}", location.ToString(), what));
+}
+
+void Problems::Add(const Problems& others) {
+  all_.insert(all_.end(), others.all_.begin(), others.all_.end());
+}
+
+void Problems::Throw() const {
+  if (!all_.empty()) throw ConfigError(fmt::format("{}", fmt::join(all_, "\n")));
+}
+
+}  // namespace oca

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/models/robot/clearance.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "oca/models/robot/kinematics.h"
+
+namespace oca::robot {
+namespace {
+
+NearPair PairOf(const geometry::SignedDistance& found, int link, int body, int other_link) {
+  return {found.distance, link, body, other_link, found.point_a, found.point_b, found.normal};
+}
+
+}  // namespace
+
+Clearance::Clearance(std::shared_ptr<const RobotModel> model, bool self_collision,
+                     std::vector<PlacedBody> bodies)
+    : model_(std::move(model)),
+      links_(LinkCollidersOf(*model_)),
+      bodies_(std::move(bodies)),
+      X_WL_(static_cast<std::size_t>(model_->num_links()), Eigen::Isometry3d::Identity()) {
+  for (int i = 0; self_collision && i < std::ssize(links_); ++i) {
+    for (int j = i + 1; j < std::ssize(links_); ++j) {
+      const int a = links_[i].number;
+      const int b = links_[j].number;
+      if (model_->body(a) == model_->body(b) || model_->adjacent(a, b) ||
+          model_->collision_disabled(a, b)) {
+        continue;
+      }
+      own_pairs_.emplace_back(a, b);
+      own_places_.emplace_back(i, j);
+    }
+  }
+}
+
+void Clearance::MoveTo(const Eigen::Ref<const Eigen::VectorXd>& q) {
+  ForwardKinematics(*model_, q, X_WL_);
+}
+
+bool Clearance::Ignored(int link, int body) const {
+  return !ignored_.empty() &&
+         std::find(ignored_.begin(), ignored_.end(), std::pair(link, body)) != ignored_.end();
+}
+
+// Calls visit(distance, link, body, other link) for each pair within the limit, which visit returns
+// anew: below 0 ends the walk.
+template <class Visit>
+void Clearance::ForEach(double max_distance, const Visit& visit) const {
+  double limit = max_distance;
+  for (const LinkCollider& link : links_) {
+    if (model_->body(link.number) < 0) continue;
+    for (int body = 0; body < std::ssize(bodies_); ++body) {
+      if (Ignored(link.number, body)) continue;
+      const PlacedBody& other = bodies_[body];
+      const geometry::SignedDistance found =
+          DistanceToBody(link, X_WL_[link.number], *other.collider, other.X_WO, limit);
+      if (found.status == geometry::DistanceStatus::kBeyond) continue;
+      limit = visit(found, link.number, body, -1);
+      if (limit < 0.0) return;
+    }
+  }
+  for (std::size_t i = 0; i < own_pairs_.size(); ++i) {
+    const geometry::SignedDistance found = OwnDistance(i, limit);
+    if (found.status == geometry::DistanceStatus::kBeyond) continue;
+    limit = visit(found, own_pairs_[i].second, -1, own_pairs_[i].first);
+    if (limit < 0.0) return;
+  }
+}
+
+geometry::SignedDistance Clearance::OwnDistance(std::size_t pair, double max_distance) const {
+  const LinkCollider& other = links_[own_places_[pair].first];
+  const LinkCollider& link = links_[own_places_[pair].second];
+  return DistanceToLink(link, X_WL_[link.number], other, X_WL_[other.number], max_distance);
+}
+
+bool Clearance::NearerThan(double margin) const {
+  bool nearer = false;
+  ForEach(std::max(margin, 0.0), [&](const geometry::SignedDistance& found, int, int, int) {
+    nearer = found.distance < margin || nearer;
+    return nearer ? -1.0 : std::max(margin, 0.0);
+  });
+  return nearer;
+}
+
+NearPair Clearance::Nearest(double max_distance) const {
+  NearPair nearest;
+  ForEach(max_distance,
+          [&](const geometry::SignedDistance& found, int link, int body, int other_link) {
+            if (found.distance < nearest.distance) nearest = PairOf(found, link, body, other_link);
+            return std::clamp(nearest.distance, 0.0, max_distance);
+          });
+  return nearest;
+}
+
+void Clearance::Collect(double max_distance, std::vector<NearPair>& pairs) const {
+  pairs.clear();
+  ForEach(max_distance,
+          [&](const geometry::SignedDistance& found, int link, int body, int other_link) {
+            pairs.push_back(PairOf(found, link, body, other_link));
+            return max_distance;
+          });
+}
+
+void Clearance::LinkDistances(double max_distance, std::span<double> least) const {
+  std::fill(least.begin(), least.end(), max_distance);
+  for (const LinkCollider& link : links_) {
+    if (model_->body(link.number) < 0) continue;
+    double& nearest = least[link.number];
+    for (int b = 0; b < std::ssize(bodies_); ++b) {
+      if (Ignored(link.number, b)) continue;
+      const geometry::SignedDistance found = DistanceToBody(
+          link, X_WL_[link.number], *bodies_[b].collider, bodies_[b].X_WO, std::max(nearest, 0.0));
+      if (found.status != geometry::DistanceStatus::kBeyond)
+        nearest = std::min(nearest, found.distance);
+    }
+  }
+}
+
+void Clearance::OwnDistances(double max_distance, std::span<double> least) const {
+  for (std::size_t i = 0; i < own_pairs_.size(); ++i) {
+    const geometry::SignedDistance found = OwnDistance(i, max_distance);
+    least[i] = found.status == geometry::DistanceStatus::kBeyond ? max_distance : found.distance;
+  }
+}
+
+void Clearance::Gradient(const NearPair& pair, Eigen::Ref<Eigen::VectorXd> row) const {
+  DistanceRow(*model_, X_WL_, pair.link, pair.point_on_link, pair.other_link, pair.point_on_other,
+              pair.normal, row);
+}
+
+}  // namespace oca::robot

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/models/table_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+
+#include "oca/models/error.h"
+#include "oca/models/opened_files.h"
+
+namespace oca::models::internal {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kGaps = " \t\r";
+
+}  // namespace
+
+void RefuseText(const fs::path& file, int line, std::string_view what, std::string_view got,
+                std::string_view expected) {
+  const std::string place = line > 0 ? fmt::format("{}:{}", file.string(), line) : file.string();
+  throw ModelError(
+      fmt::format("{}: {}; got {}; expected {}", place, what, got.substr(0, 60), expected));
+}
+
+std::string ReadWhole(const fs::path& file) {
+  NoteOpened(file);
+  return ReadOwn(file);
+}
+
+std::string ReadOwn(const fs::path& file) {
+  std::error_code error;
+  const auto status = fs::status(file, error);
+  if (!fs::exists(status)) RefuseText(file, 0, "cannot be read", "no such file", "a file");
+  if (!fs::is_regular_file(status)) {
+    RefuseText(file, 0, "not a regular file", "a folder, pipe or device", "a file");
+  }
+  const std::uintmax_t size = fs::file_size(file, error);
+  if (error || size > kMostBytes) {
+    RefuseText(file, 0, "too large", fmt::format("{} bytes", size),
+               fmt::format("at most {}", kMostBytes));
+  }
+  std::ifstream stream(file, std::ios::binary);
+  // No more than was promised, should the file grow meanwhile.
+  std::string text(size, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(size));
+  if (!stream) RefuseText(file, 0, "cannot be read", "an error", "a readable file");
+  return text;
+}
+
+std::vector<std::string_view> Words(std::string_view text) {
+  std::vector<std::string_view> words;
+  while (true) {
+    const std::size_t first = text.find_first_not_of(kGaps);
+    if (first == std::string_view::npos) return words;
+    text.remove_prefix(first);
+    const std::size_t end = std::min(text.find_first_of(kGaps), text.size());
+    words.push_back(text.substr(0, end));
+    text.remove_prefix(end);
+  }
+}
+
+std::optional<double> ToNumber(std::string_view word) {
+  double value = 0.0;
+  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  return value;
+}
+
+std::optional<std::uint64_t> ToCount(std::string_view word, std::uint64_t most) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size() || value > most) return std::nullopt;
+  return value;
+}
+
+std::string_view TakeLine(std::string_view& rest) {
+  const std::size_t end = rest.find('\n');
+  std::string_view line = rest.substr(0, end);
+  rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return line;
+}
+
+}  // namespace oca::models::internal

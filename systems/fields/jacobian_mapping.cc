@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/systems/fields/jacobian_mapping.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "oca/framework/dataflow/error.h"
+#include "oca/systems/basics/require.h"
+#include "oca/systems/fields/loop_gain.h"
+#include "oca/systems/sensing/model_links.h"
+#include "oca/systems/signals/json_fields.h"
+#include "oca/systems/signals/roles.h"
+
+namespace oca::systems {
+namespace {
+
+constexpr std::array kStatusNames{"ok", "regularised", "not_finite"};
+
+}  // namespace
+
+robot::MappingSettings MappingSettingsOf(const JacobianMapping::Params& params) {
+  Validated(params);
+  using Method = JacobianMapping::Method;
+  switch (params.method) {
+    case Method::kTranspose:
+      return {robot::MappingMethod::kTranspose, params.alpha, 0.0};
+    case Method::kPseudoInverse:
+      return {robot::MappingMethod::kPseudoInverse, params.alpha, 0.0};
+    case Method::kDamped:
+      RequireAbove("damping", params.damping, 0.0);
+      return {robot::MappingMethod::kDamped, params.alpha, params.damping};
+  }
+  throw ConfigError("method: got no such method; expected transpose, pseudo_inverse or damped");
+}
+
+void JacobianMapping::Params::Describe(Fields<Params>& fields) {
+  fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
+  fields.Add("alpha", &Params::alpha, "", "factor of the delta; absorbs the unit of the wrench");
+  fields.Add("method", &Params::method, "", "how wrenches become joint offsets");
+  fields
+      .Add("damping", &Params::damping, "m", "lambda of the method damped, which needs more than 0")
+      .AtLeast(0.0);
+}
+
+JacobianMapping::JacobianMapping(const Params& params, const ModelSet& models)
+    : params_(params),
+      model_(MovableModel(models, params.model)),
+      settings_(MappingSettingsOf(params)),
+      wrenches(DeclareInput<WrenchSet>("wrenches")),
+      links(DeclareInput<LinkPoses>("links")),
+      solution(DeclareOutput<MappingSolution, &JacobianMapping::CalcSolution>("solution", {},
+                                                                              wrenches, links)),
+      delta(DeclareOutput<Vector, &JacobianMapping::CalcDelta>("delta", DeltaSpec(*model_),
+                                                               solution)) {
+  DeclareRole(MapsForces{
+      .links = links, .delta = delta, .make_gain = [params, models](const Period& period) {
+        LoopGain::Params gain{.period = period};
+        gain.model = params.model;
+        gain.alpha = params.alpha;
+        gain.method = params.method;
+        gain.damping = params.damping;
+        return std::make_unique<LoopGain>(gain, models);
+      }});
+}
+
+void JacobianMapping::CalcSolution(const WrenchSet& wrench_set, const LinkPoses& poses,
+                                   MappingSolution& result) const {
+  if (!result.workspace) result.workspace.emplace(*model_);
+  result.delta.resize(model_->num_positions());
+  result.body_wrenches.assign(model_->bodies().size(), robot::BodyWrench{});
+  const auto X_WL = PosesInOrder(*model_, poses, result.reordered);
+  for (const LinkWrench& wrench : wrench_set.wrenches) {
+    const int link = LinkNumber(*model_, wrench.link, "wrenches");
+    if (model_->body(link) < 0) continue;
+    const Eigen::Vector3d origin = X_WL[model_->body(link)].translation();
+    robot::BodyWrench& sum = result.body_wrenches[model_->body_index(link)];
+    sum.force += wrench.force;
+    sum.torque += wrench.torque + (wrench.origin - origin).cross(wrench.force);
+  }
+  result.status = robot::MapWrenches(*model_, X_WL, result.body_wrenches, settings_,
+                                     *result.workspace, result.delta);
+}
+
+void JacobianMapping::CalcDelta(const MappingSolution& result, MutableVectorView value) const {
+  value = result.delta;
+}
+
+}  // namespace oca::systems
+
+namespace oca {
+
+using systems::MappingSolution;
+
+Fault Signal<MappingSolution>::Check(const MappingSolution& value, Look /*look*/) {
+  return Fault::UnlessFinite(
+      AllFinite(value.delta.data(), static_cast<std::size_t>(value.delta.size())));
+}
+
+void Signal<MappingSolution>::WriteJson(const MappingSolution& value, std::string& out) {
+  out += fmt::format(R"({{"status":"{}","delta":)",
+                     systems::kStatusNames[static_cast<int>(value.status)]);
+  WriteVectorJson(value.delta.data(), static_cast<std::size_t>(value.delta.size()), out);
+  out += '}';
+}
+
+MappingSolution Signal<MappingSolution>::ReadJson(std::string_view text) {
+  const systems::Json json = systems::ParseJson(text);
+  const systems::JsonReader reader(json, "solution");
+  reader.CheckKeys({"status", "delta"});
+  const std::string status = reader.At("status").Text();
+  const auto& names = systems::kStatusNames;
+  const auto found = std::find(names.begin(), names.end(), status);
+  if (found == names.end()) {
+    reader.At("status").Fail("'" + status + "'", "ok, regularised or not_finite");
+  }
+  MappingSolution solution;
+  solution.status = static_cast<robot::MappingStatus>(found - names.begin());
+  solution.delta = ReadVectorJson(json["delta"].dump());
+  return solution;
+}
+
+}  // namespace oca

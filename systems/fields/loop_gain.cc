@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/systems/fields/loop_gain.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "oca/systems/sensing/model_links.h"
+#include "oca/systems/signals/json_fields.h"
+
+namespace oca::systems {
+void LoopGain::Params::Describe(Fields<Params>& fields) {
+  fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
+  fields.Add("alpha", &Params::alpha, "", "of the mapping");
+  fields.Add("method", &Params::method, "", "of the mapping");
+  fields.Add("damping", &Params::damping, "m", "of the mapping").AtLeast(0.0);
+  fields
+      .Add("relaxation_time", &Params::relaxation_time, "s",
+           "least relaxation time, where the loop would be stable with less")
+      .AtLeast(0.0);
+  fields
+      .Add(
+          "safety", &Params::safety, "",
+          "factor on the time at which the loop is just stable; 2 is the fastest without overshoot")
+      .AtLeast(1.0);
+  fields.Add("period", &Params::period, "s", "control period").Above(0.0).Required();
+}
+
+LoopGain::LoopGain(const Params& params, const ModelSet& models)
+    : params_(Validated(params)),
+      model_(MovableModel(models, params.model)),
+      settings_(MappingSettingsOf(
+          {.alpha = params.alpha, .method = params.method, .damping = params.damping})),
+      slopes(DeclareInput<ContactSlopes>("slopes")),
+      more_slopes(DeclareOptionalInput<ContactSlopes>("more_slopes")),
+      links(DeclareInput<LinkPoses>("links")),
+      estimate(DeclareOutput<GainEstimate, &LoopGain::CalcEstimate>("estimate", {}, slopes,
+                                                                    more_slopes, links)),
+      gain(DeclareOutput<Vector, &LoopGain::CalcGain>("gain", {1, Unit::Any()}, estimate)),
+      relaxation_time(
+          DeclareOutput<Vector, &LoopGain::CalcTime>("relaxation_time", {1, "s"}, estimate)) {}
+
+void LoopGain::AddContacts(const ContactSlopes& from,
+                           std::vector<robot::GainContact>& contacts) const {
+  const double rate_weight = 2.0 / params_.period.seconds();
+  for (const ContactSlope& contact : from.slopes) {
+    const bool own = !contact.own_link.empty();
+    // Either side of a pair of own links has an entry, and either one counts both sides.
+    const double share = own ? 0.5 : 1.0;
+    contacts.push_back({LinkNumber(*model_, contact.link, "slopes"), contact.point_on_link,
+                        own ? LinkNumber(*model_, contact.own_link, "slopes") : -1,
+                        contact.point_on_obstacle, contact.normal,
+                        share * (contact.slope + rate_weight * contact.damping)});
+  }
+}
+
+void LoopGain::CalcEstimate(const ContactSlopes& first, const ContactSlopes* second,
+                            const LinkPoses& poses, GainEstimate& result) const {
+  if (!result.workspace) result.workspace.emplace(*model_);
+  result.contacts.clear();
+  result.contacts.reserve(first.slopes.capacity() + (second ? second->slopes.capacity() : 0));
+  AddContacts(first, result.contacts);
+  if (second != nullptr) AddContacts(*second, result.contacts);
+  const auto X_WL = PosesInOrder(*model_, poses, result.reordered);
+  result.gain = robot::LoopGain(*model_, X_WL, result.contacts, settings_, *result.workspace);
+}
+
+void LoopGain::CalcGain(const GainEstimate& result, MutableVectorView value) const {
+  value[0] = result.gain;
+}
+
+void LoopGain::CalcTime(const GainEstimate& result, MutableVectorView value) const {
+  const double least = robot::LeastRelaxationTime(result.gain, params_.period.seconds());
+  value[0] = std::max(params_.relaxation_time, params_.safety * least);
+}
+
+}  // namespace oca::systems
+
+namespace oca {
+
+using systems::GainEstimate;
+
+Fault Signal<GainEstimate>::Check(const GainEstimate& value, Look /*look*/) {
+  return Fault::UnlessFinite(std::isfinite(value.gain));
+}
+
+void Signal<GainEstimate>::WriteJson(const GainEstimate& value, std::string& out) {
+  out += systems::Json(value.gain).dump();
+}
+
+GainEstimate Signal<GainEstimate>::ReadJson(std::string_view text) {
+  const systems::Json json = systems::ParseJson(text);
+  GainEstimate value;
+  value.gain = systems::JsonReader(json, "estimate").Number();
+  return value;
+}
+
+}  // namespace oca

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/systems/fields/vortex_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "oca/models/robot/kinematics.h"
+#include "oca/systems/sensing/model_links.h"
+#include "oca/systems/signals/json_fields.h"
+#include "oca/systems/signals/roles.h"
+
+namespace oca::systems {
+namespace {
+
+// Share of `up` in the way around, for requests that lead straight at the obstacle.
+constexpr double kUpShare = 0.05;
+// Time within which the distance to the request counts as a velocity, s.
+constexpr double kCatchUp = 1.0;
+// Less than this is no direction.
+constexpr double kNothing = 1e-9;
+
+RepulsiveField::Params RepulsionOf(const VortexField::Params& params) {
+  return {params.force_gain, params.max_distance, params.min_distance};
+}
+
+}  // namespace
+
+void VortexField::Params::Describe(Fields<Params>& fields) {
+  fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
+  fields.Add("force_gain", &Params::force_gain, "N m^3", "as of a RepulsiveField").AtLeast(0.0);
+  fields.Add("max_distance", &Params::max_distance, "m", "as of a RepulsiveField").Above(0.0);
+  fields.Add("min_distance", &Params::min_distance, "m", "as of a RepulsiveField").Above(0.0);
+  fields
+      .Add("turn", &Params::turn, "rad",
+           "by how much the force is turned off the normal far from contact; 0 is a RepulsiveField")
+      .AtLeast(0.0)
+      .AtMost(1.5);
+  fields.Add("period", &Params::period, "s", "control period").Above(0.0).Required();
+}
+
+VortexField::VortexField(const Params& params, const ModelSet& models)
+    : params_(Validated(params)),
+      model_(MovableModel(models, params.model)),
+      field_(RepulsionOf(params)),
+      held_(DeclareDiscreteState("held", {3 * model_->num_links(), Unit::Any()}, 0.0)),
+      proximities(DeclareInput<ProximitySet>("proximities")),
+      links(DeclareInput<LinkPoses>("links")),
+      position(DeclareInput<Vector>("position", DeltaSpec(*model_))),
+      velocity(DeclareOptionalInput<Vector>("velocity", RateSpec(*model_))),
+      measured_position(DeclareInput<Vector>("measured_position", PositionSpec(*model_))),
+      axes(DeclareOutput<VortexAxes, &VortexField::CalcAxes>(
+          "axes", {}, proximities, links, position, velocity, measured_position, held_)),
+      forces(
+          DeclareOutput<LinkForceSet, &VortexField::CalcForces>("forces", {}, proximities, axes)),
+      slopes(
+          DeclareOutput<ContactSlopes, &VortexField::CalcSlopes>("slopes", {}, proximities, axes)) {
+  DeclareUpdate<&VortexField::Update>(Every{params_.period}, Writes(held_), axes);
+  DeclareRole(Repels{params_.max_distance});
+  DeclareRole(Limits{
+      .shown = Limits::Shown::kBelow, .signal = proximities, .bound = {params_.max_distance}});
+}
+
+double VortexField::Angle(double distance) const {
+  return params_.turn * std::clamp(2.0 * distance / params_.max_distance, 0.0, 1.0);
+}
+
+Eigen::Vector3d VortexField::Force(const Proximity& proximity, const Eigen::Vector3d& axis) const {
+  const double phi = Angle(proximity.distance);
+  return field_.Magnitude(proximity.distance) *
+         (std::cos(phi) * proximity.normal + std::sin(phi) * axis.cross(proximity.normal));
+}
+
+Eigen::Vector3d VortexField::ChooseAxis(const Proximity& nearest, const Eigen::Vector3d& way,
+                                        const Eigen::Matrix3d& R_WB) const {
+  const double length = way.norm();
+  Eigen::Vector3d towards = kUpShare * R_WB.col(2);
+  if (length > kNothing) towards += way / length;
+  Eigen::Vector3d axis = nearest.normal.cross(towards);
+  if (axis.norm() < kNothing) axis = nearest.normal.cross(R_WB.col(0));
+  if (axis.norm() < kNothing) axis = nearest.normal.cross(R_WB.col(1));
+  return axis.normalized();
+}
+
+void VortexField::CalcAxes(const ProximitySet& set, const LinkPoses& poses, VectorView request,
+                           OptionalVector rate, VectorView measured, VectorView held,
+                           VortexAxes& result) const {
+  result.axes.resize(3, model_->num_links());
+  result.J_v.resize(3, model_->num_positions());
+  result.nearest.assign(model_->links().size(), nullptr);
+  for (const Proximity& proximity : set.proximities) {
+    if (proximity.distance > params_.max_distance) continue;
+    const Proximity*& nearest = result.nearest[LinkNumber(*model_, proximity.link, "proximities")];
+    if (nearest == nullptr || proximity.distance < nearest->distance) nearest = &proximity;
+  }
+  result.wish = (request - measured) / kCatchUp;
+  if (rate) result.wish += *rate;
+  const auto X_WL = PosesInOrder(*model_, poses, result.reordered);
+  for (int link = 0; link < model_->num_links(); ++link) {
+    const Proximity* const nearest = result.nearest[link];
+    auto axis = result.axes.col(link);
+    axis = held.segment<3>(3 * link);
+    if (nearest == nullptr) {
+      axis.setZero();
+    } else if (axis.isZero(0.0)) {
+      robot::PointJacobian(*model_, X_WL, link, nearest->point_on_link, result.J_v);
+      Eigen::Vector3d way = -nearest->obstacle_velocity;
+      way.noalias() += result.J_v * result.wish;
+      axis = ChooseAxis(*nearest, way, X_WL[0].linear());
+    }
+  }
+}
+
+void VortexField::CalcForces(const ProximitySet& set, const VortexAxes& about,
+                             LinkForceSet& result) const {
+  result.forces.clear();
+  result.forces.reserve(set.proximities.capacity());  // so no later tick allocates
+  for (const Proximity& proximity : set.proximities) {
+    const int link = LinkNumber(*model_, proximity.link, "proximities");
+    result.forces.push_back({proximity.link, proximity.obstacle,
+                             Force(proximity, about.axes.col(link)), proximity.point_on_link});
+  }
+}
+
+void VortexField::CalcSlopes(const ProximitySet& set, const VortexAxes& about,
+                             ContactSlopes& result) const {
+  result.slopes.clear();
+  result.slopes.reserve(set.proximities.capacity());
+  for (const Proximity& proximity : set.proximities) {
+    if (proximity.distance > params_.max_distance) continue;
+    const Eigen::Vector3d axis = about.axes.col(LinkNumber(*model_, proximity.link, "proximities"));
+    const Eigen::Vector3d& n = proximity.normal;
+    const Eigen::Vector3d t = axis.cross(n);
+    const double phi = Angle(proximity.distance);
+    const bool turning = proximity.distance > 0.0 && phi < params_.turn;
+    const double dphi = turning ? 2.0 * params_.turn / params_.max_distance : 0.0;
+    result.slopes.push_back(SlopeAt(
+        proximity,
+        field_.Slope(proximity.distance) * (std::cos(phi) * n + std::sin(phi) * t) -
+            field_.Magnitude(proximity.distance) * dphi * (std::cos(phi) * t - std::sin(phi) * n)));
+  }
+}
+
+void VortexField::Update(const VortexAxes& about, MutableVectorView next) const {
+  next = about.axes.reshaped();
+}
+
+}  // namespace oca::systems
+
+namespace oca {
+
+using systems::VortexAxes;
+
+Fault Signal<VortexAxes>::Check(const VortexAxes& value, Look /*look*/) {
+  return Fault::UnlessFinite(value.axes.allFinite());
+}
+
+void Signal<VortexAxes>::WriteJson(const VortexAxes& value, std::string& out) {
+  systems::Json list = systems::Json::array();
+  for (Eigen::Index i = 0; i < value.axes.cols(); ++i) {
+    list.push_back(systems::ToJson(Eigen::Vector3d(value.axes.col(i))));
+  }
+  out += list.dump();
+}
+
+VortexAxes Signal<VortexAxes>::ReadJson(std::string_view text) {
+  const systems::Json json = systems::ParseJson(text);
+  VortexAxes value;
+  systems::JsonReader(json, "axes").ForEach([&](const systems::JsonReader& item) {
+    value.axes.conservativeResize(3, value.axes.cols() + 1);
+    value.axes.rightCols<1>() = item.Vector3();
+  });
+  return value;
+}
+
+}  // namespace oca

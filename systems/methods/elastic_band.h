@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "oca/framework/dataflow/params.h"
+#include "oca/framework/dataflow/system.h"
+#include "oca/models/planning/band_planner.h"
+#include "oca/systems/methods/band_memory.h"
+#include "oca/systems/signals/clear_motion.h"
+#include "oca/systems/signals/model_set.h"
+#include "oca/systems/signals/request_ahead.h"
+#include "oca/systems/signals/signals.h"
+
+namespace oca::systems {
+
+/// Bends the requested motion around what stands and moves, in time: an elastic band in space and
+/// time, planned anew every plan_period, whose place in time a SafetyFilter then follows.
+///
+///     position = request(t) + x(t),   x the deviation of models::ElasticBand
+///
+/// A plan looks ahead to the end of the request and a little further, at least least_horizon. It
+/// takes every obstacle to go on as it does now for `prediction` seconds and then to stay. It
+/// begins plan_period after the instant that it is made at, which is the time there is to compute
+/// it, from the state that the band before it then has: position, velocity and acceleration are
+/// continuous. If the arm is farther than restart_distance from where the band says, the next band
+/// starts from the arm. The first eight plans look for shorter ways even if theirs is clear; after
+/// them a plan whose obstacles still stand where they stood is kept.
+///
+/// `clear` says for how long the motion is clear from now on: until the plan comes nearer than
+/// trust_distance to what stands, flying_distance to what moves, or exceeds a limit that the
+/// request keeps. It is 0 while the arm is more than 0.005 from the band, another motion is
+/// requested, or obstacles are not where they were foreseen, to 5 mm now and in 0.3 s, until a plan
+/// that was made for them has begun. A SafetyFilter lets such a motion through.
+///
+/// Control samples are those of the end of each period, held, as from a sampled SplineGenerator.
+///
+/// The arm counts as stuck if the request rests, the goal is not reached to 0.01 and nothing moved
+/// by stuck_motion for stuck_time; `plan` then names the pair that is nearest, and a warning is
+/// logged.
+///
+/// Plans allocate; control samples do not, nor does a tick at which a plan is kept.
+///
+/// in    ahead              RequestAhead  the requested motion; without one the arm is to rest
+///       obstacles          ObstacleSet
+///       measured_position  n  u
+///       measured_velocity  n  u/s        optional; absent counts as 0
+/// out   position      n  u
+///       velocity      n  u/s
+///       acceleration  n  u/s^2
+///       plan          BandMemory
+///       clear         ClearMotion
+/// state position, velocity, acceleration  n
+///       plan          BandMemory
+/// throws ConfigError if there is no such model, a parameter is out of its bounds, or plan_period
+///        is shorter than period; while running if the request has another number of joints
+/// source models/planning/band_planner.h; docs/explanation/recommended.md
+class ElasticBand final : public System {
+ public:
+  static constexpr SystemDoc kDoc{
+      "bends the requested motion around what stands and moves, ahead of time",
+      "position = request + x, x = argmin integral of clearance max(margin - distance, 0)^2 + "
+      "nearness x^2 + calm x'^2 + smoothness x''^2 + limits excess^2",
+      "Quinlan, Khatib 1993, Elastic bands"};
+  struct Params {
+    std::string model{};
+    Period period{};
+    Period plan_period{1, 50};
+    double margin{0.12};
+    double clear_distance{0.045};
+    double trust_distance{0.03};
+    double flying_distance{0.01};
+    double clearance{1e4};
+    double smoothness{0.02};
+    double nearness{0.1};
+    double calm{0.1};
+    double limit_share{0.95};
+    double prediction{2.0};
+    int most_evaluations{4000};
+    double moving_horizon{3.0};
+    double least_horizon{2.0};
+    double most_horizon{30.0};
+    double restart_distance{0.1};
+    double stuck_time{2.0};
+    double stuck_motion{0.01};
+    bool self_collision{false};
+    int seed{0};
+    bool enabled{true};
+    static void Describe(Fields<Params>& fields);
+  };
+  static Params Example() { return {.period = Period(1, 100)}; }
+
+  ElasticBand(const Params& params, const ModelSet& models);
+
+ private:
+  using OptionalVector = std::optional<VectorView>;
+  static planning::BandPlannerSettings SettingsOf(const Params& params);
+  planning::BandTask MakeTask(double time, const Trajectory* request,
+                              const std::vector<planning::BandBody>& bodies, VectorView measured,
+                              OptionalVector rate, BandMemory& memory) const;
+  std::vector<planning::BandBody> MakeBodies(double time, const ObstacleSet& set) const;
+  bool Kept(double time, const RequestAhead& request, const ObstacleSet& set, VectorView measured,
+            BandMemory& memory) const;
+  bool Astray(double time, const Trajectory* request, VectorView measured,
+              BandMemory& memory) const;
+  void Follow(double time, const Trajectory* request, VectorView measured,
+              BandMemory& memory) const;
+
+  bool AsForeseen(double time, const ObstacleSet& set, const BandMemory& memory) const;
+  void CalcClear(double time, const RequestAhead& request, const ObstacleSet& set,
+                 VectorView measured, VectorView planned, const BandMemory& memory,
+                 ClearMotion& motion) const;
+
+  void Start(VectorView measured, MutableVectorView position_out) const;
+  void Report(double time, const BandMemory& memory, Log& log) const;
+  void Plan(double time, Log& log, const RequestAhead& request, const ObstacleSet& set,
+            VectorView measured, OptionalVector rate, BandMemory& memory) const;
+  void Sample(double time, const RequestAhead& request, const BandMemory& memory,
+              MutableVectorView next_position, MutableVectorView next_velocity,
+              MutableVectorView next_acceleration) const;
+
+  const Params params_;
+  const std::shared_ptr<const robot::RobotModel> model_;
+  const DiscreteState<Vector> position_;
+  const DiscreteState<Vector> velocity_;
+  const DiscreteState<Vector> acceleration_;
+  const DiscreteState<BandMemory> memory_;
+
+ public:
+  const Input<RequestAhead> ahead;
+  const Input<ObstacleSet> obstacles;
+  const Input<Vector> measured_position;
+  const OptionalInput<Vector> measured_velocity;
+  const Output<Vector> position;
+  const Output<Vector> velocity;
+  const Output<Vector> acceleration;
+  const Output<BandMemory> plan;
+  const Output<ClearMotion> clear;
+};
+
+}  // namespace oca::systems

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/systems/methods/flacco_de_luca.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "oca/models/robot/kinematics.h"
+#include "oca/models/robot/robot_model.h"
+#include "oca/models/robot/saturated_task.h"
+#include "oca/systems/basics/require.h"
+#include "oca/systems/methods/motion_limiter.h"
+#include "oca/systems/methods/velocity_methods.h"
+#include "oca/systems/sensing/model_links.h"
+#include "oca/systems/signals/roles.h"
+
+namespace oca::systems {
+namespace {
+
+// An entry of a row that is as good as none, m/rad.
+constexpr double kNoLever = 1e-9;
+
+FlaccoDeLuca::Params Checked(const FlaccoDeLuca::Params& params) {
+  Validated(params);
+  RequireAtLeast("damping_threshold", params.damping_threshold, params.most_damping);
+  return params;
+}
+
+}  // namespace
+
+struct FlaccoDeLuca::Motion {
+  robot::JointMatrix M;  ///< sum J^T J of the repulsed points
+  robot::JointVector b;  ///< sum J^T (J r + v)
+  robot::JointVector lower;
+  robot::JointVector upper;
+};
+
+void FlaccoDeLuca::Params::Describe(Fields<Params>& fields) {
+  fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
+  fields.Add("tip", &Params::tip, "", "link that is repulsed; may be left out if one is last");
+  fields.Add("repulsion", &Params::repulsion, "",
+             "which links are repulsed: tip, as published, or all");
+  fields.Add("repulsion_speed", &Params::repulsion_speed, "m/s", "of a repulsed point near contact")
+      .AtLeast(0.0);
+  fields
+      .Add("influence_distance", &Params::influence_distance, "m",
+           "up to which obstacles count; half of the effect is at half of it")
+      .Above(0.0);
+  fields.Add("alpha", &Params::alpha, "", "steepness of the risk over the distance").Above(0.0);
+  fields
+      .Add("max_joint_velocity", &Params::max_joint_velocity, "rad/s",
+           "bound on every joint's speed, beside the model's limits")
+      .Above(0.0);
+  fields.Add("most_damping", &Params::most_damping, "m/rad", "damping of a singular direction")
+      .Above(0.0);
+  fields
+      .Add("damping_threshold", &Params::damping_threshold, "m/rad",
+           "singular value below which there is damping; at least most_damping")
+      .Above(0.0);
+}
+
+FlaccoDeLuca::FlaccoDeLuca(const Params& params, const ModelSet& models)
+    : params_(Checked(params)),
+      model_(FilteredModel(models, params.model)),
+      tip_(TipNumber(*model_, params.tip)),
+      damping_{params.most_damping, params.damping_threshold},
+      proximities(DeclareInput<ProximitySet>("proximities")),
+      links(DeclareInput<LinkPoses>("links")),
+      wish(DeclareInput<Vector>("wish", RateSpec(*model_))),
+      solution(DeclareOutput<AvoidanceVelocity, &FlaccoDeLuca::CalcSolution>(
+          "solution", {}, proximities, links, wish)),
+      velocity(DeclareOutput<Vector, &FlaccoDeLuca::CalcVelocity>("velocity", RateSpec(*model_),
+                                                                  solution)) {
+  DeclareRole(Limits{.shown = Limits::Shown::kAbove,
+                     .signal = solution,
+                     .bound = {0.0},
+                     .member = "rows",
+                     .how = "repulsed or held back"});
+}
+
+double FlaccoDeLuca::Risk(double distance) const {
+  return 1.0 / (1.0 + std::exp(params_.alpha * (2.0 * distance / params_.influence_distance - 1)));
+}
+
+bool FlaccoDeLuca::Repulsed(int link) const {
+  return params_.repulsion == Repulsion::kAll || model_->body(link) == model_->body(tip_);
+}
+
+void FlaccoDeLuca::AddLink(const ProximitySet& set, std::size_t first, int link,
+                           std::span<const Eigen::Isometry3d> X_WL, VectorView request,
+                           Motion& motion) const {
+  const Proximity* nearest = &set.proximities[first];
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  for (std::size_t i = first; i < set.proximities.size(); ++i) {
+    const Proximity& proximity = set.proximities[i];
+    if (proximity.link != nearest->link) continue;
+    if (proximity.distance < nearest->distance) nearest = &proximity;
+    if (proximity.distance > params_.influence_distance) continue;
+    direction += Risk(proximity.distance) * proximity.normal;
+  }
+  if (nearest->distance > params_.influence_distance) return;
+  const double risk = Risk(nearest->distance);
+  if (Repulsed(link)) {
+    Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, robot::kMostFilteredJoints> J(
+        3, model_->num_positions());
+    robot::PointJacobian(*model_, X_WL, link, nearest->point_on_link, J);
+    const double length = direction.norm();
+    const Eigen::Vector3d away = length > 1e-9 ? direction / length : nearest->normal;
+    const Eigen::Vector3d v = J.lazyProduct(request) + params_.repulsion_speed * risk * away;
+    motion.M += J.transpose().lazyProduct(J);
+    motion.b += J.transpose().lazyProduct(v);
+  }
+  if (model_->body(link) == model_->body(tip_)) return;
+  const robot::JointVector row = RowOf(*model_, X_WL, *nearest);
+  for (Eigen::Index j = 0; j < row.size(); ++j) {
+    const double limit = std::min(LimitsOf(*model_, j).velocity, params_.max_joint_velocity);
+    if (row[j] < -kNoLever) motion.upper[j] = std::min(motion.upper[j], limit * (1.0 - risk));
+    if (row[j] > kNoLever) motion.lower[j] = std::max(motion.lower[j], -limit * (1.0 - risk));
+  }
+}
+
+void FlaccoDeLuca::CalcSolution(const ProximitySet& set, const LinkPoses& poses, VectorView request,
+                                AvoidanceVelocity& result) const {
+  const auto X_WL = PosesInOrder(*model_, poses, result.reordered);
+  const Eigen::Index n = request.size();
+  Motion motion{robot::JointMatrix::Zero(n, n), robot::JointVector::Zero(n), robot::JointVector(n),
+                robot::JointVector(n)};
+  for (Eigen::Index j = 0; j < n; ++j) {
+    motion.upper[j] = std::min(LimitsOf(*model_, j).velocity, params_.max_joint_velocity);
+  }
+  motion.lower = -motion.upper;
+  result.share = 0.0;
+  result.rows = 0;
+  const auto& all = set.proximities;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].distance <= params_.influence_distance) {
+      result.share = std::max(result.share, Risk(all[i].distance));
+      ++result.rows;
+    }
+    const auto same = [&](const Proximity& before) { return before.link == all[i].link; };
+    const auto here = all.begin() + static_cast<std::ptrdiff_t>(i);
+    if (std::any_of(all.begin(), here, same)) continue;
+    const int link = NumberOfLink(*model_, all[i].link);
+    AddLink(set, i, link, X_WL, request, motion);
+  }
+  result.velocity = robot::SaturateInNullspace(motion.M, motion.b, robot::JointVector(request),
+                                               motion.lower, motion.upper, damping_);
+}
+
+void FlaccoDeLuca::CalcVelocity(const AvoidanceVelocity& result, MutableVectorView out) const {
+  out = result.velocity;
+}
+
+}  // namespace oca::systems

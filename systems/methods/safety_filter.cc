@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/systems/methods/safety_filter.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "oca/framework/dataflow/error.h"
+#include "oca/models/robot/robot_model.h"
+#include "oca/systems/sensing/model_links.h"
+#include "oca/systems/signals/json_fields.h"
+#include "oca/systems/signals/roles.h"
+
+namespace oca::systems {
+namespace {
+
+constexpr double kFading = 10.0;       // s, of the way that a joint was led
+constexpr double kLeastLever = 1e-12;  // of the reach; a slider's: of 1
+
+/// A gain above 1 / period would ask for more than all of h within one period.
+void RequireGain(const char* where, double gain, const Period& period) {
+  if (gain * period.seconds() <= 1.0 + std::numeric_limits<double>::epsilon()) return;
+  throw ConfigError(fmt::format("{}: got {} 1/s; expected at most 1 / period, {} 1/s", where, gain,
+                                1.0 / period.seconds()));
+}
+
+SafetyFilter::Params Checked(const SafetyFilter::Params& params) {
+  Validated(params);
+  RequireGain("approach_gain", params.approach_gain, params.period);
+  RequireGain("position_gain", params.position_gain, params.period);
+  RequireGain("recovery_gain", params.recovery_gain, params.period);
+  return params;
+}
+
+Eigen::VectorXd LeastEntries(const robot::RobotModel& model, double reach) {
+  Eigen::VectorXd least = Eigen::VectorXd::Zero(model.num_positions());
+  for (const robot::KinematicStep& step : model.steps()) {
+    if (step.column < 0) continue;
+    const double lever = step.type == robot::JointType::kPrismatic ? 1.0 : reach;
+    least[step.column] =
+        std::max(least[step.column], kLeastLever * std::abs(step.multiplier) * lever);
+  }
+  return least;
+}
+
+}  // namespace
+
+void SafetyFilter::Params::Describe(Fields<Params>& fields) {
+  fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
+  fields.Add("period", &Params::period, "s", "control period").Above(0.0).Required();
+  fields
+      .Add("safe_distance", &Params::safe_distance, "m",
+           "distance that is kept, but for the margin of docs/explanation/safety_filter.md")
+      .AtLeast(0.0);
+  fields.Add("form", &Params::form, "", "how fast the arm may approach: linear or braking");
+  fields
+      .Add("approach_gain", &Params::approach_gain, "1/s",
+           "linear: share of the headroom that may be used up in a second; at most 1 / period")
+      .Above(0.0);
+  fields
+      .Add("deceleration", &Params::deceleration, "m/s^2",
+           "braking: deceleration along the normal that the arm can count on")
+      .Above(0.0);
+  fields
+      .Add("position_gain", &Params::position_gain, "1/s",
+           "how fast the arm returns to the request; at most 1 / period")
+      .Above(0.0);
+  fields
+      .Add("weights", &Params::weights, "",
+           "price of a joint's deviation, one number or one a joint")
+      .Above(0.0);
+  fields
+      .Add("progress_weight", &Params::progress_weight, "",
+           "how much dearer a joint is that has a way to go: 0 not at all, 10 evades with the "
+           "others")
+      .AtLeast(0.0);
+  fields
+      .Add("slack_penalty", &Params::slack_penalty, "rad^2/(m s)",
+           "price of a distance that is not kept; too low a one gives way early")
+      .Above(0.0);
+  fields
+      .Add("trust_time", &Params::trust_time, "s",
+           "a request that is clear for longer is let through")
+      .AtLeast(0.0);
+  fields
+      .Add("recovery_gain", &Params::recovery_gain, "1/s",
+           "how fast a distance below safe_distance should grow; at most 1 / period")
+      .Above(0.0);
+  fields.Add("recovery_speed", &Params::recovery_speed, "m/s", "but no faster than this")
+      .AtLeast(0.0);
+  fields
+      .Add("recovery_penalty", &Params::recovery_penalty, "rad^2/(m s)",
+           "price of growing more slowly")
+      .AtLeast(0.0);
+  fields
+      .Add("most_rows", &Params::most_rows, "",
+           "room for rows; if there are more, those farthest away are dropped and counted")
+      .AtLeast(1.0);
+}
+
+SafetyFilter::SafetyFilter(const Params& params, const ModelSet& models)
+    : params_(Checked(params)),
+      model_(MovableModel(models, params.model)),
+      least_entries_(LeastEntries(*model_, Reach())),
+      c_(DeclareDiscreteState("c", PositionSpec(*model_), 0.0)),
+      u_(DeclareDiscreteState("u", RateSpec(*model_), 0.0)),
+      l_(DeclareDiscreteState("l", PositionSpec(*model_), 0.0)),
+      activity_(DeclareDiscreteState("activity", FilterActivity{})),
+      proximities(DeclareInput<ProximitySet>("proximities")),
+      links(DeclareInput<LinkPoses>("links")),
+      position(DeclareInput<Vector>("position", DeltaSpec(*model_))),
+      velocity(DeclareOptionalInput<Vector>("velocity", RateSpec(*model_))),
+      acceleration(DeclareOptionalInput<Vector>(
+          "acceleration", {model_->num_positions(), RateSpec(*model_).unit.Rate()})),
+      measured_position(DeclareInput<Vector>("measured_position", PositionSpec(*model_))),
+      command(DeclareOptionalInput<Vector>("command", PositionSpec(*model_))),
+      clear(DeclareOptionalInput<ClearMotion>("clear")),
+      solution(DeclareOutput<FilterSolution, &SafetyFilter::CalcSolution>(
+          "solution", {}, proximities, links, position, velocity, acceleration, command, clear, c_,
+          u_, l_, activity_)),
+      delta(DeclareOutput<Vector, &SafetyFilter::CalcDelta>("delta", DeltaSpec(*model_), position,
+                                                            c_, u_)),
+      activity(DeclareStateOutput("activity", activity_)) {
+  const PerComponent& weights = params_.weights;
+  if (!weights.scalar() && weights.values().size() != model_->num_positions()) {
+    throw ConfigError(fmt::format("weights: got {} numbers; expected 1 or {}",
+                                  weights.values().size(), model_->num_positions()));
+  }
+  DeclareInitialization<&SafetyFilter::Start>(Writes(c_), measured_position);
+  DeclareUpdate<&SafetyFilter::Update>(Every{params_.period}, Writes(c_, u_, l_, activity_),
+                                       solution, command, velocity);
+  DeclareRole(Limits{.shown = Limits::Shown::kListed,
+                     .signal = activity,
+                     .member = "bounds",
+                     .period = params_.period});
+  DeclareRole(Remarks{.notes = [this] { return std::vector<std::string>{DescribeMargin()}; }});
+}
+
+std::string SafetyFilter::DescribeMargin() const {
+  const double reach = Reach();
+  const double fastest = model_->velocity_limits().sum();
+  std::string text = fmt::format(
+      "keeps {} m, less {:.3g} m while its joint speeds add up to 1 rad/s, {:.3g} m with obstacles "
+      "at 1 m/s besides",
+      params_.safe_distance, TickMargin(1.0, reach, 0.0), TickMargin(1.0, reach, 1.0));
+  if (std::isfinite(fastest)) {
+    text +=
+        fmt::format(", {:.3g} m with all joints at their limits", TickMargin(fastest, reach, 0.0));
+  }
+  return text;
+}
+
+void SafetyFilter::Start(VectorView measured, MutableVectorView c) const { c = measured; }
+
+void SafetyFilter::Update(const FilterSolution& result, OptionalVector sent, OptionalVector rate,
+                          MutableVectorView c, MutableVectorView u, MutableVectorView l,
+                          FilterActivity& last) const {
+  if (sent) {
+    c = *sent;
+  } else {
+    c += u * params_.period.seconds();
+  }
+  u = result.velocity;
+  const double dt = params_.period.seconds();
+  l *= std::max(1.0 - dt / kFading, 0.0);
+  if (rate) l += dt * rate->cwiseAbs();
+  last = result.activity;
+}
+
+void SafetyFilter::CalcDelta(VectorView request, VectorView c, VectorView u,
+                             MutableVectorView out) const {
+  out = c + u * params_.period.seconds() - request;
+}
+
+void SafetyFilter::CalcSolution(const ProximitySet& set, const LinkPoses& poses, VectorView request,
+                                OptionalVector rate, OptionalVector rate_rate, OptionalVector sent,
+                                const ClearMotion* clear_motion, VectorView c, VectorView u,
+                                VectorView l, const FilterActivity& last,
+                                FilterSolution& result) const {
+  if (!result.workspace) {
+    result.workspace.emplace(model_->num_positions(), params_.most_rows);
+    result.velocity.resize(model_->num_positions());
+  }
+  const double dt = params_.period.seconds();
+  FilterSolution::Workspace& work = *result.workspace;
+  if (sent) {
+    work.command = *sent;
+  } else {
+    work.command = c + u * dt;
+  }
+  work.last_velocity = (work.command - c) / dt;
+  result.activity = {};
+  const auto X_WL = PosesInOrder(*model_, poses, work.reordered);
+  FillBox(result);
+  FillWish(request, rate, rate_rate, l, result);
+  FillRows(set, X_WL, clear_motion, result);
+  FillGuess(set, last, result);
+  work.solver.Solve(work.qp, work.solution);
+  result.velocity = work.solution.u;
+  if (work.solution.status != qp::QpStatus::kOptimal) Brake(result);
+  Report(set, X_WL, result);
+}
+
+}  // namespace oca::systems
+
+namespace oca {
+
+using systems::FilterActivity;
+using systems::FilterSolution;
+
+Fault Signal<FilterSolution>::Check(const FilterSolution& value, Look look) {
+  if (!AllFinite(value.velocity.data(), static_cast<std::size_t>(value.velocity.size())))
+    return Fault::UnlessFinite(false);
+  return Signal<FilterActivity>::Check(value.activity, look);
+}
+
+void Signal<FilterSolution>::WriteJson(const FilterSolution& value, std::string& out) {
+  out += R"({"velocity":)";
+  WriteVectorJson(value.velocity.data(), static_cast<std::size_t>(value.velocity.size()), out);
+  out += R"(,"activity":)";
+  Signal<FilterActivity>::WriteJson(value.activity, out);
+  out += '}';
+}
+
+FilterSolution Signal<FilterSolution>::ReadJson(std::string_view text) {
+  const systems::Json json = systems::ParseJson(text);
+  systems::JsonReader(json, "solution").CheckKeys({"velocity", "activity"});
+  FilterSolution value;
+  value.velocity = ReadVectorJson(json["velocity"].dump());
+  value.activity = Signal<FilterActivity>::ReadJson(json["activity"].dump());
+  return value;
+}
+
+}  // namespace oca

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/systems/methods/servo_scaling.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "oca/framework/dataflow/error.h"
+#include "oca/models/robot/robot_model.h"
+#include "oca/systems/methods/velocity_methods.h"
+#include "oca/systems/sensing/model_links.h"
+#include "oca/systems/signals/roles.h"
+
+namespace oca::systems {
+namespace {
+
+const double kFallOff = std::log(1000.0);  // the law at contact is 1/1000
+// An approach that is slowed in full, m/s.
+constexpr double kFullApproach = 0.02;
+
+}  // namespace
+
+void ServoScaling::Params::Describe(Fields<Params>& fields) {
+  fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
+  fields.Add("period", &Params::period, "s", "control period").Above(0.0).Required();
+  fields
+      .Add("slow_distance", &Params::slow_distance, "m",
+           "from an obstacle, below which the motion is slowed")
+      .Above(0.0);
+  fields
+      .Add("own_slow_distance", &Params::own_slow_distance, "m",
+           "between two links of the arm, likewise")
+      .Above(0.0);
+  fields.Add("approach_only", &Params::approach_only, "",
+             "true: a motion away from obstacles is not slowed; false: Servo's own law");
+}
+
+ServoScaling::ServoScaling(const Params& params, const ModelSet& models)
+    : params_(Validated(params)),
+      model_(FilteredModel(models, params.model)),
+      s_(DeclareDiscreteState("s", {1, "s"}, 0.0)),
+      proximities(DeclareInput<ProximitySet>("proximities")),
+      links(DeclareInput<LinkPoses>("links")),
+      ahead(DeclareInput<RequestAhead>("ahead")),
+      position(DeclareInput<Vector>("position", DeltaSpec(*model_))),
+      solution(DeclareOutput<AvoidanceVelocity, &ServoScaling::CalcSolution>(
+          "solution", {}, proximities, links, ahead, s_)),
+      scale(DeclareOutput<Vector, &ServoScaling::CalcScale>("scale", {1, Unit::Any()}, solution)),
+      delta(DeclareOutput<Vector, &ServoScaling::CalcDelta>("delta", DeltaSpec(*model_), ahead,
+                                                            position, s_)),
+      path_time(DeclareStateOutput("path_time", s_)) {
+  DeclareInitialization<&ServoScaling::Start>(Writes(s_), kTime);
+  DeclareUpdate<&ServoScaling::Update>(Every{params_.period}, Writes(s_), kTime, scale);
+  DeclareRole(Limits{.shown = Limits::Shown::kBelow,
+                     .signal = scale,
+                     .bound = {1.0},
+                     .how = "slowed",
+                     .period = params_.period});
+}
+
+double ServoScaling::Law(double distance, bool own) const {
+  const double slow = own ? params_.own_slow_distance : params_.slow_distance;
+  if (distance >= slow) return 1.0;
+  return distance > 0.0 ? std::exp(kFallOff * (distance / slow - 1.0)) : 0.0;
+}
+
+const Trajectory* ServoScaling::Known(const RequestAhead& request) const {
+  const Trajectory* known = request.trajectory.get();
+  if (known == nullptr || known->size() == model_->num_positions()) return known;
+  throw ConfigError(fmt::format("ahead: length; got {} joints; expected {}", known->size(),
+                                model_->num_positions()));
+}
+
+void ServoScaling::Start(double time, MutableVectorView s) const { s[0] = time; }
+
+void ServoScaling::CalcSolution(const ProximitySet& set, const LinkPoses& poses,
+                                const RequestAhead& request, VectorView s,
+                                AvoidanceVelocity& result) const {
+  const auto X_WL = PosesInOrder(*model_, poses, result.reordered);
+  robot::JointVector rate = robot::JointVector::Zero(model_->num_positions());
+  const Trajectory* known = Known(request);
+  if (known != nullptr) known->Evaluate(s[0], 1, rate);
+  double least = known != nullptr ? 1.0 : 0.0;
+  result.rows = 0;
+  for (const Proximity& proximity : set.proximities) {
+    const double law = Law(proximity.distance, !proximity.own_link.empty());
+    if (law >= 1.0) continue;
+    ++result.rows;
+    double counts = 1.0;
+    if (params_.approach_only) {
+      const double approach = -RowOf(*model_, X_WL, proximity).dot(rate);
+      counts = robot::Fade(-approach, -kFullApproach, 0.0);
+    }
+    least = std::min(least, 1.0 - counts * (1.0 - law));
+  }
+  result.share = 1.0 - least;
+  result.velocity = least * rate;
+}
+
+void ServoScaling::CalcScale(const AvoidanceVelocity& result, MutableVectorView out) const {
+  out[0] = 1.0 - result.share;
+}
+
+void ServoScaling::CalcDelta(const RequestAhead& request, VectorView now, VectorView s,
+                             MutableVectorView out) const {
+  const Trajectory* known = Known(request);
+  if (known == nullptr) {
+    out.setZero();
+    return;
+  }
+  known->Evaluate(s[0], 0, out);
+  out -= now;
+}
+
+/// What was never slowed is exactly on time, as a sum of periods would not be.
+void ServoScaling::Update(double time, VectorView value, MutableVectorView s) const {
+  const bool on_time = s[0] == time && value[0] == 1.0;
+  s[0] = on_time ? params_.period.TickAfter(time) : s[0] + value[0] * params_.period.seconds();
+}
+
+}  // namespace oca::systems

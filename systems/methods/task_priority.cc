@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/systems/methods/task_priority.h"
+
+#include <algorithm>
+
+#include "oca/models/robot/kinematics.h"
+#include "oca/models/robot/robot_model.h"
+#include "oca/systems/basics/require.h"
+#include "oca/systems/methods/velocity_methods.h"
+#include "oca/systems/sensing/model_links.h"
+#include "oca/systems/signals/roles.h"
+
+namespace oca::systems {
+namespace {
+
+// A row that falls short by this much counts in full, m/s.
+constexpr double kFullShortfall = 0.1;
+// Share of activation_distance within which a row counts in full.
+constexpr double kFullShare = 0.5;
+// Where a row begins to weigh more than others that are far, and what bounds that at contact, m.
+constexpr double kClose = 0.05;
+constexpr double kContact = 0.01;
+
+TaskPriority::Params Checked(const TaskPriority::Params& params) {
+  Validated(params);
+  RequireAbove("swap_distance", params.swap_distance, params.contact_distance);
+  RequireAtLeast("damping_threshold", params.damping_threshold, params.most_damping);
+  return params;
+}
+
+}  // namespace
+
+struct TaskPriority::Rows {
+  robot::JointMatrix M;  ///< sum a J_o^T J_o
+  robot::JointVector b;  ///< sum a J_o^T e
+  double swap{0.0};
+  int count{0};
+};
+
+void TaskPriority::Params::Describe(Fields<Params>& fields) {
+  fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
+  fields.Add("tip", &Params::tip, "", "link whose motion is kept; may be left out if one is last");
+  fields.Add("tip_task", &Params::tip_task, "", "what of it is kept: position or pose");
+  fields.Add("safe_distance", &Params::safe_distance, "m", "distance that is aimed at").AtLeast(0);
+  fields
+      .Add("approach_gain", &Params::approach_gain, "1/s",
+           "share of the distance left that may be used up in a second")
+      .Above(0.0);
+  fields
+      .Add("retreat_speed", &Params::retreat_speed, "m/s",
+           "largest speed of a retreat from an obstacle at rest")
+      .AtLeast(0.0);
+  fields
+      .Add("activation_distance", &Params::activation_distance, "m",
+           "from where on a proximity counts; in full at half of it")
+      .Above(0.0);
+  fields
+      .Add("swap_distance", &Params::swap_distance, "m",
+           "from where on the roles of tip and avoidance swap; above contact_distance")
+      .Above(0.0);
+  fields.Add("contact_distance", &Params::contact_distance, "m", "where they have swapped")
+      .AtLeast(0.0);
+  fields.Add("most_damping", &Params::most_damping, "m/rad", "damping of a singular direction")
+      .Above(0.0);
+  fields
+      .Add("damping_threshold", &Params::damping_threshold, "m/rad",
+           "singular value below which there is damping; at least most_damping")
+      .Above(0.0);
+}
+
+TaskPriority::TaskPriority(const Params& params, const ModelSet& models)
+    : params_(Checked(params)),
+      model_(FilteredModel(models, params.model)),
+      tip_(TipNumber(*model_, params.tip)),
+      damping_{params.most_damping, params.damping_threshold},
+      proximities(DeclareInput<ProximitySet>("proximities")),
+      links(DeclareInput<LinkPoses>("links")),
+      wish(DeclareInput<Vector>("wish", RateSpec(*model_))),
+      solution(DeclareOutput<AvoidanceVelocity, &TaskPriority::CalcSolution>(
+          "solution", {}, proximities, links, wish)),
+      velocity(DeclareOutput<Vector, &TaskPriority::CalcVelocity>("velocity", RateSpec(*model_),
+                                                                  solution)) {
+  DeclareRole(Limits{.shown = Limits::Shown::kAbove,
+                     .signal = solution,
+                     .bound = {0.0},
+                     .member = "rows",
+                     .how = "evading"});
+}
+
+robot::JointMatrix TaskPriority::TipTaskMatrix(std::span<const Eigen::Isometry3d> X_WL) const {
+  Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, robot::kMostFilteredJoints> J(
+      6, model_->num_positions());
+  robot::LinkJacobian(*model_, X_WL, tip_, J);
+  if (params_.tip_task == TipTask::kPosition) J.bottomRows<3>().setZero();
+  return J.transpose().lazyProduct(J);
+}
+
+void TaskPriority::AddRow(const Proximity& proximity, std::span<const Eigen::Isometry3d> X_WL,
+                          VectorView request, Rows& rows) const {
+  const double d = proximity.distance;
+  rows.swap = std::max(rows.swap, robot::Fade(d, params_.contact_distance, params_.swap_distance));
+  const double near =
+      robot::Fade(d, kFullShare * params_.activation_distance, params_.activation_distance);
+  if (near <= 0.0) return;
+  const robot::JointVector J = RowOf(*model_, X_WL, proximity);
+  const double speed =
+      std::min(params_.approach_gain * (params_.safe_distance - d), params_.retreat_speed);
+  const double asked = proximity.normal.dot(proximity.obstacle_velocity) + speed;
+  const double e = asked - J.dot(request);
+  if (e <= 0.0) return;
+  const double closeness = kClose / (std::max(d, 0.0) + kContact);
+  const double weight = near * std::min(1.0, e / kFullShortfall) * (1.0 + closeness * closeness);
+  rows.M += (weight * J).lazyProduct(J.transpose());
+  rows.b += weight * e * J;
+  ++rows.count;
+}
+
+void TaskPriority::CalcSolution(const ProximitySet& set, const LinkPoses& poses, VectorView request,
+                                AvoidanceVelocity& result) const {
+  const auto X_WL = PosesInOrder(*model_, poses, result.reordered);
+  const Eigen::Index n = request.size();
+  Rows rows{robot::JointMatrix::Zero(n, n), robot::JointVector::Zero(n)};
+  for (const Proximity& proximity : set.proximities) AddRow(proximity, X_WL, request, rows);
+  result.velocity = request;
+  result.share = rows.swap;
+  result.rows = rows.count;
+  if (rows.count == 0) return;
+  if (rows.swap < 1.0) {
+    const robot::JointMatrix N = robot::FilteredNullspace(TipTaskMatrix(X_WL), damping_);
+    const robot::JointMatrix NM = N.lazyProduct(rows.M);
+    const robot::JointVector aside = robot::SolveFiltered(NM.lazyProduct(N), N * rows.b, damping_);
+    result.velocity += (1.0 - rows.swap) * (N * aside);
+  }
+  if (rows.swap > 0.0) {
+    result.velocity += rows.swap * robot::SolveFiltered(rows.M, rows.b, damping_);
+  }
+}
+
+void TaskPriority::CalcVelocity(const AvoidanceVelocity& result, MutableVectorView out) const {
+  out = result.velocity;
+}
+
+}  // namespace oca::systems

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/systems/plants/integrator_plant.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "oca/framework/dataflow/error.h"
+#include "oca/systems/basics/require.h"
+#include "oca/systems/signals/roles.h"
+
+namespace oca::systems {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+IntegratorPlant::Params Checked(const IntegratorPlant::Params& params) {
+  Validated(params);
+  if (params.order == 1 && !params.initial_velocity.values().isZero(0.0)) {
+    throw ConfigError(
+        "initial_velocity: order 1 has no velocity state; got a value; expected none, or order 2");
+  }
+  if (params.lower && params.upper) {
+    RequireOrdered("lower", *params.lower, "upper", *params.upper);
+  }
+  if (params.lower) {
+    RequireOrdered("lower", *params.lower, "initial_position", params.initial_position);
+  }
+  if (params.upper) {
+    RequireOrdered("initial_position", params.initial_position, "upper", *params.upper);
+  }
+  return params;
+}
+
+}  // namespace
+
+void IntegratorPlant::Params::Describe(Fields<Params>& fields) {
+  fields.Add("order", &Params::order, "", "1: the command is a velocity; 2: an acceleration")
+      .AtLeast(1)
+      .AtMost(2);
+  fields.Add("initial_position", &Params::initial_position, "rad", "position at the start");
+  fields.Add("initial_velocity", &Params::initial_velocity, "rad/s",
+             "velocity at the start, order 2 only");
+  fields.Add("lower", &Params::lower, "rad", "lower stop; absent: none");
+  fields.Add("upper", &Params::upper, "rad", "upper stop; absent: none");
+  fields.Add("unit", &Params::unit, "", "unit of the position");
+}
+
+IntegratorPlant::IntegratorPlant(const Params& params)
+    : params_(Checked(params)),
+      lower_(params_.lower.value_or(-kInfinity)),
+      upper_(params_.upper.value_or(kInfinity)),
+      spec_{DeclareSize({{"initial_position", &params_.initial_position},
+                         {"initial_velocity", &params_.initial_velocity},
+                         {"lower", &lower_},
+                         {"upper", &upper_}}),
+            Unit(params_.unit)},
+      rate_spec_{spec_.size, spec_.unit.Rate()},
+      position_(DeclareContinuousState("position", spec_, params_.initial_position)),
+      velocity_(DeclareVelocity()),
+      command(DeclareInput<Vector>(
+          "command", {spec_.size, params_.order == 1 ? rate_spec_.unit : rate_spec_.unit.Rate()})),
+      position(DeclareShownPosition()),
+      velocity(DeclareShownVelocity()) {
+  constexpr auto kFree = &IntegratorPlant::CalcFree;
+  if (params_.order == 1) {
+    DeclareDerivative<kFree>(position_, command, position_);
+  } else {
+    DeclareDerivative<kFree>(position_, velocity_, position_);
+    DeclareDerivative<kFree>(velocity_, command, position_);
+  }
+  DeclareRole(Boundary{"the joints"});
+  DeclareRole(Plant{.command = command, .position = position, .velocity = velocity});
+  DeclareRole(Plots{.id = "speed", .title = "Joint speeds", .signal = velocity});
+}
+
+ContinuousState IntegratorPlant::DeclareVelocity() {
+  if (params_.order == 1) return {};
+  return DeclareContinuousState("velocity", rate_spec_, params_.initial_velocity);
+}
+
+Output<Vector> IntegratorPlant::DeclareShownPosition() {
+  if (!limited()) return DeclareStateOutput("position", position_);
+  return DeclareOutput<Vector, &IntegratorPlant::CalcShownPosition>("position", spec_, position_);
+}
+
+Output<Vector> IntegratorPlant::DeclareShownVelocity() {
+  constexpr auto kFree = &IntegratorPlant::CalcFree;
+  if (params_.order == 1) {
+    return DeclareOutput<Vector, kFree>("velocity", rate_spec_, command, position_);
+  }
+  if (!limited()) return DeclareStateOutput("velocity", velocity_);
+  return DeclareOutput<Vector, kFree>("velocity", rate_spec_, velocity_, position_);
+}
+
+void IntegratorPlant::CalcFree(VectorView push, VectorView q, MutableVectorView free) const {
+  for (Eigen::Index i = 0; i < q.size(); ++i) {
+    const bool into_stop =
+        (q[i] >= upper_[i] && push[i] > 0.0) || (q[i] <= lower_[i] && push[i] < 0.0);
+    free[i] = into_stop ? 0.0 : push[i];
+  }
+}
+
+void IntegratorPlant::CalcShownPosition(VectorView q, MutableVectorView shown) const {
+  for (Eigen::Index i = 0; i < q.size(); ++i) shown[i] = std::clamp(q[i], lower_[i], upper_[i]);
+}
+
+}  // namespace oca::systems

@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/systems/sensing/bullet_distance.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+
+#include "oca/framework/dataflow/error.h"
+#include "oca/models/error.h"
+#include "oca/models/robot/kinematics.h"
+#include "oca/systems/sensing/distance_blind_spots.h"
+#include "oca/systems/sensing/model_links.h"
+#include "oca/systems/signals/roles.h"
+
+namespace oca::systems {
+namespace {
+
+constexpr std::size_t kMostMoving = 8;
+
+template <std::size_t>
+using PosesOfOne = LinkPoses;  // as many as there are indices
+
+// An empty name stands for the only model there is.
+std::string NameOfModel(const ModelSet& models, const std::string& name) {
+  return name.empty() && models.all().size() == 1 ? models.all().begin()->first : name;
+}
+
+bool Moves(const robot::RobotModel& model) { return model.num_positions() > 0; }
+
+int LowestMovable(const robot::RobotModel& model) {
+  return model.bodies().empty() ? -1 : model.bodies().front();
+}
+
+Proximity ToProximity(models::Name link, models::Name obstacle,
+                      const geometry::SignedDistance& found) {
+  Proximity proximity{link, obstacle};
+  proximity.distance = found.distance;
+  proximity.point_on_link = found.point_a;
+  proximity.point_on_obstacle = found.point_b;
+  proximity.normal = found.normal;
+  return proximity;
+}
+
+// The same pair from the other side.
+Proximity Mirrored(const Proximity& pair, models::Name obstacle) {
+  Proximity mirrored{pair.own_link, obstacle};
+  mirrored.distance = pair.distance;
+  mirrored.point_on_link = pair.point_on_obstacle;
+  mirrored.point_on_obstacle = pair.point_on_link;
+  mirrored.normal = -pair.normal;
+  mirrored.own_link = pair.link;
+  return mirrored;
+}
+
+// Bound on the speed of all points of a link; 0 if its pose does not come in.
+double SpeedOf(const LinkCollider& link, const LinkPoses& poses) {
+  const int at = poses.Find(link.link, link.number);
+  if (at < 0) return 0.0;
+  const robot::LinkVelocity& V = poses.velocities[at];
+  return SpeedBound(V.linear, V.angular, poses.poses[at], {link.centre, link.radius});
+}
+
+}  // namespace
+
+void BulletDistance::Params::Describe(Fields<Params>& fields) {
+  fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
+  fields.Add("max_distance", &Params::max_distance, "m", "distance beyond which pairs are left out")
+      .Above(0.0);
+  fields.Add("ignore", &Params::ignore, "",
+             "pairs [link, obstacle id or model/link] that are left out");
+  fields.Add("calculate_link_forces", &Params::calculate_link_forces, "",
+             "whether links of other robots and frames count as obstacles");
+  fields.Add("self_collision", &Params::self_collision, "",
+             "whether links of the robot itself count as obstacles, but for adjacent ones and "
+             "those disabled in the SRDF");
+  fields.Add("others", &Params::others, "", "models whose links count as obstacles");
+}
+
+BulletDistance::BulletDistance(const Params& params, const ModelSet& models)
+    : name_(NameOfModel(models, Validated(params).model)),
+      model_(MovableModel(models, params.model)),
+      max_distance_(params.max_distance),
+      self_collision_(params.self_collision),
+      link_forces_(params.calculate_link_forces),
+      movable_(MakeMovable()),
+      own_(self_collision_ ? MakeNeighbours(name_, *model_) : std::vector<Neighbour>()),
+      others_(MakeOthers(params, models)),
+      moving_others_(std::count_if(others_.begin(), others_.end(),
+                                   [](const Other& other) { return Moves(*other.model); })),
+      ignored_(MakeIgnored(params, models)),
+      at_links_(LooksAtLinks()),
+      links(DeclareInput<LinkPoses>("links")),
+      obstacles(DeclareInput<ObstacleSet>("obstacles")),
+      links_of_others(DeclareOtherLinks()),
+      scene(DeclareOutput<ObstacleScene, &BulletDistance::CalcScene>("scene", {}, obstacles)),
+      near(DeclareOutput<NearObstacles, &BulletDistance::CalcNear>("near", {}, links, scene)),
+      proximities(DeclareProximities(link_forces_ ? moving_others_ : 0)) {
+  DeclareRoles(params, models);
+}
+
+void BulletDistance::DeclareRoles(const Params& params, const ModelSet& models) {
+  MeasuresDistances measures{.proximities = proximities,
+                             .obstacles = obstacles,
+                             .model = name_,
+                             .own_links = self_collision_};
+  for (const std::string& name : link_forces_ ? params.others : std::vector<std::string>()) {
+    std::size_t i = 0;
+    while (others_[i].name != name) ++i;
+    const bool moves = i < links_of_others.size();
+    measures.others.push_back({name, moves ? InputHandle(links_of_others[i]) : InputHandle{}});
+  }
+  for (const auto& pair : params.ignore) measures.ignored.emplace_back(pair[0], pair[1]);
+  DeclareRole(std::move(measures));
+  DeclareRole(BlindSpots{.spots =
+                             [params, models](const std::string& own_name) {
+                               return DistanceBlindSpots(params, models, own_name);
+                             },
+                         .behind = obstacles});
+  DeclareRole(Plots{.id = "distance", .title = "Distances", .signal = proximities, .unit = "m"});
+}
+
+std::vector<BulletDistance::Neighbour> BulletDistance::MakeNeighbours(
+    const std::string& name, const robot::RobotModel& model) {
+  std::vector<Neighbour> neighbours;
+  std::vector<Eigen::Isometry3d> X_WL;
+  if (!Moves(model)) X_WL = robot::LinkPoses(model, Eigen::VectorXd(0));
+  for (LinkCollider& collider : MakeLinkColliders(model)) {
+    const int link = collider.number;
+    const models::Name full_name(name + "/" + collider.link.text());
+    const bool lowest =
+        Moves(model) && (model.body(link) < 0 || model.body(link) == LowestMovable(model));
+    neighbours.push_back({std::move(collider), full_name, lowest,
+                          X_WL.empty() ? Eigen::Isometry3d::Identity() : X_WL[link]});
+  }
+  return neighbours;
+}
+
+std::vector<BulletDistance::Other> BulletDistance::MakeOthers(const Params& params,
+                                                              const ModelSet& models) {
+  if (params.calculate_link_forces && params.others.empty()) {
+    std::vector<std::string> names;
+    for (const auto& entry : models.all()) {
+      if (entry.first != NameOfModel(models, params.model)) names.push_back(entry.first);
+    }
+    throw ConfigError(fmt::format(
+        "calculate_link_forces: got true without `others`; expected the models whose links push{}",
+        names.empty()
+            ? "; the file has no other model (self_collision is for the robot's own links)"
+            : fmt::format(", of: {}", fmt::join(names, ", "))));
+  }
+  std::vector<Other> others;
+  for (const std::string& name : params.others) {
+    const auto model = models.Get(name);
+    const bool again = std::any_of(others.begin(), others.end(),
+                                   [&](const Other& other) { return other.name == name; });
+    if (name.empty() || again || name == NameOfModel(models, params.model)) {
+      throw ConfigError(
+          fmt::format("others: got '{}'; expected each other model once by its name", name));
+    }
+    others.push_back({name, model, MakeNeighbours(name, *model)});
+  }
+  std::stable_partition(others.begin(), others.end(),
+                        [](const Other& other) { return Moves(*other.model); });
+  return others;
+}
+
+std::vector<std::pair<models::Name, models::Name>> BulletDistance::MakeIgnored(
+    const Params& params, const ModelSet& models) const {
+  std::vector<std::pair<models::Name, models::Name>> ignored;
+  for (std::size_t i = 0; i < params.ignore.size(); ++i) {
+    const auto& pair = params.ignore[i];
+    if (pair.size() != 2) {
+      throw ConfigError(
+          fmt::format("ignore[{}]: got {} names; expected 2: [link, obstacle]", i, pair.size()));
+    }
+    const std::size_t slash = pair[1].find('/');
+    const std::string model = pair[1].substr(0, slash);
+    try {
+      model_->FindLink(pair[0]);
+      if (pair[1].empty() || slash == 0) {
+        throw ConfigError(
+            fmt::format("obstacle; got '{}'; expected the id of one or model/link", pair[1]));
+      }
+      if (slash != std::string::npos) models.Get(model)->FindLink(pair[1].substr(slash + 1));
+    } catch (const std::runtime_error& error) {
+      throw ConfigError(fmt::format("ignore[{}]: {}", i, error.what()));
+    }
+    ignored.emplace_back(pair[0], pair[1]);
+    if (slash == std::string::npos || model != name_) continue;
+    ignored.emplace_back(pair[1].substr(slash + 1), name_ + "/" + pair[0]);
+  }
+  return ignored;
+}
+
+std::vector<Input<LinkPoses>> BulletDistance::DeclareOtherLinks() {
+  if (moving_others_ > kMostMoving) {
+    throw ConfigError(
+        fmt::format("others: got {} that move; expected at most {}", moving_others_, kMostMoving));
+  }
+  std::vector<Input<LinkPoses>> inputs;
+  for (std::size_t i = 0; i < moving_others_; ++i) {
+    inputs.push_back(DeclareInput<LinkPoses>("links_" + others_[i].name));
+  }
+  return inputs;
+}
+
+// What is not looked at is not read: the inputs of `others` stay, whatever the switch says.
+template <std::size_t kMoving>
+Output<ProximitySet> BulletDistance::DeclareProximities(std::size_t moving) {
+  if constexpr (kMoving < kMostMoving) {
+    if (moving > kMoving) return DeclareProximities<kMoving + 1>(moving);
+  }
+  return [this]<std::size_t... I>(std::index_sequence<I...>) {
+    return DeclareOutput<ProximitySet, &BulletDistance::CalcProximities<PosesOfOne<I>...>>(
+        "proximities", {}, links, obstacles, scene, near, links_of_others[I]...);
+  }
+  (std::make_index_sequence<kMoving>());
+}
+
+void BulletDistance::CalcNear(const LinkPoses& poses, const ObstacleScene& of,
+                              NearObstacles& result) const {
+  CheckNames(poses);
+  result.Clear(movable_.size(), of.capacity());
+  for (const LinkCollider& link : movable_) {
+    const int index = poses.Find(link.link, link.number);
+    if (index < 0) {
+      result.AddNone();
+    } else {
+      result.Add(of.balls(), poses.poses[index] * link.centre, link.radius + max_distance_);
+    }
+  }
+}
+
+template <class... Poses>
+void BulletDistance::CalcProximities(const LinkPoses& poses, const ObstacleSet& set,
+                                     const ObstacleScene& of, const NearObstacles& candidates,
+                                     const Poses&... others, ProximitySet& result) const {
+  const std::array<const LinkPoses*, sizeof...(Poses)> poses_of_others{&others...};
+  result.fastest = of.fastest();
+  Find(poses, set, candidates, poses_of_others, result);
+}
+
+void BulletDistance::Find(const LinkPoses& poses, const ObstacleSet& set,
+                          const NearObstacles& candidates, std::span<const LinkPoses* const> others,
+                          ProximitySet& result) const {
+  result.max_distance = max_distance_;
+  result.compared = Compares(poses, set);
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    CheckVelocities(others_[i], *others[i]);
+    for (const Neighbour& other : others_[i].links) {
+      result.fastest = std::max(result.fastest, SpeedOf(other.collider, *others[i]));
+    }
+  }
+  std::size_t most = set.obstacles.capacity() + own_.size();
+  for (const Other& other : others_) most += other.links.size();
+  result.proximities.clear();
+  result.proximities.reserve(movable_.size() * most);  // so that no pair that comes near allocates
+  for (std::size_t i = 0; i < movable_.size(); ++i) {
+    const LinkCollider& link = movable_[i];
+    const int index = poses.Find(link.link, link.number);
+    if (index < 0) continue;
+    AddObstacles(link, poses.poses[index], set, candidates.of(i), result);
+    AddOwnLinks(link, poses, index, result);
+    if (link_forces_) AddLinksOfOthers(link, poses.poses[index], others, result);
+  }
+}
+
+void BulletDistance::AddObstacles(const LinkCollider& link, const Eigen::Isometry3d& X_WL,
+                                  const ObstacleSet& set, std::span<const int> candidates,
+                                  ProximitySet& result) const {
+  for (const int place : candidates) {
+    const Obstacle& obstacle = set.obstacles[static_cast<std::size_t>(place)];
+    if (Ignored(link.link, obstacle.body->id)) continue;
+    const geometry::Collider& collider = *obstacle.body->collider;
+    const auto found = DistanceToBody(link, X_WL, collider, obstacle.X_WO, max_distance_);
+    if (found.status == geometry::DistanceStatus::kBeyond) continue;
+    Proximity& proximity =
+        result.proximities.emplace_back(ToProximity(link.link, obstacle.body->id, found));
+    proximity.obstacle_velocity = obstacle.VelocityAt(found.point_b);
+    proximity.obstacle_speed = SpeedBound(obstacle);
+  }
+}
+
+void BulletDistance::AddOwnLinks(const LinkCollider& link, const LinkPoses& poses, int index,
+                                 ProximitySet& result) const {
+  std::size_t next = 0;  // up to here all pairs with this link are mirrored; they come in order
+  const std::size_t end = result.proximities.size();
+  for (const Neighbour& own : own_) {
+    const int number = own.collider.number;
+    if (model_->adjacent(link.number, number) || model_->collision_disabled(link.number, number)) {
+      continue;
+    }
+    if (number < link.number && model_->body(number) >= 0) {
+      const auto& found = result.proximities;
+      while (next < end && !(found[next].own_link == link.link)) ++next;
+      if (next == end || !(found[next].link == own.collider.link)) continue;  // is beyond
+      result.proximities.push_back(Mirrored(found[next++], own.name));
+      continue;
+    }
+    const int at = poses.Find(own.collider.link, number);
+    if (at >= 0 && AddOther(link, poses.poses[index], own, poses.poses[at], result)) {
+      result.proximities.back().own_link = own.collider.link;
+    }
+  }
+}
+
+void BulletDistance::AddLinksOfOthers(const LinkCollider& link, const Eigen::Isometry3d& X_WL,
+                                      std::span<const LinkPoses* const> others,
+                                      ProximitySet& result) const {
+  const bool lowest = model_->body(link.number) == LowestMovable(*model_);
+  for (std::size_t i = 0; i < others_.size(); ++i) {
+    for (const Neighbour& other : others_[i].links) {
+      if (lowest && other.lowest) continue;
+      if (i >= moving_others_) {
+        AddOther(link, X_WL, other, other.X, result);
+        continue;
+      }
+      const int at = others[i]->Find(other.collider.link, other.collider.number);
+      if (at >= 0 && AddOther(link, X_WL, other, others[i]->poses[at], result)) {
+        Proximity& found = result.proximities.back();
+        found.obstacle_velocity = others[i]->VelocityAt(at, found.point_on_obstacle);
+        found.obstacle_speed = SpeedOf(other.collider, *others[i]);
+      }
+    }
+  }
+}
+
+bool BulletDistance::AddOther(const LinkCollider& link, const Eigen::Isometry3d& X_WL,
+                              const Neighbour& other, const Eigen::Isometry3d& X_WO,
+                              ProximitySet& result) const {
+  if (Ignored(link.link, other.name)) return false;
+  const auto found = DistanceToLink(link, X_WL, other.collider, X_WO, max_distance_);
+  if (found.status == geometry::DistanceStatus::kBeyond) return false;
+  result.proximities.push_back(ToProximity(link.link, other.name, found));
+  return true;
+}
+
+bool BulletDistance::Ignored(models::Name link, models::Name obstacle) const {
+  return std::any_of(ignored_.begin(), ignored_.end(), [&](const auto& pair) {
+    return pair.first == link && pair.second == obstacle;
+  });
+}
+
+void BulletDistance::CheckNames(const LinkPoses& poses) const {
+  const auto& own = model_->links();
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (i < own.size() && own[i].name == poses.links[i]) continue;
+    const bool known = std::any_of(own.begin(), own.end(), [&](const robot::Link& link) {
+      return link.name == poses.links[i];
+    });
+    if (known) continue;
+    throw ConfigError(fmt::format("links: got '{}'; expected a link of model '{}'",
+                                  poses.links[i].text(), name_));
+  }
+}
+
+// Who takes a moving arm for one at rest learns too late that it comes nearer.
+void BulletDistance::CheckVelocities(const Other& other, const LinkPoses& poses) const {
+  if (poses.velocities.size() == poses.size()) return;
+  throw ConfigError(fmt::format(
+      "links_{0}: got poses without velocities; expected both: connect the input `velocity` of the "
+      "RobotKinematics of '{0}'",
+      other.name));
+}
+
+}  // namespace oca::systems

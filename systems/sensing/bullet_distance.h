@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "oca/framework/dataflow/params.h"
+#include "oca/framework/dataflow/system.h"
+#include "oca/systems/sensing/link_colliders.h"
+#include "oca/systems/sensing/near_obstacles.h"
+#include "oca/systems/signals/model_set.h"
+#include "oca/systems/signals/signals.h"
+
+namespace oca::systems {
+
+/// Signed distances of the movable links of a robot to what is around them, nearest points and
+/// normals: one proximity for each link and obstacle, the least over the link's solids; in the
+/// order of the model's links, and for each link first obstacles, then, with self_collision, links
+/// of the same model, then, with calculate_link_forces, links of `others`. Pairs farther apart than
+/// max_distance are left out, as are links whose pose does not come in.
+///
+/// Links count as obstacles named <model>/<link>. A pair of the same model is listed from either
+/// side, so that its forces push both links apart; it is computed once, for the link that comes
+/// first, and the other side is its exact mirror. Links of `others` move with the velocities that
+/// come in with their poses. Left out are the pairs of `ignore` (of the same model from either
+/// side); of the same model those that are adjacent or disabled in the SRDF; and the lowest pair of
+/// two arms, which cannot avoid each other: the lowest movable link against the other arm's lowest
+/// movable link and what of the other arm cannot move.
+///
+/// The second name of an `ignore` with a slash is the link of a model, which must exist; one
+/// without is the id of an obstacle, which may appear at any time.
+///
+/// Pairs whose bounding balls are farther apart than max_distance are not looked at: balls around
+/// the obstacles form a tree, which only obstacles that move make work for, so many far ones cost
+/// little.
+///
+/// Every tick is computed afresh: warm starts would let the last bits depend on which ticks were
+/// looked at before.
+///
+/// in    links         LinkPoses    of `model`
+/// in    obstacles     ObstacleSet
+/// in    links_<name>  LinkPoses    for each of `others` that has movable joints; with velocities
+/// out   proximities   ProximitySet
+/// out   scene         ObstacleScene  the obstacles, arranged for searches
+/// out   near          NearObstacles  of each movable link that has solids, in the model's order
+/// state -
+/// throws ConfigError if a model or a link of `ignore` does not exist, no movable link of the model
+///        has a collision shape, a pair is no pair, max_distance is not positive,
+///        calculate_link_forces has no `others`, or more than 8 of them move; while running if a
+///        link comes in that is not of the model, or links of `others` without velocities
+/// source report section 3.2, Algorithm 2; docs/theory.md, Distances
+class BulletDistance final : public System {
+ public:
+  static constexpr SystemDoc kDoc{
+      "finds the nearest points of a robot's links and the obstacles",
+      "distance = min |p_link - p_obstacle|, or minus the depth of penetration",
+      "Jain, Sixt, Exner 2016, Algorithm 2"};
+  struct Params {
+    std::string model{};
+    double max_distance{0.3};
+    std::vector<std::vector<std::string>> ignore{};
+    bool calculate_link_forces{false};
+    bool self_collision{false};
+    std::vector<std::string> others{};
+    static void Describe(Fields<Params>& fields);
+  };
+  static Params Example() { return {}; }
+
+  BulletDistance(const Params& params, const ModelSet& models);
+
+ private:
+  /// A link that others keep away from.
+  struct Neighbour {
+    LinkCollider collider;
+    models::Name name;    ///< <model>/<link>
+    bool lowest;          ///< of an arm: the lowest that moves, or one that cannot
+    Eigen::Isometry3d X;  ///< in the world, if its model has no movable joint
+  };
+  struct Other {
+    std::string name;
+    std::shared_ptr<const robot::RobotModel> model;
+    std::vector<Neighbour> links;
+  };
+  static std::vector<Neighbour> MakeNeighbours(const std::string& name,
+                                               const robot::RobotModel& model);
+  static std::vector<Other> MakeOthers(const Params& params, const ModelSet& models);
+  std::vector<LinkCollider> MakeMovable() const;
+  std::vector<std::pair<models::Name, models::Name>> MakeIgnored(const Params& params,
+                                                                 const ModelSet& models) const;
+  std::vector<Input<LinkPoses>> DeclareOtherLinks();
+  template <std::size_t kMoving = 0>
+  Output<ProximitySet> DeclareProximities(std::size_t moving);
+  void DeclareRoles(const Params& params, const ModelSet& models);
+
+  void CalcScene(const ObstacleSet& set, ObstacleScene& result) const { result.Follow(set); }
+  void CalcNear(const LinkPoses& poses, const ObstacleScene& of, NearObstacles& result) const;
+  template <class... Poses>
+  void CalcProximities(const LinkPoses& poses, const ObstacleSet& set, const ObstacleScene& of,
+                       const NearObstacles& candidates, const Poses&... others,
+                       ProximitySet& result) const;
+  void Find(const LinkPoses& poses, const ObstacleSet& set, const NearObstacles& candidates,
+            std::span<const LinkPoses* const> others, ProximitySet& result) const;
+  void AddObstacles(const LinkCollider& link, const Eigen::Isometry3d& X_WL, const ObstacleSet& set,
+                    std::span<const int> candidates, ProximitySet& result) const;
+  void AddOwnLinks(const LinkCollider& link, const LinkPoses& poses, int index,
+                   ProximitySet& result) const;
+  void AddLinksOfOthers(const LinkCollider& link, const Eigen::Isometry3d& X_WL,
+                        std::span<const LinkPoses* const> others, ProximitySet& result) const;
+  bool AddOther(const LinkCollider& link, const Eigen::Isometry3d& X_WL, const Neighbour& other,
+                const Eigen::Isometry3d& X_WO, ProximitySet& result) const;
+  bool Ignored(models::Name link, models::Name obstacle) const;
+  bool LooksAt(const LinkCollider& link, const Neighbour& own) const;
+  bool LooksAtLinks() const;
+  bool Compares(const LinkPoses& poses, const ObstacleSet& set) const;
+  void CheckNames(const LinkPoses& poses) const;
+  void CheckVelocities(const Other& other, const LinkPoses& poses) const;
+
+  const std::string name_;
+  const std::shared_ptr<const robot::RobotModel> model_;
+  const double max_distance_;
+  const bool self_collision_;
+  const bool link_forces_;
+  const std::vector<LinkCollider> movable_;
+  const std::vector<Neighbour> own_;  ///< empty without self_collision
+  const std::vector<Other> others_;   ///< those that move first
+  const std::size_t moving_others_;
+  const std::vector<std::pair<models::Name, models::Name>> ignored_;
+  const bool at_links_;  ///< whether pairs with links are looked at, own ones or others'
+
+ public:
+  const Input<LinkPoses> links;
+  const Input<ObstacleSet> obstacles;
+  const std::vector<Input<LinkPoses>> links_of_others;
+  const Output<ObstacleScene> scene;
+  const Output<NearObstacles> near;
+  const Output<ProximitySet> proximities;
+};
+
+}  // namespace oca::systems

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/systems/sensing/obstacle_sensor.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "oca/framework/dataflow/error.h"
+#include "oca/models/random.h"
+#include "oca/systems/signals/roles.h"
+
+namespace oca::systems {
+namespace {
+
+ObstacleSensor::Params Checked(const ObstacleSensor::Params& params) {
+  Validated(params);
+  if (!(params.stale_until >= params.stale_from)) {
+    throw ConfigError(fmt::format("stale_until: got {} s; expected at least stale_from, {} s",
+                                  params.stale_until, params.stale_from));
+  }
+  return params;
+}
+
+int StepsOf(const ObstacleSensor::Params& params) {
+  const double steps = std::round(params.latency.seconds() / params.period.seconds());
+  const bool whole = steps <= ObstacleSensor::kMostSteps &&
+                     Period(params.period.numerator() * static_cast<std::int64_t>(steps),
+                            params.period.denominator()) == params.latency;
+  if (whole) return static_cast<int>(steps);
+  throw ConfigError(
+      fmt::format("latency: got {}; expected a whole number, at most {}, of periods "
+                  "of {}",
+                  params.latency.ToString(), ObstacleSensor::kMostSteps, params.period.ToString()));
+}
+
+// Standard normal. source Box, Muller 1958
+Eigen::Vector3d DrawNormal(models::Random& random) {
+  Eigen::Vector3d g;
+  for (double& x : g) {
+    const double r = std::sqrt(-2.0 * std::log(1.0 - random.Unit()));
+    x = r * std::cos(2.0 * std::numbers::pi * random.Unit());
+  }
+  return g;
+}
+
+}  // namespace
+
+void ObstacleSensor::Params::Describe(Fields<Params>& fields) {
+  using P = Params;
+  fields.Add("period", &P::period, "s", "time between samples").Above(0.0).Required();
+  fields.Add("latency", &P::latency, "s", "age of what is shown: a whole number of periods")
+      .AtLeast(0.0);
+  fields.Add("dropout", &P::dropout, "", "probability that a sample is lost")
+      .AtLeast(0.0)
+      .AtMost(1.0);
+  fields.Add("position_noise", &P::position_noise, "m", "standard deviation along each axis")
+      .AtLeast(0.0);
+  fields.Add("angle_noise", &P::angle_noise, "rad", "standard deviation about each axis")
+      .AtLeast(0.0);
+  fields.Add("stale_from", &P::stale_from, "s", "from when on no sample comes").AtLeast(0.0);
+  fields.Add("stale_until", &P::stale_until, "s", "until when").AtLeast(0.0);
+  fields.Add("seed", &P::seed, "", "of noise and losses").AtLeast(0.0);
+}
+
+ObstacleSensor::Params ObstacleSensor::Example() {
+  return {.period = Period(1, 100), .latency = Period(1, 50), .position_noise = 0.005};
+}
+
+ObstacleSensor::ObstacleSensor(const Params& params)
+    : params_(Checked(params)),
+      steps_(StepsOf(params_)),
+      line_(DeclareDiscreteState("line", SensorLine())),
+      in(DeclareInput<ObstacleSet>("in")),
+      obstacles(DeclareObstacles()) {
+  DeclareUpdate<&ObstacleSensor::Sample>(Every{params_.period}, Writes(line_), kTime, in);
+  DeclareRole(BlindSpots{.spots =
+                             [](const std::string& own_name) {
+                               return std::vector<std::string>{
+                                   fmt::format("obstacles but as '{}' reports them", own_name)};
+                             },
+                         .behind = in});
+}
+
+Output<ObstacleSet> ObstacleSensor::DeclareObstacles() {
+  if (steps_ > 0) {
+    return DeclareOutput<ObstacleSet, &ObstacleSensor::CalcLate>("obstacles", {}, line_);
+  }
+  return DeclareOutput<ObstacleSet, &ObstacleSensor::CalcNow>("obstacles", {}, kTime, in, line_);
+}
+
+std::int64_t ObstacleSensor::TickOf(double time) const { return params_.period.CountAt(time); }
+
+bool ObstacleSensor::Lost(std::int64_t tick) const {
+  const double time = params_.period.seconds(tick);
+  if (time >= params_.stale_from && time < params_.stale_until) return true;
+  const std::uint64_t seed = static_cast<std::uint64_t>(params_.seed);
+  models::Random random(models::Random::Seed(models::Random::Seed(seed, "dropout"),
+                                             static_cast<std::uint64_t>(tick)));
+  return random.Unit() < params_.dropout;
+}
+
+void ObstacleSensor::AddNoise(std::int64_t tick, ObstacleSet& set) const {
+  if (params_.position_noise == 0.0 && params_.angle_noise == 0.0) return;
+  const std::uint64_t seed = static_cast<std::uint64_t>(params_.seed);
+  models::Random random(
+      models::Random::Seed(models::Random::Seed(seed, "noise"), static_cast<std::uint64_t>(tick)));
+  for (Obstacle& obstacle : set.obstacles) {
+    obstacle.X_WO.translation() += params_.position_noise * DrawNormal(random);
+    const Eigen::Vector3d turn = params_.angle_noise * DrawNormal(random);
+    if (turn.isZero(0.0)) continue;
+    obstacle.X_WO.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix() *
+                             obstacle.X_WO.linear();
+  }
+  set.layout = 0;  // nothing stands where it stood
+}
+
+void ObstacleSensor::CalcLate(const SensorLine& line, ObstacleSet& set) const { set = line.held; }
+
+void ObstacleSensor::CalcNow(double time, const ObstacleSet& truth, const SensorLine& line,
+                             ObstacleSet& set) const {
+  const std::int64_t tick = TickOf(time);
+  const bool lost = Lost(tick);
+  set = lost ? line.held : truth;
+  if (!lost) AddNoise(tick, set);
+}
+
+void ObstacleSensor::Sample(double time, const ObstacleSet& truth, SensorLine& line) const {
+  const std::int64_t tick = TickOf(time);
+  if (steps_ == 0) {
+    if (Lost(tick)) return;
+    line.held = truth;
+    AddNoise(tick, line.held);
+    return;
+  }
+  if (line.ring.empty()) {
+    line.held.obstacles.reserve(truth.obstacles.capacity());
+    line.ring.resize(static_cast<std::size_t>(steps_));
+    for (ObstacleSet& set : line.ring) set.obstacles.reserve(truth.obstacles.capacity());
+  }
+  line.ring[static_cast<std::size_t>(line.next)] = truth;
+  line.next = (line.next + 1) % steps_;
+  // What is now the oldest is `latency` old at the next tick.
+  const std::int64_t oldest = tick - steps_ + 1;
+  if (oldest < 0 || Lost(oldest)) return;
+  line.held = line.ring[static_cast<std::size_t>(line.next)];
+  AddNoise(oldest, line.held);
+}
+
+}  // namespace oca::systems
+
+namespace oca {
+
+Fault Signal<systems::SensorLine>::Check(const systems::SensorLine& line, Look look) {
+  return Signal<systems::ObstacleSet>::Check(line.held, look);
+}
+
+void Signal<systems::SensorLine>::WriteJson(const systems::SensorLine& line, std::string& out) {
+  Signal<systems::ObstacleSet>::WriteJson(line.held, out);
+}
+
+systems::SensorLine Signal<systems::SensorLine>::ReadJson(std::string_view /*text*/) {
+  throw ConfigError("SensorLine: internal state; got JSON; expected none");
+}
+
+}  // namespace oca

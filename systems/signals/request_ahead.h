@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "oca/framework/dataflow/signal.h"
+#include "oca/systems/commands/trajectory.h"
+
+namespace oca::systems {
+
+/// The whole requested motion, for systems that plan ahead; null if nobody knows it. Copies share
+/// it. JSON: {"points": [{"time", "position", "velocity", "acceleration"}]}, the motion at its key
+/// points; read back it is the quintic spline through them.
+struct RequestAhead {
+  std::shared_ptr<const Trajectory> trajectory{};
+};
+
+}  // namespace oca::systems
+
+namespace oca {
+
+template <>
+struct Signal<systems::RequestAhead> {
+  static constexpr const char* kName = "RequestAhead";
+  static Fault Check(const systems::RequestAhead& /*value*/, Look /*look*/) { return {}; }
+  static void WriteJson(const systems::RequestAhead& value, std::string& out);
+  static systems::RequestAhead ReadJson(std::string_view text);
+};
+
+}  // namespace oca

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "oca/framework/dataflow/signal.h"
+#include "oca/models/geometry/collider.h"
+#include "oca/models/name.h"
+#include "oca/models/robot/kinematics.h"
+
+namespace oca::systems {
+
+// The signals of an avoidance loop. All positions are in m, all vectors have world axes. Lists keep
+// their capacity over assignment, so copying one from tick to tick does not allocate.
+
+/// What an obstacle is, apart from where it is: shared by all its samples.
+struct ObstacleBody {
+  models::Name id;
+  std::shared_ptr<const geometry::Collider> collider;
+  std::string file;  ///< of a mesh, as the user wrote it
+  /// No point of it is ever faster, m/s; 0 if nothing is known beyond its present velocity.
+  double fastest{0.0};
+};
+
+/// An obstacle at one instant. `linear` and `angular` velocity (m/s, rad/s) are those of its
+/// origin.
+struct Obstacle {
+  std::shared_ptr<const ObstacleBody> body;
+  Eigen::Isometry3d X_WO{Eigen::Isometry3d::Identity()};
+  Eigen::Vector3d linear{Eigen::Vector3d::Zero()};
+  Eigen::Vector3d angular{Eigen::Vector3d::Zero()};
+
+  /// Velocity of the point of the obstacle that is now at p_W, m/s.
+  Eigen::Vector3d VelocityAt(const Eigen::Vector3d& p_W) const {
+    return linear + angular.cross(p_W - X_WO.translation());
+  }
+};
+
+/// `layout` and `moving` spare who follows the set a look at what stands: two sets of the same
+/// layout, if it is not 0, hold the same bodies in the same order, and those that are not in
+/// `moving` (places, ascending) stand still where they stood. JSON: the list of obstacles.
+struct ObstacleSet {
+  std::vector<Obstacle> obstacles;
+  std::uint64_t layout{0};
+  std::vector<int> moving{};
+};
+
+/// Poses X_WL of the links of a robot, in three columns of equal length so that kinematics writes
+/// the poses as they are. `bodies` holds for each link the index (into these columns) of the link
+/// that the last movable joint before it leads to: itself if its own joint moves, -1 if it cannot
+/// move. `velocities` of the links' origins, world axes, are as many, or none if they are not
+/// known. JSON: "twist" as of an obstacle, optional on input (a link without one rests), never
+/// written.
+struct LinkPoses {
+  std::vector<models::Name> links;
+  std::vector<Eigen::Isometry3d> poses;
+  std::vector<int> bodies;
+  std::vector<robot::LinkVelocity> velocities{};
+
+  std::size_t size() const { return links.size(); }
+  /// -1 if there is none of that name. `hint` is looked at first.
+  int Find(models::Name link, int hint = 0) const;
+  /// Velocity of the point of link number `index` that is now at p_W, m/s; needs `velocities`.
+  Eigen::Vector3d VelocityAt(int index, const Eigen::Vector3d& p_W) const {
+    const robot::LinkVelocity& V = velocities[index];
+    return V.linear + V.angular.cross(p_W - poses[index].translation());
+  }
+};
+
+/// Nearest points of one link and one obstacle. `distance` is signed (negative: penetration);
+/// `normal` is the unit vector from the obstacle to the link.
+struct Proximity {
+  models::Name link;
+  models::Name obstacle;
+  double distance{0.0};
+  Eigen::Vector3d point_on_link{Eigen::Vector3d::Zero()};
+  Eigen::Vector3d point_on_obstacle{Eigen::Vector3d::Zero()};
+  Eigen::Vector3d normal{Eigen::Vector3d::UnitX()};
+  /// Velocity of the obstacle at point_on_obstacle, m/s. JSON: optional on input, never written.
+  Eigen::Vector3d obstacle_velocity{Eigen::Vector3d::Zero()};
+  /// The link that the obstacle is, if it is one of the same robot, else empty. Its motion is that
+  /// of the robot's own joints, so obstacle_velocity is 0 and the row of the distance takes two
+  /// links: see models::DistanceRow. JSON: as obstacle_velocity.
+  models::Name own_link{};
+  /// Bound on the speed of all points of the obstacle, m/s; 0 for an own link. JSON: as
+  /// obstacle_velocity.
+  double obstacle_speed{0.0};
+};
+
+/// What is not listed is farther than `max_distance` (m; 0: unknown) and no faster than `fastest`
+/// (m/s). `compared` says whether any pair was looked at, listed or not: if none was, the set tells
+/// nothing. JSON: the list of proximities.
+struct ProximitySet {
+  std::vector<Proximity> proximities;
+  double max_distance{0.0};
+  double fastest{0.0};
+  bool compared{false};
+};
+
+/// A force (N) that acts on `link` at `point`, because of `obstacle`.
+struct LinkForce {
+  models::Name link;
+  models::Name obstacle;
+  Eigen::Vector3d force{Eigen::Vector3d::Zero()};
+  Eigen::Vector3d point{Eigen::Vector3d::Zero()};
+};
+
+struct LinkForceSet {
+  std::vector<LinkForce> forces;
+};
+
+/// Force (N) and torque (Nm) on `link`, the torque about `origin`.
+struct LinkWrench {
+  models::Name link;
+  Eigen::Vector3d force{Eigen::Vector3d::Zero()};
+  Eigen::Vector3d torque{Eigen::Vector3d::Zero()};
+  Eigen::Vector3d origin{Eigen::Vector3d::Zero()};
+};
+
+struct WrenchSet {
+  std::vector<LinkWrench> wrenches;
+};
+
+}  // namespace oca::systems
+
+namespace oca {
+
+// JSON of every signal is a list with an object an item: docs/reference/signals.md. ReadJson
+// refuses unknown and missing keys, wrong lengths and numbers that are not finite, saying which
+// item.
+
+template <>
+struct Signal<systems::ObstacleSet> {
+  static constexpr const char* kName = "ObstacleSet";
+  static Fault Check(const systems::ObstacleSet& value, Look look);
+  /// `layout` is between systems: a caller who moves an obstacle need not know of it.
+  static void FromOutside(systems::ObstacleSet& value);
+  static void WriteJson(const systems::ObstacleSet& value, std::string& out);
+  static systems::ObstacleSet ReadJson(std::string_view text);
+};
+template <>
+struct Signal<systems::LinkPoses> {
+  static constexpr const char* kName = "LinkPoses";
+  static Fault Check(const systems::LinkPoses& value, Look look);
+  static void WriteJson(const systems::LinkPoses& value, std::string& out);
+  static systems::LinkPoses ReadJson(std::string_view text);
+};
+template <>
+struct Signal<systems::ProximitySet> {
+  static constexpr const char* kName = "ProximitySet";
+  static Fault Check(const systems::ProximitySet& value, Look look);
+  static void WriteJson(const systems::ProximitySet& value, std::string& out);
+  static systems::ProximitySet ReadJson(std::string_view text);
+};
+template <>
+struct Signal<systems::LinkForceSet> {
+  static constexpr const char* kName = "LinkForceSet";
+  static Fault Check(const systems::LinkForceSet& value, Look look);
+  static void WriteJson(const systems::LinkForceSet& value, std::string& out);
+  static systems::LinkForceSet ReadJson(std::string_view text);
+};
+template <>
+struct Signal<systems::WrenchSet> {
+  static constexpr const char* kName = "WrenchSet";
+  static Fault Check(const systems::WrenchSet& value, Look look);
+  static void WriteJson(const systems::WrenchSet& value, std::string& out);
+  static systems::WrenchSet ReadJson(std::string_view text);
+};
+
+}  // namespace oca

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "oca/diagrams/record/mcap_reader.h"
+#include "oca/diagrams/record/run_recorder.h"
+
+namespace oca::record::test {
+
+inline constexpr std::uint64_t kEpoch = 1'700'000'000'000'000'000;
+
+/// A diagram of this repository.
+inline loading::LoadedDiagram Load(const std::string& name,
+                                   const std::vector<files::Override>& overrides = {}) {
+  return loading::LoadDiagram(std::string(OCA_SOURCE_DIR "/diagrams/") + name, overrides);
+}
+
+struct Recorded {
+  runs::RunResult result;
+  McapFile file;
+};
+
+/// Runs a diagram with a recorder that writes to memory.
+inline Recorded RunRecorded(const loading::LoadedDiagram& loaded, runs::RunOptions options = {},
+                            Log* log = nullptr) {
+  std::ostringstream stream;
+  McapSink sink(stream, Compression::kZstd);
+  RecorderOptions settings;
+  settings.start_epoch = kEpoch;
+  RunRecorder recorder(loaded, settings, {&sink}, log);
+  options.observers.push_back(&recorder);
+  options.log = &recorder;
+  runs::RunResult result = runs::Run(loaded, options);
+  return {std::move(result), McapFile::Parse(stream.str(), "memory")};
+}
+
+}  // namespace oca::record::test

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The recommended method, an elastic band before a safety filter, in whole loops.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "oca/diagrams/loading/loader.h"
+#include "oca/diagrams/runs/run.h"
+
+namespace oca::runs {
+namespace recommended_diagram_test {
+
+nlohmann::json MetricsOf(const std::string& name, std::vector<files::Override> overrides) {
+  overrides.push_back({"parameters.avoidance", "recommended"});
+  const RunResult result =
+      Run(loading::LoadDiagram(OCA_SOURCE_DIR "/diagrams/" + name + ".yaml", overrides), {});
+  EXPECT_EQ(result.failure, "");
+  return nlohmann::json::parse(result.metrics);
+}
+
+double Number(const nlohmann::json& metrics, const char* key) {
+  return metrics.at(key).get<double>();
+}
+
+TEST(RecommendedDiagramTest, PassesTheBoxOfTheStaticTestCalmlyAndArrives) {
+  const auto metrics = MetricsOf("static_test", {});
+  EXPECT_GT(Number(metrics, "certified_min_distance"), 0.045);
+  EXPECT_LT(Number(metrics, "final_error"), 1e-9);
+  EXPECT_LT(Number(metrics, "delta_sign_changes_per_second"), 0.5);
+  EXPECT_LT(Number(metrics, "total_variation_ratio"), 1.5);
+  EXPECT_LE(Number(metrics, "max_joint_acceleration"), 10.0 + 1e-6);
+}
+
+TEST(RecommendedDiagramTest, DucksInTimeUnderACubeThatComesHeadOnAndReturns) {
+  for (const char* speed : {"0.2", "0.5", "1.0", "1.6"}) {
+    const auto metrics = MetricsOf("dynamic_test", {{"parameters.obstacle_speed", speed}});
+    EXPECT_GT(Number(metrics, "certified_min_distance"), 0.03) << speed;
+    EXPECT_LT(Number(metrics, "final_error"), 1e-6) << speed;
+    EXPECT_LT(Number(metrics, "delta_sign_changes_per_second"), 0.5) << speed;
+    EXPECT_LE(Number(metrics, "max_joint_acceleration"), 10.0 + 1e-6) << speed;
+  }
+}
+
+TEST(RecommendedDiagramTest, ClearsScenariosOfEveryFamilyAndArrives) {
+  for (const char* family : {"random_static", "random_clutter"}) {
+    for (const char* seed : {"25", "34"}) {  // where the filter alone comes near or stays behind
+      const auto metrics =
+          MetricsOf(std::string("scenarios/") + family, {{"simulator.seed", seed}});
+      EXPECT_GT(Number(metrics, "certified_min_distance"), 0.0) << family << " " << seed;
+      EXPECT_LT(Number(metrics, "final_error"), 0.01) << family << " " << seed;
+    }
+  }
+}
+
+TEST(RecommendedDiagramTest, RunsToTheSameBitsTwice) {
+  EXPECT_EQ(MetricsOf("dynamic_test", {}), MetricsOf("dynamic_test", {}));
+}
+
+}  // namespace recommended_diagram_test
+}  // namespace oca::runs

@@ -1,0 +1,494 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The simulator's contract, line 5: witness functions and the resets that wait for them.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "oca/framework/simulation/simulator.h"
+#include "tests/framework/dataflow/blocks.h"
+#include "tests/framework/simulation/integrator_kinds.h"
+
+namespace oca {
+namespace witness_test {
+
+using blocks::Vec;
+using testing::DoubleNear;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+/// h'' = -g; at h = 0, falling, v+ = -e v. The state is (h, v).
+class Ball final : public System {
+ public:
+  explicit Ball(double restitution = 0.8, Direction direction = Direction::kFalling)
+      : restitution_(restitution),
+        x(DeclareContinuousState("x", {2}, Vec({1.0, 0.0}))),
+        out(DeclareStateOutput("out", x)) {
+    DeclareDerivative<&Ball::Derive>(x, x);
+    const Witness ground = DeclareWitness<&Ball::Height>("ground", direction, x);
+    DeclareReset<&Ball::Bounce>(When{ground}, Writes(x), kTime, x);
+  }
+  mutable std::vector<double> bounces;  // s
+  bool remember{true};
+
+ private:
+  static constexpr double kGravity = 9.81;
+  void Derive(VectorView now, MutableVectorView derivative) const {
+    derivative << now[1], -kGravity;
+  }
+  double Height(VectorView now) const { return now[0]; }
+  void Bounce(double t, VectorView now, MutableVectorView next) const {
+    if (remember) bounces.push_back(t);
+    next[1] = -restitution_ * now[1];
+  }
+  const double restitution_;
+
+ public:
+  const ContinuousState x;
+  const Output<Vector> out;
+};
+
+/// tau x' = (hot or cold) - x; switches the heater off at 21 and on at 19.
+class Thermostat final : public System {
+ public:
+  Thermostat()
+      : x(DeclareContinuousState("x", {1}, 20.0)),
+        on(DeclareDiscreteState("on", {1}, 1.0)),
+        out(DeclareStateOutput("out", x)) {
+    DeclareDerivative<&Thermostat::Derive>(x, x, on);
+    const Witness warm = DeclareWitness<&Thermostat::OverUpper>("warm", Direction::kRising, x);
+    const Witness cool = DeclareWitness<&Thermostat::OverLower>("cool", Direction::kFalling, x);
+    DeclareReset<&Thermostat::SwitchOff>(When{warm}, Writes(on), kTime);
+    DeclareReset<&Thermostat::SwitchOn>(When{cool}, Writes(on), kTime);
+  }
+  mutable std::vector<double> switches;  // s
+
+ private:
+  void Derive(VectorView now, VectorView heats, MutableVectorView derivative) const {
+    derivative[0] = ((heats[0] > 0.5 ? 30.0 : 15.0) - now[0]) / 10.0;
+  }
+  double OverUpper(VectorView now) const { return now[0] - 21.0; }
+  double OverLower(VectorView now) const { return now[0] - 19.0; }
+  void SwitchOff(double t, MutableVectorView next) const {
+    switches.push_back(t);
+    next[0] = 0.0;
+  }
+  void SwitchOn(double t, MutableVectorView next) const {
+    switches.push_back(t);
+    next[0] = 1.0;
+  }
+
+ public:
+  const ContinuousState x;
+  const DiscreteState<Vector> on;
+  const Output<Vector> out;
+};
+
+/// Notes when f(t, in) crosses zero, and counts it in a state.
+class Alarm final : public System {
+ public:
+  using Function = std::function<double(double, double)>;
+  explicit Alarm(Function f, Direction direction = Direction::kBoth)
+      : f_(std::move(f)),
+        count(DeclareDiscreteState("count", {1}, 0.0)),
+        in(DeclareInput<Vector>("in", {1})),
+        out(DeclareStateOutput("out", count)) {
+    const Witness level = DeclareWitness<&Alarm::Level>("level", direction, kTime, in);
+    DeclareReset<&Alarm::Note>(When{level}, Writes(count), kTime, count);
+  }
+  mutable std::vector<double> times;  // s
+
+ private:
+  double Level(double t, VectorView value) const { return f_(t, value[0]); }
+  void Note(double t, VectorView now, MutableVectorView next) const {
+    times.push_back(t);
+    next[0] = now[0] + 1.0;
+  }
+  const Function f_;
+
+ public:
+  const DiscreteState<Vector> count;
+  const Input<Vector> in;
+  const Output<Vector> out;
+};
+
+/// x' = 1 from 0, watched by an alarm.
+struct Watched {
+  explicit Watched(Alarm::Function f, Direction direction = Direction::kBoth) {
+    DiagramBuilder builder;
+    const auto& one = builder.Add<blocks::Source>("one", Vec({1.0}));
+    const auto& ode =
+        builder.Add<blocks::Ode>("ode", 0.0, [](double, double, double u) { return u; });
+    alarm = &builder.Add<Alarm>("alarm", std::move(f), direction);
+    builder.Connect(one.value, ode.in);
+    builder.Connect(ode.out, alarm->in);
+    diagram = builder.Build();
+  }
+  const Alarm* alarm;
+  std::unique_ptr<Diagram> diagram;
+};
+
+class WitnessTest : public testing::TestWithParam<IntegratorKind> {
+ protected:
+  IntegratorOptions Tight() const {
+    return {.integrator = GetParam(), .relative_tolerance = 1e-13, .absolute_tolerance = 1e-14};
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Integrators, WitnessTest, testing::ValuesIn(kAllIntegrators), NameOfKind);
+
+// t1 = sqrt(2 h / g); each flight e times the one before: t_n = t1 (1 + 2 (e + ... + e^(n-1))).
+TEST_P(WitnessTest, Line5ABallBouncesWhenItShould) {
+  const auto diagram = MakeDiagramOf(std::make_unique<Ball>());
+  const auto& ball = static_cast<const Ball&>(*diagram->FindSystem("system"));
+  Simulator simulator(*diagram, Tight());
+  simulator.AdvanceTo(3.6);
+  ASSERT_THAT(ball.bounces, SizeIs(10));
+  EXPECT_NEAR(ball.bounces[0], 0.4515236409857309, 1e-10);
+  EXPECT_NEAR(ball.bounces[4], 2.584160102089535, 1e-10);
+  EXPECT_NEAR(ball.bounces[9], 3.578892951020438, 1e-10);
+  EXPECT_EQ(simulator.statistics().crossings, 10);
+}
+
+TEST_P(WitnessTest, Line5AZenoGuardStopsWithAnErrorThatNamesTheWitnessAndTheLimit) {
+  const auto diagram = MakeDiagramOf(std::make_unique<Ball>());
+  const auto& ball = static_cast<const Ball&>(*diagram->FindSystem("system"));
+  Simulator simulator(*diagram, Tight());
+  simulator.AdvanceTo(4.063);
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    try {
+      simulator.AdvanceTo(5.0);
+      FAIL() << "a ball at rest was integrated";
+    } catch (const SimulationError& error) {
+      EXPECT_EQ(error.system, "system");
+      EXPECT_EQ(error.port, "ground");
+      EXPECT_LT(error.time, 4.063712768871578);
+      EXPECT_THAT(error.what(), HasSubstr("(Zeno) towards t = 4.06371276"));
+    }
+  }
+  EXPECT_GT(ball.bounces.size(), 39u);
+}
+
+TEST_P(WitnessTest, Line5AtTheUsualTolerancesABallIsStoppedBeforeItFallsThrough) {
+  const auto diagram = MakeDiagramOf(std::make_unique<Ball>());
+  Simulator simulator(*diagram, {.integrator = GetParam()});
+  EXPECT_THROW(simulator.AdvanceTo(5.0), SimulationError);
+  EXPECT_NEAR(simulator.context().time(), 4.063712768871578, 1e-3);
+}
+
+TEST_P(WitnessTest, Line5ABallThatWatchesBothDirectionsBouncesNoMoreOften) {
+  const auto diagram = MakeDiagramOf(std::make_unique<Ball>(0.8, Direction::kBoth));
+  const auto& ball = static_cast<const Ball&>(*diagram->FindSystem("system"));
+  Simulator simulator(*diagram, Tight());
+  simulator.AdvanceTo(3.6);
+  ASSERT_THAT(ball.bounces, SizeIs(10));
+  EXPECT_NEAR(ball.bounces[9], 3.578892951020438, 1e-10);
+}
+
+// First tau ln((30-20)/(30-21)); then in turn tau ln(6/4) cooling and tau ln(11/9) heating.
+TEST_P(WitnessTest, Line5AThermostatSwitchesWhenTheExponentialsCross) {
+  const auto diagram = MakeDiagramOf(std::make_unique<Thermostat>());
+  const auto& thermostat = static_cast<const Thermostat&>(*diagram->FindSystem("system"));
+  Simulator simulator(*diagram, Tight());
+  simulator.AdvanceTo(60.0);
+  ASSERT_THAT(thermostat.switches, SizeIs(20));
+  EXPECT_NEAR(thermostat.switches[0], 10.0 * std::log(10.0 / 9.0), 1e-10);
+  EXPECT_NEAR(thermostat.switches[19], 59.66047855898831, 1e-8);
+}
+
+TEST_P(WitnessTest, Line5DirectionsChooseAmongCrossings) {
+  const auto wave = [](double, double x) { return std::cos(std::numbers::pi * x); };
+  const auto times = [&](Direction direction) {
+    const Watched watched(wave, direction);
+    Simulator simulator(*watched.diagram, {.integrator = GetParam()});
+    simulator.AdvanceTo(4.0);
+    return watched.alarm->times;
+  };
+  const auto near = [](double t) { return DoubleNear(t, 1e-10); };
+  EXPECT_THAT(times(Direction::kBoth), ElementsAre(near(0.5), near(1.5), near(2.5), near(3.5)));
+  EXPECT_THAT(times(Direction::kFalling), ElementsAre(near(0.5), near(2.5)));
+  EXPECT_THAT(times(Direction::kRising), ElementsAre(near(1.5), near(3.5)));
+}
+
+TEST_P(WitnessTest, Line5AGuardThatOnlyLeavesZeroDoesNotFire) {
+  const Watched leaves([](double, double x) { return std::max(0.0, x - 0.5); });
+  Simulator simulator(*leaves.diagram, {.integrator = GetParam()});
+  simulator.AdvanceTo(1.0);
+  EXPECT_THAT(leaves.alarm->times, IsEmpty());
+}
+
+TEST_P(WitnessTest, Line5AGuardThatReachesZeroAndStaysFiresOnce) {
+  const Watched reaches([](double, double x) { return std::max(0.0, 0.5 - x); });
+  Simulator simulator(*reaches.diagram, {.integrator = GetParam()});
+  for (int i = 1; i <= 10; ++i) simulator.AdvanceTo(i / 10.0);
+  EXPECT_THAT(reaches.alarm->times, ElementsAre(DoubleNear(0.5, 1e-10)));
+}
+
+TEST_P(WitnessTest, Line5AGuardAtRestIsNotLostOverManyRestarts) {
+  const auto rests = [](double, double x) { return x < 0.45 ? 0.0 : (x - 0.45) * (0.75 - x); };
+  const Watched watched(rests, Direction::kFalling);
+  Simulator simulator(*watched.diagram, {.integrator = GetParam()});
+  for (int i = 1; i <= 10; ++i) simulator.AdvanceTo(i / 10.0);
+  EXPECT_THAT(watched.alarm->times, ElementsAre(DoubleNear(0.75, 1e-10)));
+}
+
+TEST_P(WitnessTest, Line5AGuardThatJumpsIsFoundEachTime) {
+  const auto square = [](double, double x) { return std::fmod(x, 0.2) < 0.1 ? 1.0 : -1.0; };
+  const Watched watched(square);
+  Simulator simulator(*watched.diagram, {.integrator = GetParam()});
+  simulator.AdvanceTo(0.55);
+  const auto near = [](double t) { return DoubleNear(t, 1e-10); };
+  EXPECT_THAT(watched.alarm->times,
+              ElementsAre(near(0.1), near(0.2), near(0.3), near(0.4), near(0.5)));
+}
+
+TEST_P(WitnessTest, Line5TwoCrossingsOfOneGuardInOneStepAreSeen) {
+  const Watched grazing([](double, double x) { return (x - 0.5) * (x - 0.5) - 1e-10; });
+  Simulator simulator(*grazing.diagram, {.integrator = GetParam(), .fixed_step = 0.2});
+  simulator.AdvanceTo(1.0);
+  EXPECT_THAT(grazing.alarm->times,
+              ElementsAre(DoubleNear(0.49999, 1e-10), DoubleNear(0.50001, 1e-10)));
+}
+
+TEST_P(WitnessTest, Line5AGuardThatStaysJustAboveZeroIsLeftAlone) {
+  const Watched grazing([](double, double x) { return (x - 0.5) * (x - 0.5) + 1e-10; });
+  Simulator simulator(*grazing.diagram, {.integrator = GetParam(), .fixed_step = 0.2});
+  simulator.AdvanceTo(1.0);
+  EXPECT_THAT(grazing.alarm->times, IsEmpty());
+}
+
+TEST_P(WitnessTest, Line5ACrossingAtATickHappensInOneStepWithIt) {
+  DiagramBuilder builder;
+  const auto& one = builder.Add<blocks::Source>("one", Vec({1.0}));
+  const auto& ode =
+      builder.Add<blocks::Ode>("ode", 0.0, [](double, double, double u) { return u; });
+  const auto& alarm = builder.Add<Alarm>("alarm", [](double, double x) {
+    return std::sin(10.0 * std::numbers::pi * (x - 0.05) + 0.5 * std::numbers::pi);
+  });
+  const auto& counter = builder.Add<blocks::Counter>("counter", Every{Period(1, 10)});
+  const auto& hold = builder.Add<blocks::Delay>("hold", Every{Period(1, 10)});
+  builder.Connect(one.value, ode.in);
+  builder.Connect(ode.out, alarm.in);
+  builder.Connect(alarm.out, hold.in);
+  const auto diagram = builder.Build();
+  Simulator simulator(*diagram, {.integrator = GetParam()});
+  std::vector<double> steps;
+  simulator.AddMonitor([&](const Context& context) {
+    steps.push_back(context.time());
+    return true;
+  });
+  simulator.AdvanceTo(1.0);
+  EXPECT_THAT(alarm.times, SizeIs(9)) << "at 1 s it is pending";
+  for (std::size_t i = 0; i < alarm.times.size(); ++i) {
+    EXPECT_EQ(alarm.times[i], static_cast<double>(i + 1) / 10.0);
+  }
+  EXPECT_THAT(steps, SizeIs(10));
+  EXPECT_THAT(counter.times, SizeIs(10));
+  // The resets come first: the updates of the same instant read what they wrote.
+  EXPECT_EQ(hold.out.Eval(simulator.context())[0], 9.0);
+}
+
+/// Two witnesses with one zero; each adds the other's count to its own.
+class Twins final : public System {
+ public:
+  explicit Twins(double apart)
+      : apart_(apart),
+        a(DeclareDiscreteState("a", {1}, 1.0)),
+        b(DeclareDiscreteState("b", {1}, 10.0)),
+        x(DeclareContinuousState("x", {1}, 0.0)) {
+    DeclareDerivative<&Twins::Derive>(x);
+    const Witness one = DeclareWitness<&Twins::One>("one", Direction::kBoth, x);
+    const Witness other = DeclareWitness<&Twins::Other>("other", Direction::kBoth, x);
+    DeclareReset<&Twins::Take>(When{one}, Writes(a), b);
+    DeclareReset<&Twins::Take>(When{other}, Writes(b), a);
+  }
+
+ private:
+  void Derive(MutableVectorView derivative) const { derivative[0] = 1.0; }
+  double One(VectorView now) const { return now[0] - 0.3; }
+  double Other(VectorView now) const { return 2.0 * (0.3 + apart_ - now[0]); }
+  void Take(VectorView from, MutableVectorView to) const { to[0] = from[0]; }
+  const double apart_;
+
+ public:
+  const DiscreteState<Vector> a, b;
+  const ContinuousState x;
+};
+
+TEST_P(WitnessTest, Line5SimultaneousCrossingsReadTheSameState) {
+  for (const double apart : {0.0, 5e-13}) {
+    const auto diagram = MakeDiagramOf(std::make_unique<Twins>(apart));
+    const auto& twins = static_cast<const Twins&>(*diagram->FindSystem("system"));
+    Simulator simulator(*diagram, {.integrator = GetParam()});
+    simulator.AdvanceTo(1.0);
+    EXPECT_EQ(twins.a.Get(simulator.context())[0], 10.0) << "swapped " << apart;
+    EXPECT_EQ(twins.b.Get(simulator.context())[0], 1.0);
+    EXPECT_EQ(simulator.statistics().crossings, 1);
+  }
+}
+
+TEST_P(WitnessTest, Line5CrossingsThatFollowEachOtherAreStepsInTheirOrder) {
+  const auto diagram = MakeDiagramOf(std::make_unique<Twins>(1e-9));
+  const auto& twins = static_cast<const Twins&>(*diagram->FindSystem("system"));
+  Simulator simulator(*diagram, {.integrator = GetParam()});
+  simulator.AdvanceTo(1.0);
+  EXPECT_EQ(twins.a.Get(simulator.context())[0], 10.0);
+  EXPECT_EQ(twins.b.Get(simulator.context())[0], 10.0);
+  EXPECT_EQ(simulator.statistics().crossings, 2);
+}
+
+TEST_P(WitnessTest, Line5AJumpAcrossZeroByAnUpdateIsNoCrossing) {
+  DiagramBuilder builder;
+  const auto& counter = builder.Add<blocks::Counter>("counter", Every{Period(1, 10)});
+  const auto& alarm =
+      builder.Add<Alarm>("alarm", [](double t, double count) { return count - 4.5 + 0.0 * t; });
+  builder.Connect(counter.value, alarm.in);
+  const auto diagram = builder.Build();
+  Simulator simulator(*diagram, {.integrator = GetParam()});
+  simulator.AdvanceTo(1.0);
+  EXPECT_THAT(alarm.times, IsEmpty());
+}
+
+TEST_P(WitnessTest, Line5GuardsOfTimeAloneAreFoundWhereNothingElseMoves) {
+  DiagramBuilder builder;
+  const auto& source = builder.Add<blocks::Source>("source", Vec({50.0}));
+  const auto& alarm =
+      builder.Add<Alarm>("alarm", [](double t, double omega) { return std::cos(omega * t); });
+  builder.Connect(source.value, alarm.in);
+  const auto diagram = builder.Build();
+  Simulator simulator(*diagram, {.integrator = GetParam()});
+  simulator.AdvanceTo(10.0);
+  ASSERT_THAT(alarm.times, SizeIs(159));
+  for (std::size_t i = 0; i < alarm.times.size(); ++i) {
+    EXPECT_NEAR(alarm.times[i], (static_cast<double>(i) + 0.5) * std::numbers::pi / 50.0, 1e-11);
+  }
+}
+
+TEST_P(WitnessTest, Line3AdvanceToACrossingLeavesItsResetPending) {
+  const auto diagram = MakeDiagramOf(std::make_unique<Twins>(0.5));
+  const auto& twins = static_cast<const Twins&>(*diagram->FindSystem("system"));
+  Simulator simulator(*diagram, {.integrator = GetParam()});
+  simulator.AdvanceTo(0.3);
+  EXPECT_EQ(simulator.statistics().crossings, 1);
+  EXPECT_EQ(twins.a.Get(simulator.context())[0], 1.0);
+  const Context saved = simulator.context();
+  simulator.AdvanceTo(0.4);
+  EXPECT_EQ(twins.a.Get(simulator.context())[0], 10.0);
+  Simulator resumed(*diagram, saved, {.integrator = GetParam()});
+  resumed.AdvanceTo(0.4);
+  EXPECT_EQ(twins.a.Get(resumed.context())[0], 10.0);
+  EXPECT_EQ(resumed.statistics().crossings, 0);
+}
+
+TEST_P(WitnessTest, Line6ARunSavedAtAnyBounceResumesWithTheSameBits) {
+  const auto diagram = MakeDiagramOf(std::make_unique<Ball>());
+  const auto& ball = static_cast<const Ball&>(*diagram->FindSystem("system"));
+  Simulator straight(*diagram, {.integrator = GetParam()});
+  std::vector<Context> saved;
+  straight.AddMonitor([&](const Context& context) {
+    saved.push_back(context);
+    return true;
+  });
+  straight.AdvanceTo(3.9);
+  ASSERT_GT(saved.size(), 10u);
+  const std::vector<double> bounces = ball.bounces;
+  for (std::size_t i = 0; i + 1 < saved.size(); ++i) {
+    ball.bounces.clear();
+    Simulator resumed(*diagram, saved[i], {.integrator = GetParam()});
+    resumed.AdvanceTo(3.9);
+    EXPECT_EQ(ball.x.Get(resumed.context()), ball.x.Get(straight.context())) << i;
+    EXPECT_EQ(ball.bounces,
+              std::vector<double>(bounces.begin() + static_cast<long>(i), bounces.end()));
+  }
+}
+
+TEST_P(WitnessTest, Line5WitnessesOfNestedDiagramsReadTheirInputs) {
+  DiagramBuilder inner;
+  const auto& alarm = inner.Add<Alarm>("alarm", [](double, double x) { return x - 0.25; });
+  inner.ExportInput("level", alarm.in);
+  DiagramBuilder middle;
+  const auto& nested = middle.AddSystem("inner", inner.Build());
+  middle.ExportInput("level", nested.FindInput("level"));
+  DiagramBuilder outer;
+  const auto& one = outer.Add<blocks::Source>("one", Vec({1.0}));
+  const auto& ode = outer.Add<blocks::Ode>("ode", 0.0, [](double, double, double u) { return u; });
+  const auto& map = outer.Add<blocks::Map>("map", [](double x) { return 0.5 * x; });
+  const auto& deep = outer.AddSystem("middle", middle.Build());
+  outer.Connect(one.value, ode.in);
+  outer.Connect(ode.out, map.in);
+  outer.ConnectPorts(map.out, deep.FindInput("level"));
+  const auto diagram = outer.Build();
+  Simulator simulator(*diagram, {.integrator = GetParam()});
+  simulator.AdvanceTo(1.0);
+  EXPECT_THAT(alarm.times, ElementsAre(DoubleNear(0.5, 1e-10)));
+}
+
+TEST_P(WitnessTest, Line7AWitnessThatFailsIsNamedAndTheRunGoesOnOnceItIsHealed) {
+  for (const bool throws : {false, true}) {
+    bool broken = true;
+    const Watched watched([&](double, double x) {
+      if (!broken || x < 0.55) return x - 0.7;
+      if (throws) throw std::runtime_error("broken on purpose");
+      return std::numeric_limits<double>::quiet_NaN();
+    });
+    Simulator simulator(*watched.diagram, {.integrator = GetParam()});
+    simulator.AdvanceTo(0.5);
+    for (int attempt = 0; attempt < 2; ++attempt) {
+      try {
+        simulator.AdvanceTo(1.0);
+        FAIL() << "nothing thrown";
+      } catch (const SimulationError& error) {
+        EXPECT_EQ(error.system, "alarm");
+        EXPECT_EQ(error.port, "level");
+        EXPECT_GE(error.time, 0.55 - 1e-12);
+        EXPECT_THAT(error.what(), HasSubstr(throws ? "broken on purpose" : "is not finite"));
+      }
+      EXPECT_EQ(simulator.context().time(), 0.5);
+    }
+    broken = false;
+    simulator.AdvanceTo(1.0);
+    EXPECT_THAT(watched.alarm->times, ElementsAre(DoubleNear(0.7, 1e-10)));
+  }
+}
+
+TEST_P(WitnessTest, Line7TooManyStepsBetweenEventsAreAnError) {
+  const Watched watched([](double, double x) { return x - 20.0; });
+  Simulator simulator(
+      *watched.diagram,
+      {.integrator = GetParam(), .max_step = 0.01, .fixed_step = 0.01, .max_steps = 50});
+  simulator.AdvanceTo(0.2);
+  try {
+    simulator.AdvanceTo(10.0);
+    FAIL() << "nothing thrown";
+  } catch (const SimulationError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("got 50 steps since the last event"));
+    EXPECT_GT(error.time, 0.6);
+  }
+  EXPECT_EQ(simulator.context().time(), 0.2);
+  simulator.AdvanceTo(0.4);
+}
+
+class Wrong final : public System {
+ public:
+  explicit Wrong(const Witness* other) : count(DeclareDiscreteState("count", {1}, 0.0)) {
+    const Witness mine = DeclareWitness<&Wrong::Zero>("mine", Direction::kBoth);
+    if (other == nullptr) DeclareWitness<&Wrong::Zero>("mine", Direction::kRising);
+    DeclareReset<&Wrong::Note>(When{other == nullptr ? mine : *other}, Writes(count));
+  }
+  const DiscreteState<Vector> count;
+
+ private:
+  double Zero() const { return 0.0; }
+  void Note(MutableVectorView) const {}
+};
+
+TEST(WitnessDeclarationTest, RefusesASecondWitnessOfOneNameAndAForeignOne) {
+  EXPECT_THROW(Wrong(nullptr), WiringError);
+  const Witness foreign;
+  EXPECT_THROW(Wrong wrong(&foreign), WiringError);
+}
+
+}  // namespace witness_test
+}  // namespace oca

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/systems/basics/gain.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "oca/framework/dataflow/error.h"
+#include "tests/systems/system_bench.h"
+
+namespace oca::systems {
+namespace gain_test {
+
+TEST(GainTest, MultipliesEveryComponentByAScalar) {
+  SystemBench<Gain> bench(Gain::Params{.gain = -2.0});
+  bench->in.Fix(bench.context(), Eigen::VectorXd::Constant(1, 3.0));
+  EXPECT_EQ(bench->out.Eval(bench.context())[0], -6.0);
+}
+
+TEST(GainTest, MultipliesEachComponentByItsOwnFactor) {
+  SystemBench<Gain> bench(Gain::Params{.gain = Eigen::VectorXd(Eigen::Vector3d(1.0, 0.0, -0.5))});
+  bench->in.Fix(bench.context(), Eigen::Vector3d(4.0, 5.0, 6.0));
+  EXPECT_EQ(Eigen::Vector3d(bench->out.Eval(bench.context())), Eigen::Vector3d(4.0, 0.0, -3.0));
+}
+
+TEST(GainTest, RefusesAnInputOfAnotherLength) {
+  SystemBench<Gain> bench(Gain::Params{.gain = Eigen::VectorXd(Eigen::Vector2d(1.0, 2.0))});
+  EXPECT_THROW(bench->in.Fix(bench.context(), Eigen::Vector3d::Ones()), ConfigError);
+}
+
+TEST(GainTest, RefusesAGainThatIsNotFinite) {
+  EXPECT_THROW(Gain({.gain = std::numeric_limits<double>::quiet_NaN()}), ConfigError);
+}
+
+}  // namespace gain_test
+}  // namespace oca::systems

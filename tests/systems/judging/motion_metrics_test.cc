@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/systems/judging/motion_metrics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "oca/framework/dataflow/error.h"
+#include "tests/systems/system_bench.h"
+#include "tests/systems/test_models.h"
+
+namespace oca::systems {
+namespace motion_metrics_test {
+
+using Eigen::Vector2d;
+using VectorScript = std::function<Vector2d(double)>;
+using DistanceScript = std::function<double(double)>;
+
+/// A vector by script.
+class Script final : public System {
+ public:
+  explicit Script(VectorScript script)
+      : script_(std::move(script)),
+        value(DeclareOutput<Vector, &Script::Calc>("value", {2, "rad"}, kTime)) {}
+
+ private:
+  const VectorScript script_;
+  void Calc(double time, MutableVectorView out) const { out = script_(time); }
+
+ public:
+  const Output<Vector> value;
+};
+
+/// One proximity by script; none where the script says infinity, nothing to compare where NaN.
+class DistanceSource final : public System {
+ public:
+  explicit DistanceSource(DistanceScript script)
+      : script_(std::move(script)),
+        proximities(DeclareOutput<ProximitySet, &DistanceSource::Calc>("proximities", {}, kTime)) {}
+
+ private:
+  const DistanceScript script_;
+  void Calc(double time, ProximitySet& set) const {
+    set.proximities.clear();
+    set.compared = !std::isnan(script_(time));
+    if (!std::isfinite(script_(time))) return;
+    Proximity proximity;
+    proximity.link = models::Name("hand");
+    proximity.obstacle = models::Name("box");
+    proximity.distance = script_(time);
+    set.proximities.push_back(proximity);
+  }
+
+ public:
+  const Output<ProximitySet> proximities;
+};
+
+struct Scripts {
+  VectorScript position{}, request{}, goal{}, delta{};
+  DistanceScript distance{};
+};
+
+/// Metrics at 10 Hz over scripted signals.
+class Bench {
+ public:
+  explicit Bench(const Scripts& scripts) {
+    DiagramBuilder builder;
+    metrics_ = &builder.Add<MotionMetrics>("metrics", MotionMetrics::Params{Period(1, 10)});
+    const auto connect = [&](const char* name, const VectorScript& script,
+                             const OptionalInput<Vector>& input) {
+      if (script) builder.Connect(builder.Add<Script>(name, script).value, input);
+    };
+    connect("position", scripts.position, metrics_->position);
+    connect("request", scripts.request, metrics_->request);
+    connect("goal", scripts.goal, metrics_->goal);
+    connect("delta", scripts.delta, metrics_->delta);
+    if (scripts.distance) {
+      builder.Connect(builder.Add<DistanceSource>("distance", scripts.distance).proximities,
+                      metrics_->proximities);
+    }
+    diagram_ = builder.Build();
+    simulator_ = std::make_unique<Simulator>(*diagram_);
+  }
+  const MotionMetricsValue& At(double time) {
+    simulator_->AdvanceTo(time);
+    return metrics_->metrics.Eval(simulator_->context());
+  }
+
+ private:
+  const MotionMetrics* metrics_;
+  std::unique_ptr<Diagram> diagram_;
+  std::unique_ptr<Simulator> simulator_;
+};
+
+int Tick(double time) { return static_cast<int>(std::lround(10.0 * time)); }
+
+TEST(MotionMetricsTest, HasNoValueWithoutASource) {
+  Bench bench({});
+  std::string text;
+  Signal<MotionMetricsValue>::WriteJson(bench.At(1.0), text);
+  EXPECT_EQ(
+      text,
+      R"({"min_distance":null,"min_distance_pair":null,"min_distance_time":null,)"
+      R"("certified_min_distance":null,"contact_time":null,"first_contact_time":null,"max_abs_delta":null,)"
+      R"("final_error":null,"time_to_goal":null,"delta_sign_changes_per_second":null,)"
+      R"("total_variation_ratio":null,"max_joint_speed":null,)"
+      R"("max_joint_acceleration":null,"limit_violations":null,)"
+      R"("stuck_time":null,"stuck_pair":null})");
+}
+
+TEST(MotionMetricsTest, FindsTheLeastDistanceItsPairAndItsTime) {
+  Bench bench({.distance = [](double t) { return 0.1 + std::fabs(t - 0.4); }});
+  const MotionMetricsValue& value = bench.At(1.0);
+  EXPECT_NEAR(value.min_distance.value(), 0.1, 1e-15);
+  EXPECT_EQ(value.min_distance_time, 0.4);
+  EXPECT_EQ(value.min_distance_link, models::Name("hand"));
+  EXPECT_EQ(value.min_distance_obstacle, models::Name("box"));
+  EXPECT_EQ(value.contact_time, 0.0);
+  EXPECT_FALSE(value.first_contact_time.has_value());
+}
+
+TEST(MotionMetricsTest, HasNoLeastDistanceIfNothingEverCameNear) {
+  Bench bench({.distance = [](double) { return std::numeric_limits<double>::infinity(); }});
+  EXPECT_FALSE(bench.At(1.0).min_distance.has_value());
+  EXPECT_EQ(bench.At(1.0).contact_time, 0.0);
+}
+
+// What was not looked at is not clear.
+TEST(MotionMetricsTest, SaysNothingOfContactUntilAPairWasLookedAt) {
+  Bench never({.distance = [](double) { return std::nan(""); }});
+  EXPECT_FALSE(never.At(1.0).contact_time.has_value());
+  EXPECT_FALSE(never.At(1.0).min_distance.has_value());
+  const DistanceScript appears = [](double t) {
+    return Tick(t) == 5 ? std::numeric_limits<double>::infinity() : std::nan("");
+  };
+  Bench once({.distance = appears});
+  EXPECT_FALSE(once.At(0.4).contact_time.has_value());
+  EXPECT_EQ(once.At(1.0).contact_time, 0.0);
+}
+
+// In contact from 0.3 s to 0.6 s; touch counts.
+TEST(MotionMetricsTest, SumsTheTimeInContact) {
+  const DistanceScript touch = [](double t) {
+    return Tick(t) >= 3 && Tick(t) < 6 ? (Tick(t) == 4 ? 0.0 : -0.01) : 1e-9;
+  };
+  Bench bench({.distance = touch});
+  EXPECT_NEAR(bench.At(0.3).contact_time.value(), 0.0, 1e-15);
+  EXPECT_NEAR(bench.At(0.35).contact_time.value(), 0.05, 1e-15);
+  const MotionMetricsValue& value = bench.At(1.0);
+  EXPECT_NEAR(value.contact_time.value(), 0.3, 1e-15);
+  EXPECT_NEAR(value.first_contact_time.value(), 0.3, 1e-15);
+  EXPECT_EQ(value.min_distance, -0.01);
+}
+
+TEST(MotionMetricsTest, CountsTheSampleAtTheEndOnceWhoseUpdateIsPending) {
+  Bench bench({.delta = [](double t) { return Vector2d(t >= 0.5 ? -2.0 : 0.0, 0.0); },
+               .distance = [](double t) { return 1.0 - t; }});
+  EXPECT_EQ(bench.At(0.5).max_abs_delta, 2.0);
+  EXPECT_EQ(bench.At(0.5).min_distance, 0.5);
+  EXPECT_EQ(bench.At(0.5).min_distance_time, 0.5);
+  // One change, so no reversal, however often it is looked at.
+  EXPECT_EQ(bench.At(0.5).delta_sign_changes_per_second, 0.0);
+  EXPECT_EQ(bench.At(0.6).delta_sign_changes_per_second, 0.0);
+}
+
+TEST(MotionMetricsTest, LooksAtTicksOnly) {
+  Bench bench({.distance = [](double t) { return t > 0.41 && t < 0.49 ? 0.0 : 1.0; }});
+  EXPECT_EQ(bench.At(0.45).min_distance, 1.0);
+  EXPECT_EQ(bench.At(1.0).min_distance, 1.0);
+}
+
+// Joint 1: up, up, down, up in turn gives two reversals a cycle of 4 ticks; joint 2 rests.
+TEST(MotionMetricsTest, CountsReversalsOfTheChangeOfDelta) {
+  const double level[] = {0.0, 1.0, 2.0, 1.0};
+  Bench bench({.delta = [&](double t) { return Vector2d(level[Tick(t) % 4], 5.0); }});
+  // Changes over 2 s: +1 +1 -1 -1, five times: 9 reversals, two joints.
+  EXPECT_NEAR(bench.At(2.0).delta_sign_changes_per_second.value(), 9.0 / 2.0 / 2.0, 1e-12);
+}
+
+TEST(MotionMetricsTest, TakesChangesUpToAMicroradForNone) {
+  for (const auto& [size, reversals] : {std::pair(0.9e-6, 0.0), std::pair(1.1e-6, 9.0)}) {
+    const double step = size;
+    Bench bench({.delta = [step](double t) { return Vector2d(Tick(t) % 2 * step, 0.0); }});
+    EXPECT_NEAR(bench.At(1.0).delta_sign_changes_per_second.value(), reversals / 2.0, 1e-12);
+  }
+}
+
+// A pause between a rise and a fall does not hide the reversal.
+TEST(MotionMetricsTest, RemembersTheDirectionOverAPause) {
+  Bench bench({.delta = [](double t) {
+    return Vector2d(Tick(t) == 0 ? 0.0 : Tick(t) < 8 ? 1.0 : 0.0, 0.0);
+  }});
+  EXPECT_NEAR(bench.At(1.0).delta_sign_changes_per_second.value(), 0.5, 1e-12);
+}
+
+TEST(MotionMetricsTest, ComparesThePathWithThatOfTheRequest) {
+  // The request moves both joints by 1 rad in all; the position goes there, back and there again.
+  Bench bench({.position = [](double t) { return Vector2d(std::fabs(Tick(t) % 20 - 10) / 10, 0); },
+               .request = [](double t) { return Vector2d(t / 6.0, t / 6.0); }});
+  EXPECT_NEAR(bench.At(3.0).total_variation_ratio.value(), 3.0, 1e-12);
+}
+
+TEST(MotionMetricsTest, HasNoPathRatioForARequestAtRest) {
+  Bench bench({.position = [](double t) { return Vector2d(t, 0.0); },
+               .request = [](double) { return Vector2d(1.0, 1.0); }});
+  EXPECT_FALSE(bench.At(1.0).total_variation_ratio.has_value());
+}
+
+TEST(MotionMetricsTest, MeasuresTheErrorAgainstTheGoalAndElseTheRequest) {
+  const VectorScript position = [](double t) { return Vector2d(t, -2.0 * t); };
+  const VectorScript goal = [](double) { return Vector2d(1.0, 1.0); };
+  const VectorScript request = [](double) { return Vector2d::Zero(); };
+  EXPECT_NEAR(
+      Bench({.position = position, .request = request, .goal = goal}).At(0.25).final_error.value(),
+      1.5, 1e-15);
+  EXPECT_NEAR(Bench({.position = position, .request = request}).At(0.25).final_error.value(), 0.5,
+              1e-15);
+  EXPECT_FALSE(Bench({.position = position}).At(0.25).final_error.has_value());
+}
+
+TEST(MotionMetricsTest, TellsWhenTheGoalWasReachedForGood) {
+  // Near the goal from 0.2 s, away at 0.5 s, near again from 0.6 s to 0.9 s.
+  const VectorScript position = [](double t) {
+    const bool away = Tick(t) < 2 || Tick(t) == 5 || Tick(t) == 10;
+    return Vector2d(1.0, away ? 0.9899 : 0.9901);
+  };
+  const VectorScript goal = [](double) { return Vector2d(1.0, 1.0); };
+  Bench bench({.position = position, .goal = goal});
+  EXPECT_FALSE(bench.At(0.1).time_to_goal.has_value());
+  EXPECT_NEAR(bench.At(0.4).time_to_goal.value(), 0.2, 1e-12);
+  EXPECT_FALSE(bench.At(0.5).time_to_goal.has_value());
+  EXPECT_NEAR(bench.At(0.9).time_to_goal.value(), 0.6, 1e-12);
+  EXPECT_FALSE(bench.At(1.0).time_to_goal.has_value());
+  EXPECT_FALSE(Bench({.position = position, .request = goal}).At(0.9).time_to_goal.has_value());
+}
+
+// Before the goal, off the request, from 1 s to `end`; a joint creeps by less than counts.
+Scripts StandsUntil(double end) {
+  const auto position = [end](double t) {
+    return Vector2d(t > 0.95 && t < end - 0.05 ? 0.4 + 0.004 * (t - 1.0) : 0.4 * t, 0.0);
+  };
+  return {.position = position,
+          .request = [](double t) { return Vector2d(0.5 * t, 0.0); },
+          .goal = [](double) { return Vector2d(10.0, 0.0); },
+          .distance = [](double) { return 0.03; }};
+}
+
+TEST(MotionMetricsTest, TellsHowLongTheArmWasStuckAndAtWhat) {
+  Bench bench(StandsUntil(4.0));
+  EXPECT_EQ(bench.At(2.9).stuck_time, 0.0);
+  EXPECT_TRUE(bench.At(2.9).stuck_link.empty());
+  EXPECT_NEAR(bench.At(3.0).stuck_time.value(), 2.0, 1e-9);
+  const MotionMetricsValue value = bench.At(5.0);
+  EXPECT_NEAR(value.stuck_time.value(), 2.9, 1e-9);
+  EXPECT_EQ(value.stuck_link, models::Name("hand"));
+  EXPECT_EQ(value.stuck_obstacle, models::Name("box"));
+  std::string text;
+  Signal<MotionMetricsValue>::WriteJson(value, text);
+  EXPECT_NE(text.find(R"("stuck_pair":["hand","box"])"), std::string::npos) << text;
+  EXPECT_EQ(Signal<MotionMetricsValue>::ReadJson(text).stuck_obstacle, models::Name("box"));
+}
+
+TEST(MotionMetricsTest, IsNotStuckWhereItStandsAsRequestedOrForAShortTime) {
+  EXPECT_EQ(Bench(StandsUntil(2.9)).At(5.0).stuck_time, 0.0);
+  Scripts waits = StandsUntil(4.0);
+  waits.request = waits.position;
+  EXPECT_EQ(Bench(waits).At(5.0).stuck_time, 0.0);
+  Scripts arrived = StandsUntil(4.0);
+  arrived.goal = arrived.position;
+  EXPECT_EQ(Bench(arrived).At(5.0).stuck_time, 0.0);
+  Scripts alone = StandsUntil(4.0);
+  alone.distance = {};
+  EXPECT_TRUE(Bench(alone).At(3.5).stuck_link.empty());
+  EXPECT_GT(Bench(alone).At(3.5).stuck_time.value(), 2.0);
+}
+
+TEST(MotionMetricsTest, CountsTheJointsBeyondALimitAtEachSample) {
+  auto plain = LoadTestModel("lwr4");
+  auto joints = plain->joints();
+  for (auto& joint : joints) joint.acceleration_limit = 2.0;
+  const robot::RobotModel model(plain->name(), plain->links(), joints);
+  // The first joint goes through the positions, one each 0.1 s.
+  const auto violations = [&](const std::vector<double>& positions) {
+    MotionTally tally;
+    double time = 0.0;
+    double count = -1.0;
+    for (const double position : positions) {
+      Eigen::VectorXd value = Eigen::VectorXd::Zero(7);
+      value[0] = position;
+      MotionSample sample{};
+      sample.time = time;
+      sample.position.emplace(value.data(), value.size());
+      sample.model = &model;
+      tally.Add(sample);
+      count = tally.At(sample).limit_violations.value();
+      time += 0.1;
+    }
+    return count;
+  };
+  const double v = model.velocity_limits()[0], upper = model.upper_limits()[0];
+  EXPECT_EQ(violations({0.0, 0.1 * v, 0.2 * v}), 0.0);
+  EXPECT_EQ(violations({0.0, 0.1001 * v, 0.2002 * v}), 2.0);
+  EXPECT_EQ(violations({upper, upper}), 0.0);
+  EXPECT_EQ(violations({upper + 1e-5, upper + 1e-5, upper}), 2.0);
+  EXPECT_EQ(violations({-upper - 1e-5}), 1.0);
+  EXPECT_EQ(violations({0.0, 0.0, 0.02}), 0.0);
+  EXPECT_EQ(violations({0.0, 0.0, 0.0201}), 1.0);
+}
+
+TEST(MotionMetricsTest, FindsTheFastestAndTheHardestTick) {
+  // q = t^2 on joint 2: over the last tick 1.9 rad/s, and 2 rad/s^2 at each.
+  Bench bench({.position = [](double t) { return Vector2d(0.0, -t * t); }});
+  EXPECT_FALSE(bench.At(0.0).max_joint_speed.has_value());
+  EXPECT_FALSE(bench.At(0.1).max_joint_acceleration.has_value());
+  const MotionMetricsValue& value = bench.At(1.0);
+  EXPECT_NEAR(value.max_joint_speed.value(), 1.9, 1e-12);
+  EXPECT_NEAR(value.max_joint_acceleration.value(), 2.0, 1e-11);
+}
+
+TEST(MotionMetricsTest, ReadsTheJsonItWrites) {
+  Bench bench({.position = [](double t) { return Vector2d(t, 0.0); },
+               .delta = [](double) { return Vector2d(0.0, 0.5); },
+               .distance = [](double) { return -0.5; }});
+  std::string text, again;
+  Signal<MotionMetricsValue>::WriteJson(bench.At(1.0), text);
+  const auto value = Signal<MotionMetricsValue>::ReadJson(text);
+  Signal<MotionMetricsValue>::WriteJson(value, again);
+  EXPECT_EQ(text, again);
+  EXPECT_EQ(value.max_abs_delta, 0.5);
+  EXPECT_EQ(value.min_distance_link, models::Name("hand"));
+  EXPECT_THROW(Signal<MotionMetricsValue>::ReadJson("{}"), ConfigError);
+}
+
+TEST(MotionMetricsTest, RefusesSignalsOfUnequalUnits) {
+  DiagramBuilder builder;
+  const auto& metrics = builder.Add<MotionMetrics>("metrics", MotionMetrics::Params{Period(1, 10)});
+  const auto& script = builder.Add<Script>("script", [](double) { return Vector2d::Zero(); });
+  builder.Connect(script.value, metrics.position);
+  struct Metres final : System {
+    Metres() : value(DeclareOutput<Vector, &Metres::Calc>("value", {2, "m"}, kTime)) {}
+    void Calc(double, MutableVectorView out) const { out.setZero(); }
+    const Output<Vector> value;
+  };
+  builder.Connect(builder.Add<Metres>("metres").value, metrics.delta);
+  EXPECT_THROW(builder.Build(), WiringError);
+}
+
+TEST(MotionMetricsTest, RefusesAPeriodOfZero) {
+  EXPECT_THROW(MotionMetrics(MotionMetrics::Params{}), ConfigError);
+}
+
+}  // namespace motion_metrics_test
+}  // namespace oca::systems

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/systems/methods/elastic_band.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "oca/framework/dataflow/error.h"
+#include "oca/models/geometry/collider.h"
+#include "oca/models/robot/urdf.h"
+#include "oca/systems/commands/key_points.h"
+#include "tests/allocation_count.h"
+#include "tests/systems/system_bench.h"
+
+namespace oca::systems {
+namespace elastic_band_test {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using testing::HasSubstr;
+
+ModelSet Planar() {
+  ModelSet models;
+  models.Add("arm", std::make_shared<const robot::RobotModel>(
+                        robot::LoadUrdf(OCA_SOURCE_DIR "/models/robots/planar3/planar3.urdf")));
+  return models;
+}
+
+/// Joint 1 turns by 90 degrees between 0.5 and 4.5 s.
+RequestAhead Turn() {
+  return {std::make_shared<const Trajectory>(
+      Trajectory::CubicHermite({{.time = 0.5, .position = Vector3d(0, 0, 0)},
+                                {.time = 4.5, .position = Vector3d(1.57, 0, 0)}}))};
+}
+
+ObstacleSet BoxAt(const Vector3d& place, double size = 0.1) {
+  auto body = std::make_shared<ObstacleBody>();
+  body->id = models::Name("post");
+  body->collider = geometry::MakeCollider(geometry::Box{Vector3d(size, size, 0.4)}, "post");
+  Obstacle obstacle;
+  obstacle.body = body;
+  obstacle.X_WO.translation() = place;
+  return {{obstacle}};
+}
+
+class Bench : public SystemBench<ElasticBand> {
+ public:
+  explicit Bench(const ObstacleSet& obstacles,
+                 const ElasticBand::Params& params = ElasticBand::Example())
+      : SystemBench(params, Planar()) {
+    (*this)->ahead.Fix(context(), Turn());
+    (*this)->obstacles.Fix(context(), obstacles);
+    Measure(Vector3d::Zero());
+  }
+  void Measure(const VectorXd& q) { (*this)->measured_position.Fix(context(), q); }
+  VectorXd Position() { return (*this)->position.Eval(context()); }
+  const BandMemory& Plan() { return (*this)->plan.Eval(context()); }
+  /// To the tick at k periods, that included; the arm follows.
+  void Tick(int k) {
+    AdvanceTo((k + 0.5) * 0.01);
+    Measure(Position());
+  }
+};
+
+std::string RefusalOf(const ElasticBand::Params& params) {
+  try {
+    ElasticBand band(params, Planar());
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(ElasticBandTest, RefusesToPlanMoreOftenThanItControls) {
+  EXPECT_THAT(RefusalOf({.period = Period(1, 10), .plan_period = Period(1, 20)}),
+              HasSubstr("plan_period: got 0.05 s"));
+  EXPECT_EQ(RefusalOf({.period = Period(1, 10), .plan_period = Period(1, 10)}), "accepted");
+}
+
+TEST(ElasticBandTest, RefusesToCallClearWhatItDoesNotLookAt) {
+  EXPECT_THAT(RefusalOf({.period = Period(1, 100), .margin = 0.05, .clear_distance = 0.06}),
+              HasSubstr("clear_distance: got 0.06 m"));
+  EXPECT_EQ(RefusalOf({.period = Period(1, 100), .margin = 0.05, .clear_distance = 0.05}),
+            "accepted");
+}
+
+TEST(ElasticBandTest, RefusesToBeTrustedWithLessThanIsClear) {
+  EXPECT_THAT(RefusalOf({.period = Period(1, 100), .trust_distance = 0.05}),
+              HasSubstr("got 0.05 m; expected at most clear_distance, 0.045 m"));
+  EXPECT_THAT(RefusalOf({.period = Period(1, 100), .flying_distance = 0.05}),
+              HasSubstr("got 0.05 m; expected at most clear_distance, 0.045 m"));
+  EXPECT_THAT(RefusalOf({.period = Period(1, 100), .limit_share = 1.1}),
+              HasSubstr("limit_share: got 1.1; expected in (0, 1]"));
+  EXPECT_EQ(RefusalOf({.period = Period(1, 100), .trust_distance = 0.045, .limit_share = 1.0}),
+            "accepted");
+}
+
+TEST(ElasticBandTest, PassesARequestThatIsClear) {
+  Bench bench(BoxAt({5.0, 5.0, 0.0}));
+  for (int k = 0; k < 300; ++k) {
+    bench.Tick(k);
+    const VectorXd request = Turn().trajectory->Evaluate((k + 1) * 0.01, 0);
+    EXPECT_LT((bench.Position() - request).norm(), 1e-12) << k;
+  }
+  EXPECT_EQ(bench.Plan().plans, 1u) << "what stands need not be planned for twice";
+}
+
+TEST(ElasticBandTest, EveryPlanTakesEffectAtATickAndNotARoundingLater) {
+  ObstacleSet drifting = BoxAt({3.0, 3.0, 0.0});
+  drifting.obstacles[0].linear.x() = 0.01;
+  Bench bench(drifting);
+  for (int k = 0; k < 200; ++k) {
+    bench.Tick(k);
+    const double change = bench.Plan().change;
+    EXPECT_EQ(change, std::round(50.0 * change) / 50.0) << k;  // 0.02 s from plan to plan
+    EXPECT_GT(change, 0.01 * k);
+  }
+  EXPECT_GT(bench.Plan().plans, 50u);
+}
+
+TEST(ElasticBandTest, RefusesHorizonsWithoutEnd) {
+  EXPECT_THAT(RefusalOf({.period = Period(1, 100), .most_horizon = 1e9}),
+              HasSubstr("most_horizon: got 1000000000 s; expected in [0.5, 600]"));
+  EXPECT_EQ(RefusalOf({.period = Period(1, 100), .most_horizon = 600.0}), "accepted");
+}
+
+TEST(ElasticBandTest, GoesRoundAPostAndArrivesWithoutAJump) {
+  Bench bench(BoxAt({0.6, 0.6, 0.0}));
+  VectorXd last = Vector3d::Zero(), speed = Vector3d::Zero();
+  double farthest = 0.0;
+  for (int k = 0; k < 700; ++k) {
+    bench.Tick(k);
+    const VectorXd q = bench.Position();
+    EXPECT_LT(((q - last) / 0.01 - speed).cwiseAbs().maxCoeff(), 0.5) << k;
+    speed = (q - last) / 0.01;
+    last = q;
+    farthest = std::max(farthest,
+                        (q - Turn().trajectory->Evaluate((k + 1) * 0.01, 0)).cwiseAbs().maxCoeff());
+  }
+  EXPECT_TRUE(bench.Plan().clear);
+  EXPECT_GT(farthest, 0.1);
+  EXPECT_TRUE(last.isApprox(Vector3d(1.57, 0, 0), 1e-9));
+  EXPECT_FALSE(bench.Plan().stuck);
+}
+
+TEST(ElasticBandTest, OnlyPlansAllocate) {
+  if (!kCountsAllocations) GTEST_SKIP() << "malloc is not ours to count here";
+  Bench bench(BoxAt({0.6, 0.6, 0.0}));
+  int k = 0;
+  for (; k < 30; ++k) bench.Tick(k);  // the first plans look for better ways, then one is kept
+  ASSERT_EQ(bench.Plan().plans, 8u);
+  VectorXd q = bench.Position();
+  const std::int64_t before = AllocationCount();
+  for (; k < 300; ++k) {
+    bench.AdvanceTo((k + 0.5) * 0.01);
+    q = bench->position.Eval(bench.context());
+    bench->measured_position.Fix(bench.context(), q);
+  }
+  EXPECT_EQ(AllocationCount(), before);
+}
+
+double ClearFor(Bench& bench) { return bench->clear.Eval(bench.context()).clear_for; }
+
+TEST(ElasticBandTest, SaysForHowLongItsPlanIsClearWhileAllGoesAsForeseen) {
+  const ObstacleSet post = BoxAt({0.6, 0.6, 0.0});
+  Bench bench(post);
+  bench.AdvanceTo(0.005);
+  EXPECT_EQ(ClearFor(bench), 0.0);  // the first plan has yet to be computed
+  for (int k = 1; k < 40; ++k) bench.Tick(k);
+  ASSERT_TRUE(bench.Plan().clear);
+  EXPECT_EQ(ClearFor(bench), 30.0);
+  const ClearMotion& clear = bench->clear.Eval(bench.context());
+  EXPECT_EQ(clear.bodies, std::vector{models::Name("post")});
+  EXPECT_FALSE(clear.own_links);
+
+  // An arm that is not where the band is.
+  const VectorXd followed = bench.Position();
+  bench.Measure(followed + Vector3d(0.0, 0.0049, 0.0));
+  EXPECT_EQ(ClearFor(bench), 30.0);
+  bench.Measure(followed + Vector3d(0.0, 0.0051, 0.0));
+  EXPECT_EQ(ClearFor(bench), 0.0);
+  bench.Measure(followed);
+
+  // What moves, is elsewhere, is new or is gone.
+  ObstacleSet other = post;
+  other.obstacles[0].linear = Vector3d(0.05, 0.0, 0.0);  // 15 mm in 0.3 s
+  bench->obstacles.Fix(bench.context(), other);
+  EXPECT_EQ(ClearFor(bench), 0.0);
+  bench->obstacles.Fix(bench.context(), BoxAt({0.6, 0.594, 0.0}));
+  EXPECT_EQ(ClearFor(bench), 0.0);
+  other = post;
+  other.obstacles.push_back(BoxAt({3.0, 0.0, 0.0}).obstacles[0]);
+  auto body = std::make_shared<ObstacleBody>(*other.obstacles[1].body);
+  body->id = models::Name("another post");
+  other.obstacles[1].body = body;
+  bench->obstacles.Fix(bench.context(), other);
+  EXPECT_EQ(ClearFor(bench), 0.0);
+  bench->obstacles.Fix(bench.context(), ObstacleSet{});
+  EXPECT_EQ(ClearFor(bench), 0.0);
+  bench->obstacles.Fix(bench.context(), post);
+  EXPECT_EQ(ClearFor(bench), 30.0);
+
+  // Another motion, until a plan for it has begun.
+  const std::uint64_t plans = bench.Plan().plans;
+  bench->ahead.Fix(bench.context(), Turn());
+  EXPECT_EQ(ClearFor(bench), 0.0);
+  bench.Tick(40);
+  EXPECT_EQ(ClearFor(bench), 0.0);
+  for (int k = 41; k < 45; ++k) bench.Tick(k);
+  EXPECT_EQ(bench.Plan().plans, plans + 1);
+  EXPECT_EQ(ClearFor(bench), 30.0);
+}
+
+TEST(ElasticBandTest, NamesWhatBlocksAnArmThatDoesNotGetOn) {
+  Bench bench(BoxAt({0.0, 0.8, 0.0}, 0.4));  // on the goal
+  for (int k = 0; k < 900; ++k) {
+    bench.AdvanceTo((k + 0.5) * 0.01);
+    if (k < 100) bench.Measure(bench.Position());
+    if (k != 500) continue;
+    EXPECT_FALSE(bench.Plan().stuck);  // the request has just come to rest
+  }
+  EXPECT_TRUE(bench.Plan().stuck);
+  EXPECT_EQ(bench.Plan().obstacle, models::Name("post"));
+  EXPECT_FALSE(bench.Plan().link.empty());
+}
+
+TEST(ElasticBandTest, RefusesARequestForAnotherArm) {
+  Bench bench(BoxAt({0.6, 0.6, 0.0}));
+  bench->ahead.Fix(bench.context(),
+                   RequestAhead{std::make_shared<const Trajectory>(
+                       Trajectory::Linear({{.time = 0.0, .position = VectorXd::Zero(2)}}))});
+  EXPECT_ANY_THROW(bench.AdvanceTo(0.1));
+}
+
+}  // namespace elastic_band_test
+}  // namespace oca::systems

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "oca/diagrams/files/catalogue.h"
+#include "oca/diagrams/files/diagram_file.h"
+#include "oca/diagrams/loading/diagram_schema.h"
+#include "oca/systems/signals/roles.h"
+#include "tools/simulator/catalogue_text.h"
+#include "tools/simulator/commands.h"
+#include "tools/simulator/terminal.h"
+
+namespace oca::tools {
+namespace {
+
+template <class Info>
+void PrintPorts(const char* kind, const std::vector<Info>& ports) {
+  for (const Info& port : ports) {
+    Print("  {:<7} {:<22} {}\n", kind, port.name, PortText(port));
+  }
+}
+
+}  // namespace
+
+int ListCommand(const files::Catalogue& catalogue) {
+  std::size_t width = 0;
+  for (const auto& row : catalogue.rows()) width = std::max(width, row->type.size());
+  for (const auto& row : catalogue.rows()) {
+    Print("{:<{}}  {}\n", row->type, width, row->doc.summary);
+  }
+  return kFine;
+}
+
+int DescribeCommand(const std::string& type, const files::Catalogue& catalogue) {
+  const files::CatalogueRow& row = *catalogue.Find(type);
+  const auto example = row.MakeExample(ExampleModels());
+  Print("{}: {}\n\n  {}\n", row.type, row.doc.summary, row.doc.equation);
+  if (*row.doc.source != '\0') Print("  source: {}\n", row.doc.source);
+  Print("\nports\n");
+  PrintPorts("input", example->inputs());
+  PrintPorts("output", example->outputs());
+  const auto roles = systems::DescribeRoles(*example);
+  if (!roles.empty()) Print("\nroles\n");
+  for (const std::string& role : roles) Print("  {}\n", role);
+  Print("\nparameters\n");
+  const auto defaults = row.new_params();
+  for (const Field& field : row.fields()) {
+    const std::string usual = field.type->ToJson(field.member(defaults.get())).dump();
+    const std::string bounds = field.bounds.ToString();
+    Print("  {:<22} {}{}{}; {}\n", field.key, field.type->Name(),
+          field.unit.empty() ? "" : " " + field.unit, bounds.empty() ? "" : " " + bounds,
+          field.required ? "required" : "default " + usual);
+    Print("  {:<22} {}\n", "", field.meaning);
+  }
+  if (row.fields().empty()) Print("  none\n");
+  Print("\nexample parameters\n  {}\n",
+        JsonOfFields(row.fields(), row.example_params.get()).dump());
+  return kFine;
+}
+
+int SchemaCommand(const files::Catalogue& catalogue) {
+  std::cout << loading::DiagramSchema(catalogue) << '\n';
+  return kFine;
+}
+
+}  // namespace oca::tools

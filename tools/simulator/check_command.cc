@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <exception>
+#include <iostream>
+
+#include "oca/diagrams/loading/loader.h"
+#include "oca/diagrams/runs/chatter_check.h"
+#include "oca/systems/signals/roles.h"
+#include "tools/simulator/commands.h"
+#include "tools/simulator/terminal.h"
+
+namespace oca::tools {
+namespace {
+
+/// What systems have to say to who checks them.
+void PrintNotes(const Diagram& diagram) {
+  for (const auto& [path, system, remarks] : diagram.FindRoles<systems::Remarks>()) {
+    if (!remarks->notes) continue;
+    for (const std::string& note : remarks->notes()) Print("  {}: {}\n", path, note);
+  }
+}
+
+}  // namespace
+
+int CheckCommand(const std::vector<std::string>& files, const std::vector<std::string>& texts,
+                 const files::Catalogue& catalogue) {
+  int status = kFine;
+  for (const std::string& file : files) {
+    try {
+      std::vector<files::Override> overrides;
+      for (const std::string& text : texts) overrides.push_back(files::Override::Parse(text));
+      auto loaded = loading::LoadDiagram(file, overrides, catalogue);
+      runs::AddChatterWarnings(loaded);
+      for (const std::string& warning : loaded.warnings) std::cerr << warning << '\n';
+      std::cout << file << ": fine, " << loaded.systems.size() << " systems, "
+                << loaded.diagram->connections().size() << " connections\n"
+                << std::flush;
+      PrintNotes(*loaded.diagram);
+    } catch (const std::exception& error) {
+      std::cerr << error.what() << '\n';
+      status = kBadInput;
+    }
+  }
+  return status;
+}
+
+}  // namespace oca::tools

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <iostream>
+#include <iterator>
+#include <memory>
+
+#include "oca/diagrams/loading/loader.h"
+#include "oca/framework/dataflow/dynamic_port.h"
+#include "oca/framework/dataflow/error.h"
+#include "tools/simulator/commands.h"
+
+namespace oca::tools {
+namespace {
+
+struct Edge {
+  std::string from, output, to, input;
+  bool state;
+};
+
+/// All connections between leaves, reader by reader.
+std::vector<Edge> EdgesOf(const Diagram& diagram) {
+  std::vector<Edge> edges;
+  for (const Diagram::Leaf& leaf : diagram.systems()) {
+    const auto& inputs = leaf.system->inputs();
+    for (int i = 0; i < std::ssize(inputs); ++i) {
+      const auto driver = diagram.DriverOf({{leaf.system, i}});
+      if (!driver) continue;
+      edges.push_back({diagram.PathOf(*driver->system),
+                       driver->system->outputs()[static_cast<std::size_t>(driver->index)].name,
+                       leaf.path, inputs[static_cast<std::size_t>(i)].name, ShowsState(*driver)});
+    }
+  }
+  return edges;
+}
+
+/// Inside the quotes of DOT.
+std::string Escaped(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '"' || c == '\\') escaped += '\\';
+    escaped += c;
+  }
+  return escaped;
+}
+
+/// Solid: computed within the instant. Dashed: a held state, which is what closes loops.
+std::string Dot(const loading::LoadedDiagram& loaded) {
+  std::string dot = fmt::format(
+      "digraph \"{}\" {{\n  rankdir=TB; bgcolor=white; nodesep=0.25; ranksep=0.45;\n"
+      "  node [shape=box, style=\"rounded,filled\", fillcolor=\"#eef3fa\", color=\"#4a6fa5\", "
+      "fontname=Helvetica, fontsize=12, margin=\"0.15,0.08\"];\n"
+      "  edge [color=\"#555555\", fontname=Helvetica, fontsize=9, fontcolor=\"#333333\", "
+      "arrowsize=0.7];\n",
+      Escaped(loaded.name));
+  for (const auto& block : loaded.systems) {
+    dot += fmt::format(
+        "  \"{}\" [label=<<b>{}</b><br/><font point-size=\"10\" color=\"#555555\">{}</font>>];\n",
+        block.name, block.name, block.type);
+  }
+  for (const Edge& edge : EdgesOf(*loaded.diagram)) {
+    const std::string label =
+        edge.output == edge.input ? edge.output : edge.output + " → " + edge.input;
+    dot += fmt::format("  \"{}\" -> \"{}\" [label=\"{}\"{}];\n", edge.from, edge.to, label,
+                       edge.state ? ", style=dashed" : "");
+  }
+  return dot + "}\n";
+}
+
+/// A name that Mermaid takes; its own has dots where diagrams nest.
+std::string Id(std::string path) {
+  for (std::size_t dot = path.find('.'); dot != std::string::npos; dot = path.find('.', dot)) {
+    path.replace(dot, 1, "__");
+  }
+  return "s_" + path;
+}
+
+std::string Mermaid(const loading::LoadedDiagram& loaded) {
+  std::string text = "flowchart LR\n";
+  for (const auto& block : loaded.systems) {
+    text +=
+        fmt::format("  {}[\"{}<br/><small>{}</small>\"]\n", Id(block.name), block.name, block.type);
+  }
+  for (const Edge& edge : EdgesOf(*loaded.diagram)) {
+    text += fmt::format("  {} {}|{} → {}| {}\n", Id(edge.from), edge.state ? "-.->" : "-->",
+                        edge.output, edge.input, Id(edge.to));
+  }
+  return text;
+}
+
+/// Graphviz lays out; it is a program, so that nobody needs it who does not draw.
+int PrintSvg(const std::string& dot) {
+  std::fflush(stdout);
+  std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen("dot -Tsvg", "w"), pclose);
+  if (!pipe) throw ConfigError("graph: cannot start `dot`");
+  std::fwrite(dot.data(), 1, dot.size(), pipe.get());
+  if (pclose(pipe.release()) != 0) throw ConfigError("graph: `dot` failed");
+  return kFine;
+}
+
+bool HasGraphviz() { return std::system("command -v dot > /dev/null 2>&1") == 0; }
+
+}  // namespace
+
+int GraphCommand(const GraphArguments& arguments, const files::Catalogue& catalogue) {
+  std::vector<files::Override> overrides;
+  for (const std::string& text : arguments.overrides) {
+    overrides.push_back(files::Override::Parse(text));
+  }
+  const loading::LoadedDiagram loaded = loading::LoadDiagram(arguments.file, overrides, catalogue);
+  if (arguments.format == "mermaid") {
+    std::cout << Mermaid(loaded);
+  } else if (arguments.format == "dot") {
+    std::cout << Dot(loaded);
+  } else {
+    if (!HasGraphviz()) {
+      throw ConfigError("graph: svg needs the program `dot` (apt-get install graphviz)");
+    }
+    return PrintSvg(Dot(loaded));
+  }
+  return kFine;
+}
+
+}  // namespace oca::tools

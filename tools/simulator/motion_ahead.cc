@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/simulator/motion_ahead.h"
+
+#include <fmt/format.h>
+
+#include <set>
+#include <vector>
+
+#include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/port_access.h"
+#include "oca/systems/signals/request_ahead.h"
+
+namespace oca::tools {
+namespace {
+
+using Ahead = Output<systems::RequestAhead>;
+
+void AddAheadOf(const System& system, std::vector<Ahead>& found) {
+  for (const System::OutputInfo& output : system.outputs()) {
+    if (output.type != &TypeOf<systems::RequestAhead>()) continue;
+    found.push_back(Typed<systems::RequestAhead>(system.FindOutput(output.name)));
+  }
+}
+
+}  // namespace
+
+MotionAhead MotionAheadOf(const Diagram& diagram, const OutputHandle& output,
+                          const std::string& where) {
+  const auto upstream = diagram.UpstreamOf(output, Through::kStates).outputs;
+  std::set<const System*> seen;
+  for (auto entry = upstream.begin(); entry != upstream.end();) {
+    std::vector<Ahead> found;  // all that are as near as this one
+    for (const int near = entry->connections; entry != upstream.end() && entry->connections == near;
+         ++entry) {
+      const System& system = *entry->output.system;
+      if (seen.insert(&system).second) AddAheadOf(system, found);
+    }
+    if (found.size() > 1) {
+      throw ConfigError(fmt::format("{}: motion ahead; got both of '{}' and '{}'; expected one",
+                                    where, diagram.PathOf(*found[0].system),
+                                    diagram.PathOf(*found[1].system)));
+    }
+    if (found.empty()) continue;
+    const Context context = diagram.MakeContext();
+    auto motion = found[0].Eval(context).trajectory;
+    if (motion) return {std::move(motion), found[0].system};
+  }
+  throw ConfigError(fmt::format(
+      "{}: motion ahead; got '{}', up the line from which nobody knows it; expected a source with "
+      "the output `ahead`, as splines have it",
+      where, diagram.PathOf(*output.system)));
+}
+
+}  // namespace oca::tools

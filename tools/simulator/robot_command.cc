@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "oca/diagrams/files/package_paths.h"
+#include "oca/framework/dataflow/error.h"
+#include "oca/models/opened_files.h"
+#include "oca/models/robot/collision_check.h"
+#include "oca/models/robot/srdf.h"
+#include "oca/models/robot/unseen_links.h"
+#include "oca/models/robot/urdf.h"
+#include "tools/simulator/commands.h"
+#include "tools/simulator/output_files.h"
+#include "tools/simulator/terminal.h"
+
+namespace oca::tools {
+namespace {
+
+using nlohmann::ordered_json;
+using robot::LinkPairCheck;
+using robot::PairKind;
+
+const std::string& NameOf(const robot::RobotModel& model, int link) {
+  return model.links()[link].name.text();
+}
+
+std::string Table(const robot::RobotModel& model, const std::vector<LinkPairCheck>& pairs,
+                  const robot::CollisionSampling& sampling) {
+  std::size_t width = 4;
+  std::map<PairKind, int> counts;
+  for (const LinkPairCheck& pair : pairs) {
+    width = std::max({width, NameOf(model, pair.link_a).size(), NameOf(model, pair.link_b).size()});
+    ++counts[pair.kind];
+  }
+  std::string text = fmt::format(
+      "{}: {} pairs of links with solids, {} samples, seed {}, margin {:g} m\n",
+      model.name().text(), pairs.size(), sampling.samples, sampling.seed, sampling.margin);
+  text += fmt::format("  {:<{}}  {:<{}}  {:<9}  {:>8}  {:>10}\n", "link", width, "link", width,
+                      "kind", "least m", "collisions");
+  for (const LinkPairCheck& pair : pairs) {
+    text += fmt::format("  {:<{}}  {:<{}}  {:<9}  {:>8.4f}  {:>10}\n", NameOf(model, pair.link_a),
+                        width, NameOf(model, pair.link_b), width, robot::ToString(pair.kind),
+                        pair.least_distance, pair.collisions);
+  }
+  return text + fmt::format("  to check: {}; not: {} adjacent, {} always, {} never in collision\n",
+                            counts[PairKind::kSometimes], counts[PairKind::kAdjacent],
+                            counts[PairKind::kAlways], counts[PairKind::kNever]);
+}
+
+ordered_json ToJson(const robot::RobotModel& model, const std::vector<LinkPairCheck>& pairs,
+                    const robot::CollisionSampling& sampling) {
+  ordered_json json{{"robot", model.name().text()},
+                    {"samples", sampling.samples},
+                    {"seed", sampling.seed},
+                    {"margin", sampling.margin},
+                    {"pairs", ordered_json::array()}};
+  for (const LinkPairCheck& pair : pairs) {
+    json["pairs"].push_back({{"link1", NameOf(model, pair.link_a)},
+                             {"link2", NameOf(model, pair.link_b)},
+                             {"kind", robot::ToString(pair.kind)},
+                             {"least_distance", pair.least_distance},
+                             {"collisions", pair.collisions}});
+  }
+  return json;
+}
+
+std::vector<robot::DisabledPair> DisabledPairs(const robot::RobotModel& model,
+                                               const std::vector<LinkPairCheck>& pairs) {
+  std::vector<robot::DisabledPair> disabled;
+  for (const PairKind kind : {PairKind::kAdjacent, PairKind::kAlways, PairKind::kNever}) {
+    for (const LinkPairCheck& pair : pairs) {
+      if (pair.kind != kind) continue;
+      disabled.push_back({NameOf(model, pair.link_a), NameOf(model, pair.link_b),
+                          std::string(robot::ToString(kind))});
+    }
+  }
+  return disabled;
+}
+
+robot::VisualAsCollision VisualsFrom(const std::string& name) {
+  const auto names = EnumNames(robot::VisualAsCollision{});
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    throw ConfigError(fmt::format("--visual-as-collision: got '{}'; expected one of: {}", name,
+                                  fmt::join(names, ", ")));
+  }
+  return static_cast<robot::VisualAsCollision>(found - names.begin());
+}
+
+}  // namespace
+
+int CheckCollisionsCommand(const CheckCollisionsArguments& arguments) {
+  robot::LoadOptions options;
+  options.package_directories = files::PackageFolders();
+  options.load_visuals = false;
+  options.visual_as_collision = VisualsFrom(arguments.visual_as_collision);
+  const auto warn = [&](const std::string& line) {
+    Tell("{}: warning: {}\n", arguments.urdf, line);
+  };
+  options.warn = warn;
+  models::OpenedFiles opened;
+  const robot::RobotModel model =
+      robot::LoadUrdf(files::ResolvePath(arguments.urdf, {}, {}), options);
+  CheckOutputs({{"--write-srdf", arguments.write_srdf}},
+               InputsOf(opened.files(), "what the robot is read from"));
+  if (const std::string unseen = robot::DescribeUnseen(model, "--visual-as-collision missing");
+      !unseen.empty())
+    warn(unseen);
+  const robot::CollisionSampling sampling{arguments.samples, arguments.seed, arguments.margin};
+  const std::vector<LinkPairCheck> pairs = robot::CheckCollisions(model, sampling);
+  if (!arguments.write_srdf.empty()) {
+    robot::SaveDisabledPairs(arguments.write_srdf, model.name().text(),
+                             DisabledPairs(model, pairs));
+  }
+  if (arguments.json) {
+    std::cout << ToJson(model, pairs, sampling).dump(2) << '\n';
+  } else {
+    std::cout << Table(model, pairs, sampling);
+    if (!arguments.write_srdf.empty()) Tell("wrote {}\n", arguments.write_srdf);
+  }
+  return kFine;
+}
+
+}  // namespace oca::tools

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/simulator/run_summary.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "oca/diagrams/runs/blind_spots.h"
+#include "tools/simulator/terminal.h"
+
+namespace oca::tools {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// An arm that ends nearer than this to its goal has arrived, rad.
+constexpr double kArrived = 0.01;
+
+std::string Line(const char* label, const std::string& text) {
+  return fmt::format("  {:<13}{}\n", label, text);
+}
+
+/// What is known of the times between the samples.
+std::string Certificate(const ordered_json& metrics, double duration) {
+  if (duration == 0.0) return "; looked at once, at the start";
+  const auto& certified = metrics.value("certified_min_distance", ordered_json());
+  if (!certified.is_number()) return "; between the samples nothing is known";
+  if (certified.get<double>() <= 0.0) return "; between the samples a contact is not ruled out";
+  return fmt::format("; {:.3f} m or more at every time", certified.get<double>());
+}
+
+/// What stands where nothing was found within reach; `judged`: distances were asked for.
+std::string NothingNear(const ordered_json& metrics, double duration, bool judged, bool colour) {
+  if (metrics.value("contact_time", ordered_json()).is_number()) {
+    return Line("clearance", Good("clear", colour) +
+                                 ": nothing came within reach of the distance measurement" +
+                                 Certificate(metrics, duration));
+  }
+  if (!judged || !metrics.contains("contact_time")) return "";
+  return Line("clearance",
+              Bad("NOT KNOWN", colour) + ": there was nothing to compare the arm with");
+}
+
+std::string ClearanceLine(const ordered_json& metrics, double duration, bool judged, bool colour) {
+  const auto& distance = metrics.value("min_distance", ordered_json());
+  if (!distance.is_number()) return NothingNear(metrics, duration, judged, colour);
+  const auto& pair = metrics["min_distance_pair"];
+  std::string where;
+  if (pair.is_array()) {
+    where = fmt::format(", {} to {} at {:.2f} s", pair[0].get<std::string>(),
+                        pair[1].get<std::string>(), metrics["min_distance_time"].get<double>());
+  }
+  const double nearest = distance.get<double>();
+  if (nearest > 0.0) {
+    return Line("clearance", Good("clear", colour) + fmt::format(": nearest {:.3f} m", nearest) +
+                                 where + Certificate(metrics, duration));
+  }
+  return Line("clearance",
+              Bad("CONTACT", colour) + fmt::format(": {:.3f} m deep", -nearest) + where +
+                  fmt::format("; {:.2f} s in contact", metrics.value("contact_time", 0.0)));
+}
+
+/// What "clear" does not speak of.
+std::string NotSeenLine(const loading::LoadedDiagram& loaded) {
+  const std::vector<std::string> spots = runs::BlindSpots(loaded);
+  return spots.empty() ? "" : Line("not seen", fmt::format("{}", fmt::join(spots, "; ")));
+}
+
+/// Where the arm stood for long, if it did: at the goal it need not have ended.
+std::string Standstill(const ordered_json& metrics, bool reached) {
+  const auto& time = metrics.value("stuck_time", ordered_json());
+  if (!time.is_number() || time.get<double>() == 0.0) return "";
+  const auto& pair = metrics["stuck_pair"];
+  return fmt::format("; {} for {:.3g} s, {}", reached ? "held up" : "STUCK", time.get<double>(),
+                     pair.is_array() ? fmt::format("nearest {} to {}", pair[0].get<std::string>(),
+                                                   pair[1].get<std::string>())
+                                     : std::string("nothing within reach"));
+}
+
+std::string GoalLine(const ordered_json& metrics, bool colour) {
+  const auto& error = metrics.value("final_error", ordered_json());
+  if (!error.is_number()) return "";
+  const double off = error.get<double>();
+  const std::string arrival =
+      off < kArrived ? Good("reached", colour) + fmt::format(": {:.2g} rad off", off)
+                     : Bad("NOT REACHED", colour) + fmt::format(": {:.3g} rad off", off);
+  return Line("goal", arrival + Standstill(metrics, off < kArrived));
+}
+
+std::string MotionLine(const ordered_json& metrics) {
+  std::string text;
+  const auto add = [&](const char* key, const char* pattern) {
+    const auto& value = metrics.value(key, ordered_json());
+    if (!value.is_number()) return;
+    text += (text.empty() ? "" : ", ") + fmt::format(fmt::runtime(pattern), value.get<double>());
+  };
+  add("max_abs_delta", "largest delta {:.3g} rad");
+  add("total_variation_ratio", "path {:.3g} times the request's");
+  add("delta_sign_changes_per_second", "{:.1f} delta reversals a second");
+  std::string lines = text.empty() ? "" : Line("alteration", text);
+  text.clear();
+  add("max_joint_speed", "joint speed up to {:.3g} rad/s");
+  add("max_joint_acceleration", "acceleration up to {:.3g} rad/s^2");
+  return lines + (text.empty() ? "" : Line("motion", text));
+}
+
+std::string ExpectationLines(const runs::RunResult& result, bool colour) {
+  std::string lines;
+  for (const runs::ExpectationResult& expectation : result.expectations) {
+    const std::string value =
+        expectation.value ? fmt::format("{:.6g}", *expectation.value) : std::string("no value");
+    lines += Line(&expectation == result.expectations.data() ? "expected" : "",
+                  fmt::format("{} {} {} (got {})",
+                              expectation.ok ? Good("met", colour) : Bad("NOT MET", colour),
+                              expectation.name, expectation.bound, value));
+  }
+  return lines;
+}
+
+std::string PaceText(const SimulatorStatistics& statistics) {
+  if (statistics.overruns == 0) return "no overruns";
+  return fmt::format("{} overruns of {} steps, the worst {:.3g} ms", statistics.overruns,
+                     statistics.steps, 1e3 * statistics.worst_overrun);
+}
+
+}  // namespace
+
+std::string RunSummary(const loading::LoadedDiagram& loaded, const runs::RunResult& result,
+                       bool colour) {
+  const auto metrics = ordered_json::parse(result.metrics);
+  std::string text = loaded.name;
+  if (!loaded.description.empty()) text += Dim(": " + loaded.description, colour);
+  text += '\n';
+  if (!result.failure.empty()) text += Line("run", Bad("FAILED", colour) + ": " + result.failure);
+  if (result.interrupted) text += Line("run", Bad("INTERRUPTED", colour));
+  text += ClearanceLine(metrics, result.duration, runs::JudgesDistances(loaded), colour) +
+          NotSeenLine(loaded) + GoalLine(metrics, colour) + MotionLine(metrics) +
+          ExpectationLines(result, colour);
+  text += Line("time", fmt::format("{:g} s in {:.3g} s, {:.0f} times real time; {} steps",
+                                   result.duration, result.wall_seconds,
+                                   result.duration / result.wall_seconds, result.statistics.steps));
+  if (result.paced) text += Line("pace", PaceText(result.statistics));
+  return text;
+}
+
+std::string ProfileTable(const runs::RunResult& result) {
+  if (result.profile.empty()) return "";
+  std::vector<SystemTime> rows = result.profile;
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const SystemTime& a, const SystemTime& b) { return a.seconds > b.seconds; });
+  double rest = result.wall_seconds;
+  for (const SystemTime& row : rows) rest -= row.seconds;
+  std::string text = fmt::format("  {:<28}{:>10}{:>12}{:>12}{:>8}\n", "system", "calls", "total ms",
+                                 "ns a call", "share");
+  for (const SystemTime& row : rows) {
+    const auto calls = static_cast<double>(row.calls);
+    text += fmt::format("  {:<28}{:>10}{:>12.3f}{:>12.0f}{:>7.1f}%\n", row.system, row.calls,
+                        1e3 * row.seconds, row.calls == 0 ? 0.0 : 1e9 * row.seconds / calls,
+                        100.0 * row.seconds / result.wall_seconds);
+  }
+  return text + fmt::format("  {:<28}{:>10}{:>12.3f}{:>12}{:>7.1f}%\n",
+                            result.paced ? "(engine, record, waiting)" : "(engine, record)", "",
+                            1e3 * rest, "", 100.0 * rest / result.wall_seconds);
+}
+
+}  // namespace oca::tools

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/simulator/terminal.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <iostream>
+
+namespace oca::tools {
+namespace {
+
+std::string Paint(const std::string& text, const char* code, bool colour) {
+  return colour ? fmt::format("\033[{}m{}\033[0m", code, text) : text;
+}
+
+}  // namespace
+
+void PrepareTerminal() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) continue;
+    // The least number that is free, hence this one; opened the wrong way round.
+    open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+  }
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+void WriteError(std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
+
+void WriteOutput(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
+
+bool FlushOutput() {
+  errno = 0;
+  std::cout.flush();
+  const bool flushed = std::fflush(stdout) == 0;
+  const bool reader_gone = errno == EPIPE;
+  if (std::cout && flushed && std::ferror(stdout) == 0) return true;
+  if (!reader_gone) WriteError("error: standard output cannot be written\n");
+  return false;
+}
+
+bool IsTerminal(int descriptor) {
+  const char* const term = std::getenv("TERM");
+  return isatty(descriptor) != 0 && term != nullptr && std::string_view(term) != "dumb";
+}
+
+bool WantsColour(int descriptor) {
+  const char* const no_colour = std::getenv("NO_COLOR");
+  return IsTerminal(descriptor) && (no_colour == nullptr || *no_colour == '\0');
+}
+
+std::string Good(const std::string& text, bool colour) { return Paint(text, "1;32", colour); }
+std::string Bad(const std::string& text, bool colour) { return Paint(text, "1;31", colour); }
+std::string Dim(const std::string& text, bool colour) { return Paint(text, "2", colour); }
+
+ProgressBar::~ProgressBar() {
+  if (visible_) WriteError("\r\033[K");
+}
+
+void ProgressBar::Show(double time) {
+  // Asking the clock costs more than a tick.
+  if (++skipped_ < 64) return;
+  skipped_ = 0;
+  const auto now = Clock::now();
+  if (now - start_ < std::chrono::milliseconds(300) ||
+      now - shown_ < std::chrono::milliseconds(100)) {
+    return;
+  }
+  shown_ = now;
+  visible_ = true;
+  constexpr int kWidth = 30;
+  const double share = end_ > 0.0 ? std::clamp(time / end_, 0.0, 1.0) : 1.0;
+  const int filled = static_cast<int>(share * kWidth);
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  Tell("\r\033[K[{:#<{}}{:.<{}}] {:.1f} of {:g} s, {:.0f} times real time", "", filled, "",
+       kWidth - filled, time, end_, time / seconds);
+  std::fflush(stderr);
+}
+
+}  // namespace oca::tools
