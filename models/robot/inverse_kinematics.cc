@@ -164,7 +164,7 @@ class Search {
       PostureSolution next = Judged(Solve(tried++ == 0 ? start_ : RandomPosture(), 0.0));
       if (next.reached) {
         ++found;
-        next = Drawn(std::move(next));
+        next = Drawn(next);
       }
       if (tried == 1 || Better(next, best)) best = std::move(next);
     }
