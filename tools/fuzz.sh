@@ -40,7 +40,7 @@ for reader in "${readers[@]}"; do
   gather "$reader" "$corpus"
   log=build/fuzz/$reader.log
   status=0
-  OCA_FUZZ_READER=$reader "$fuzzer" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -max_len=32768 \
+  OCA_FUZZ_READER=$reader TMPDIR=/dev/shm "$fuzzer" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -max_len=32768 \
     -artifact_prefix="build/fuzz/found/$reader-" "$corpus" "tests/fuzz/corpus/$reader" > "$log" 2>&1 || status=$?
   runs=$(awk '/^#[0-9]+/ { runs = substr($1, 2); for (i = 2; i < NF; ++i) if ($i == "cov:") covered = $(i + 1) }
               END { printf "%d inputs, %d branches", runs, covered }' "$log")
