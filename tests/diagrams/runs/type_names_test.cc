@@ -41,7 +41,8 @@ std::vector<std::string> LiteralsOf(const std::string& text) {
       at = std::min(text.find(close, open), text.size());
       literals.push_back(text.substr(open + 1, at - open - 1));
       at += close.size() - 1;
-    } else if (text[at] == '\'' && (at == 0 || std::isalnum(text[at - 1]) == 0)) {  // no 1'000
+    } else if (text[at] == '\'' && (at == 0 || std::isalnum(static_cast<unsigned char>(
+                                                   text[at - 1])) == 0)) {  // no 1'000
       at = end_of_quote(at + 1, '\'');
     } else if (text[at] == '"') {
       const std::size_t end = end_of_quote(at + 1, '"');
