@@ -106,7 +106,7 @@ TEST(IntegratorPlantTest, RefusesListsOfDifferentLengthAndNaN) {
                                 .upper = Eigen::VectorXd(Eigen::Vector3d::Ones())}),
                ConfigError);
   EXPECT_THAT(RefusalOf({.initial_position = std::numeric_limits<double>::quiet_NaN()}),
-              HasSubstr("not finite"));
+              HasSubstr("initial_position: got nan; expected a finite number"));
 }
 
 }  // namespace integrator_plant_test

@@ -314,13 +314,15 @@ TEST(ObstacleSourceTest, RefusesTimesAndPeriodsThatMakeNoSense) {
   params.obstacles[0].disappear = 2.0;
   EXPECT_THAT(RefusalOf(params), HasSubstr("disappear"));
   params.obstacles[0].appear = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(RefusalOf(params), HasSubstr("disappear"));
+  EXPECT_THAT(RefusalOf(params), HasSubstr("obstacles[0].appear: got nan"));
   EXPECT_THAT(RefusalOf({.period = Period(-1, 10)}), HasSubstr("period"));
 }
 
 TEST(ObstacleSourceTest, RefusesABadShapeNamingTheObstacle) {
   ObstacleSource::Params params{.obstacles = {Ball("ball", Vector3d::Zero())}};
   params.obstacles[0].shape.radius = -1.0;
+  EXPECT_THAT(RefusalOf(params), HasSubstr("obstacles[0].shape.radius: got -1 m"));
+  params.obstacles[0].shape.radius.reset();
   EXPECT_THAT(RefusalOf(params), HasSubstr("obstacle 'ball'.shape"));
 }
 
