@@ -34,7 +34,7 @@ bool SignalFacts::Claim(const System& system, const std::string& robot) {
 /// A system that names a robot reads and writes vectors of its joints.
 void SignalFacts::ClaimModels() {
   for (const loading::LoadedDiagram::Block& block : loaded_.systems) {
-    if (!block.row->needs_models) continue;
+    if (block.row == nullptr || !block.row->needs_models) continue;
     const Value* const model = block.params.Find("model");
     std::string name = model != nullptr && model->string() != nullptr ? *model->string() : "";
     if (name.empty() && loaded_.models.all().size() == 1)

@@ -77,7 +77,7 @@ check_cited_pages() {
   files '*.h' '*.cc' '*.cmake' CMakeLists.txt '*.yaml' '*.sh' '*.ts' '*.mjs' '*.urdf' '*.srdf' | xargs grep -noE '[$A-Za-z0-9_./-]+\.md\b' |
     while IFS=: read -r where line cited; do
       [[ $where == tests/docs/* || $cited == *\$* || $cited == //* || $cited == .md ]] && continue
-      [ -e "$cited" ] || [ -e "$(dirname "$where")/$cited" ] || [ -e "docs/reference/$cited" ] ||
+      [ -e "${cited#/}" ] || [ -e "$(dirname "$where")/$cited" ] || [ -e "docs/reference/$cited" ] ||
         echo "$where:$line: cites $cited, which is not there"
     done > "$work/cited"
   files '*.h' '*.cc' | xargs grep -noE 'docs/theory\.md, [A-Z][A-Za-z ]+' | while IFS=: read -r where line cited; do

@@ -71,7 +71,7 @@ TEST(SchemaTableTest, LooksThroughTheAlternativeOfAnExpression) {
 }
 
 TEST(SchemaTableTest, OfNothingIsEmpty) {
-  EXPECT_EQ(SchemaTable(R"({"type": "string"})"), "");
+  EXPECT_EQ(SchemaTable(ordered_json::parse(R"({"type": "string"})")), "");
 }
 
 }  // namespace schema_table_test

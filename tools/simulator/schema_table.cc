@@ -24,14 +24,25 @@ std::string SchemaText(const ordered_json& schema, const char* key) {
   return found == schema.end() ? "" : found->get<std::string>();
 }
 
+constexpr const char* kExpression = "\\$\\{.*\\}";
+
 /// The alternatives of a schema, without that of an expression in place of a value.
 std::vector<ordered_json> Alternatives(const ordered_json& schema) {
   std::vector<ordered_json> all;
+  if (schema.contains("type") && schema["type"].is_array()) {
+    for (const ordered_json& type : schema["type"]) {
+      all.push_back(schema);
+      all.back()["type"] = type;
+      if (type == "array") continue;
+      for (const char* const of_lists : {"items", "minItems", "maxItems"})
+        all.back().erase(of_lists);
+    }
+  }
   for (const char* const key : {"anyOf", "oneOf"}) {
     const auto found = schema.find(key);
     if (found == schema.end()) continue;
     for (const ordered_json& item : *found) {
-      if (SchemaText(item, "pattern") != "\\$\\{.*\\}") all.push_back(item);
+      if (SchemaText(item, "pattern") != kExpression) all.push_back(item);
     }
   }
   return all;
@@ -39,6 +50,15 @@ std::vector<ordered_json> Alternatives(const ordered_json& schema) {
 
 /// `schema` without what allows an expression; what it says beside its one alternative is kept.
 ordered_json PlainSchema(ordered_json schema) {
+  if (schema.contains("type") && schema["type"].is_array() &&
+      SchemaText(schema, "pattern") == kExpression) {
+    ordered_json types = ordered_json::array();
+    for (const ordered_json& type : schema["type"]) {
+      if (type != "string") types.push_back(type);
+    }
+    schema.erase("pattern");
+    schema["type"] = types.size() == 1 ? types[0] : types;
+  }
   for (auto all = Alternatives(schema); all.size() == 1; all = Alternatives(schema)) {
     ordered_json inner = all.front();
     for (const auto& [key, value] : schema.items()) {

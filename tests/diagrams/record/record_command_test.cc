@@ -48,7 +48,7 @@ TEST_F(RecordCommandTest, AnOverrideChangesOneThingOfARecord) {
 
 TEST_F(RecordCommandTest, ARunOfARecordIsWarnedAsTheFirstOneWas) {
   const Ran first = Run("$S run diagrams/static_test.yaml --record $D/a.mcap");
-  EXPECT_THAT(first.err, HasSubstr("avoidance_report.yaml:27:15: warning: systems.relaxation: "
+  EXPECT_THAT(first.err, HasSubstr("avoidance_report.yaml:28:15: warning: systems.relaxation: "
                                    "the loop must chatter"));
   EXPECT_EQ(Run("$S run $D/a.mcap --record $D/b.mcap").err, first.err);
   EXPECT_EQ(Run("$S run $D/b.mcap").err, first.err);
