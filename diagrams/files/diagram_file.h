@@ -26,34 +26,34 @@ struct SimulatorParams {
 
 /// An entry of `attached` of a model: a tool or a grasped object.
 struct AttachedParams {
-  std::string id;
-  std::string link;
-  systems::ShapeParams shape;
-  std::optional<systems::PoseParams> pose;
-  std::vector<std::string> touches;
+  std::string id{};
+  std::string link{};
+  systems::ShapeParams shape{};
+  std::optional<systems::PoseParams> pose{};
+  std::vector<std::string> touches{};
   static void Describe(Fields<AttachedParams>& fields);
 };
 
 /// An entry of `models`.
 struct ModelParams {
-  std::string urdf;
-  std::string srdf;
+  std::string urdf{};
+  std::string srdf{};
   systems::CollisionMeshes collision{systems::CollisionMeshes::kHull};  ///< of its meshes
   robot::VisualAsCollision visual_as_collision{robot::VisualAsCollision::kNone};
-  systems::PoseParams base_pose;
-  std::optional<PerComponent> acceleration_limits;
-  std::optional<PerComponent> jerk_limits;
-  std::vector<AttachedParams> attached;
+  systems::PoseParams base_pose{};
+  std::optional<PerComponent> acceleration_limits{};
+  std::optional<PerComponent> jerk_limits{};
+  std::vector<AttachedParams> attached{};
   static void Describe(Fields<ModelParams>& fields);
 };
 
 /// An entry of `expect`: a bound on a metric or a signal.
 struct ExpectParams {
-  std::optional<double> at_least;
-  std::optional<double> at_most;
-  std::optional<double> equal;
+  std::optional<double> at_least{};
+  std::optional<double> at_most{};
+  std::optional<double> equal{};
   double within{0.0};
-  std::optional<double> at;
+  std::optional<double> at{};
   static void Describe(Fields<ExpectParams>& fields);
 };
 

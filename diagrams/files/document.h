@@ -12,19 +12,19 @@ namespace oca::files {
 
 /// `-s PATH=VALUE`: PATH is dot-separated keys, items of lists by index from 0; VALUE is YAML.
 struct Override {
-  std::string path;
-  std::string value;
+  std::string path{};
+  std::string value{};
   /// throws ConfigError if `text` is not PATH=VALUE.
   static Override Parse(const std::string& text);
 };
 
 /// The files behind a document.
 struct DocumentSources {
-  std::vector<std::filesystem::path> files;       ///< those that were read, first the diagram file
-  std::vector<std::filesystem::path> candidates;  ///< diagram files beside one that was chosen
-  std::vector<std::string> choosing;              ///< parameters that chose files
-  std::set<std::string> chosen;  ///< files, as locations name them, that came by such a choice
-  std::vector<std::filesystem::path> alternatives;  ///< candidates that the same include can name
+  std::vector<std::filesystem::path> files{};  ///< those that were read, first the diagram file
+  std::vector<std::filesystem::path> candidates{};  ///< diagram files beside one that was chosen
+  std::vector<std::string> choosing{};              ///< parameters that chose files
+  std::set<std::string> chosen{};  ///< files, as locations name them, that came by such a choice
+  std::vector<std::filesystem::path> alternatives{};  ///< candidates that the same include can name
 };
 
 /// A diagram file as one tree: the files it includes first, itself over them, overrides over all.

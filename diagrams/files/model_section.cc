@@ -3,18 +3,15 @@
 
 #include <fmt/format.h>
 
-#include <memory>
 #include <utility>
 #include <vector>
 
 #include "oca/diagrams/files/diagram_file.h"
+#include "oca/diagrams/files/load_models.h"
 #include "oca/diagrams/files/package_paths.h"
 #include "oca/diagrams/files/section.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/error.h"
-#include "oca/models/robot/attach_objects.h"
-#include "oca/models/robot/unseen_links.h"
-#include "oca/models/robot/urdf.h"
 
 namespace oca::files {
 namespace {
@@ -28,24 +25,6 @@ fs::path FolderOf(const Location& location) {
 Location LocationOf(const Value& map, const char* key) {
   const Value* const value = map.Find(key);
   return value == nullptr ? map.location() : value->location();
-}
-
-std::vector<robot::AttachedObject> MakeAttached(const std::vector<AttachedParams>& params,
-                                                const std::string& where,
-                                                std::vector<std::string>* warnings) {
-  std::vector<robot::AttachedObject> objects;
-  for (std::size_t i = 0; i < params.size(); ++i) {
-    const AttachedParams& from = params[i];
-    const std::string at = fmt::format("{}.attached[{}]", where, i);
-    if (from.shape.type == systems::ShapeType::kHalfSpace) {
-      throw ConfigError(at + ".shape.type: got a half_space; expected a body that ends");
-    }
-    const auto body = systems::MakeObstacleBody(from.id, from.shape, at + ".shape", warnings);
-    objects.push_back({from.id, from.link,
-                       from.pose.value_or(systems::PoseParams{}).Pose(at + ".pose"),
-                       body->collider->shape(), from.touches});
-  }
-  return objects;
 }
 
 }  // namespace
@@ -84,31 +63,10 @@ void ModelSection::ReadModel(const Value::Entry& entry) {
   }
   std::vector<std::string> warnings;
   try {
-    robot::LoadOptions options;
-    options.warn = [&](const std::string& line) {
-      warnings.push_back(fmt::format("{}: {}", where, line));
-    };
-    options.hull_advice = "; collision: decomposition splits it";
-    options.X_WB = params.base_pose.Pose(where + ".base_pose");
-    options.decompose_meshes = params.collision == systems::CollisionMeshes::kDecomposition;
-    options.visual_as_collision = params.visual_as_collision;
-    options.srdf = Resolve(params.srdf, LocationOf(entry.value, "srdf"));
-    if (params.acceleration_limits) {
-      options.acceleration_limits = params.acceleration_limits->values();
-    }
-    if (params.jerk_limits) options.jerk_limits = params.jerk_limits->values();
-    options.find_package = [this](const std::string& package) -> fs::path {
-      const auto found = packages_.find(package);
-      return found == packages_.end() ? fs::path() : found->second;
-    };
-    options.package_directories = PackageFolders();
-    const robot::RobotModel robot =
-        robot::LoadUrdf(Resolve(params.urdf, LocationOf(entry.value, "urdf")), options);
-    const auto model = std::make_shared<const robot::RobotModel>(
-        robot::AttachObjects(robot, MakeAttached(params.attached, where, &warnings)));
-    const std::string unseen = robot::DescribeUnseen(*model, "visual_as_collision: missing");
-    if (!unseen.empty()) warnings.push_back(fmt::format("{}: {}", where, unseen));
-    models_.Add(entry.key, model);
+    params.srdf = Resolve(params.srdf, LocationOf(entry.value, "srdf")).string();
+    params.urdf = Resolve(params.urdf, LocationOf(entry.value, "urdf")).string();
+    const Warn warn = [&](const std::string& line) { warnings.push_back(line); };
+    models_.Add(entry.key, LoadModel(where, params, packages_, warn));
   } catch (const std::runtime_error& error) {
     failed_ = true;
     problems_.Add(entry.location, fmt::format("{}: {}", where, error.what()));

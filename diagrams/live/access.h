@@ -9,7 +9,7 @@
 namespace oca::live {
 
 struct AccessOptions {
-  std::string address;                 ///< that the server listens on, a number
+  std::string address{};               ///< that the server listens on, a number
   int port;                            ///< of it
   std::vector<std::string> origins{};  ///< of other pages that may connect, see Access
   std::string token{};                 ///< that a request must bring; empty: none
@@ -17,15 +17,15 @@ struct AccessOptions {
 
 /// What a request says of itself: the values of all headers of a name, in order.
 struct Claims {
-  std::vector<std::string> hosts;
-  std::vector<std::string> origins;
+  std::vector<std::string> hosts{};
+  std::vector<std::string> origins{};
   std::string target{"/"};
   std::string reached{};  ///< address of this machine that it came in by
 };
 
 struct Refusal {
-  int status;       ///< of HTTP
-  std::string why;  ///< printable, without what is secret
+  int status;         ///< of HTTP
+  std::string why{};  ///< printable, without what is secret
 };
 
 /// Decides who may see and change a run: a browser lets any page that it shows send requests to

@@ -16,27 +16,27 @@
 namespace oca::live {
 
 struct LiveRunOptions {
-  std::filesystem::path file;
+  std::filesystem::path file{};
   files::Catalogue catalogue{files::Catalogue::Standard()};  ///< types of its systems
-  std::vector<files::Override> overrides;
-  std::optional<double> duration;  ///< s; without one the run goes on until it is interrupted
-  double realtime_factor{1.0};     ///< simulated seconds a second
-  std::string version;             ///< of the program
+  std::vector<files::Override> overrides{};
+  std::optional<double> duration{};  ///< s; without one the run goes on until it is interrupted
+  double realtime_factor{1.0};       ///< simulated seconds a second
+  std::string version{};             ///< of the program
   Log* log{nullptr};
   /// Receive the run too, as one: files that keep it. Must outlive it; End is the caller's.
   std::vector<record::RecordSink*> sinks{};
   /// Asked after every step.
-  std::function<bool()> interrupted;
+  std::function<bool()> interrupted{};
   /// Told why a change was refused.
-  std::function<void(const std::string& why)> refused;
+  std::function<void(const std::string& why)> refused{};
   /// Told what the diagram is warned of: at first, and after a change what is new.
-  std::function<void(const std::string& warning)> warned;
+  std::function<void(const std::string& warning)> warned{};
 };
 
 struct LiveRunResult {
   double duration;  ///< s, that was simulated
   int changes;      ///< of parameters and places, that took effect
-  std::string failure;
+  std::string failure{};
 };
 
 /// Runs a diagram in step with the wall clock for whoever looks at `server`. An obstacle that is

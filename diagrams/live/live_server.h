@@ -16,15 +16,15 @@ namespace oca::live {
 /// A value that a user may change while the run goes on.
 struct LiveParameter {
   using Value = std::variant<bool, double, std::string, std::vector<double>>;
-  std::string name;
-  Value value;
+  std::string name{};
+  Value value{};
 };
 
 struct LiveOptions {
   std::string address{"127.0.0.1"};  ///< to listen on; the loopback, unless somebody asks
   int port{8765};                    ///< 0: any that is free
-  std::string page;                  ///< HTML, served at `/`
-  std::string record;                ///< MCAP, served at `/record.mcap` unless empty
+  std::string page{};                ///< HTML, served at `/`
+  std::string record{};              ///< MCAP, served at `/record.mcap` unless empty
   std::size_t queue_bytes{std::size_t{4} << 20};  ///< of messages that wait for one client
   int max_clients{64};                            ///< connections at a time
   std::vector<std::string> origins{};             ///< of other pages that may connect, see Access

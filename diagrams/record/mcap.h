@@ -20,18 +20,18 @@ using McapTexts = std::map<std::string, std::string>;
 /// How the messages of a channel are laid out; JSON Schema here.
 struct McapSchema {
   std::uint16_t id{0};  ///< from 1
-  std::string name;
-  std::string encoding;
-  std::string data;
+  std::string name{};
+  std::string encoding{};
+  std::string data{};
 };
 
 /// A stream of messages under one topic. `schema` 0: none.
 struct McapChannel {
   std::uint16_t id{0};
   std::uint16_t schema{0};
-  std::string topic;
-  std::string encoding;
-  McapTexts metadata;
+  std::string topic{};
+  std::string encoding{};
+  McapTexts metadata{};
 };
 
 /// One message; `data` lies in what it was read from. Times are ns since the epoch.
@@ -40,19 +40,19 @@ struct McapMessage {
   std::uint32_t sequence{0};
   std::uint64_t log_time{0};
   std::uint64_t publish_time{0};
-  std::string_view data;
+  std::string_view data{};
 };
 
 struct McapAttachment {
   std::uint64_t log_time{0};
-  std::string name;
-  std::string media_type;
-  std::string data;
+  std::string name{};
+  std::string media_type{};
+  std::string data{};
 };
 
 struct McapMetadata {
-  std::string name;
-  McapTexts values;
+  std::string name{};
+  McapTexts values{};
 };
 
 }  // namespace oca::record

@@ -11,9 +11,9 @@ namespace oca::record {
 
 /// A plot that a run deserves, as the report has them: which signals, and a limit to draw.
 struct PlotHint {
-  std::string id;
-  std::string title;
-  std::string unit;
+  std::string id{};
+  std::string title{};
+  std::string unit{};
   std::vector<OutputHandle> outputs{};
   std::optional<double> limit{};
 };
@@ -24,12 +24,12 @@ std::vector<PlotHint> PlotHintsOf(const loading::LoadedDiagram& loaded);
 
 /// A system that may hold a motion back, and the signal that shows when it does.
 struct LimitHint {
-  std::string system;
-  std::string type;
+  std::string system{};
+  std::string type{};
   /// How the signal shows it: `rate` of change at the bound, `below` or `above` it, or else the
   /// member that lists what is active.
-  std::string kind;
-  OutputHandle output;
+  std::string kind{};
+  OutputHandle output{};
   std::vector<double> bound{};  ///< one number, or one a joint
   std::string member{};         ///< that is compared, of a signal that is no Vector
   std::string how{};            ///< what the system does then, if it says so

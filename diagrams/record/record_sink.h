@@ -14,9 +14,9 @@ namespace oca::record {
 
 /// A stream of JSON messages. `schema` is a JSON Schema.
 struct RecordChannel {
-  std::string topic;
-  std::string schema_name;
-  std::string schema;
+  std::string topic{};
+  std::string schema_name{};
+  std::string schema{};
 };
 
 /// Where the messages of a run go: a file, or whoever looks on. Unless told otherwise, called on

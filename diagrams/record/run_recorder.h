@@ -21,10 +21,10 @@
 namespace oca::record {
 
 struct RecorderOptions {
-  std::string version;                     ///< of the program
-  std::vector<files::Override> overrides;  ///< as given on the command line
-  std::uint64_t start_epoch{0};            ///< ns; 0: the wall clock's
-  bool attach_files{true};                 ///< diagram and models, to run the record again
+  std::string version{};                     ///< of the program
+  std::vector<files::Override> overrides{};  ///< as given on the command line
+  std::uint64_t start_epoch{0};              ///< ns; 0: the wall clock's
+  bool attach_files{true};                   ///< diagram and models, to run the record again
   bool brief{false};  ///< for a picture: of proximities only names and distance
   /// What the recorder before this one told, if it goes on with a record; else it tells what the
   /// diagram is warned of.

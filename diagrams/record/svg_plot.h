@@ -9,7 +9,7 @@ namespace oca::record {
 
 /// A curve; one of a further run (`run` from 0) is dashed.
 struct PlotCurve {
-  std::string label;
+  std::string label{};
   std::vector<double> x, y;
   int colour{0};
   int run{0};
@@ -18,9 +18,9 @@ struct PlotCurve {
 /// One diagram: axes with labels, curves, a legend beside it. NaN breaks a curve; what lies outside
 /// given bounds is cut off.
 struct PlotPanel {
-  std::string title;
-  std::string x_label;
-  std::string y_label;
+  std::string title{};
+  std::string x_label{};
+  std::string y_label{};
   std::vector<PlotCurve> curves{};
   std::optional<double> limit{};  ///< drawn across
   std::optional<double> y_min{}, y_max{};

@@ -27,7 +27,7 @@ class RunObserver {
 };
 
 struct RunOptions {
-  std::optional<double> duration;           ///< s; instead of the file's
+  std::optional<double> duration{};         ///< s; instead of the file's
   std::filesystem::path csv_folder{};       ///< empty: nothing is recorded
   std::optional<double> realtime_factor{};  ///< instead of the file's; 0 as fast as possible
   bool profile{false};                      ///< measure what each system takes

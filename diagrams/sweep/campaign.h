@@ -31,16 +31,16 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 /// Independent runs of one diagram file: `samples` scenarios, each with every combination of the
 /// listed values of `variations`. What is random in a sample follows from `seed` and its number.
 struct Campaign {
-  std::string file;
-  std::string name;       ///< of the diagram
-  std::string file_hash;  ///< of everything that the runs are made from; FNV-1a, 64 bit, as hex
-  std::vector<std::string> overrides;  ///< PATH=VALUE for all
-  std::vector<Variation> variations;
+  std::string file{};
+  std::string name{};       ///< of the diagram
+  std::string file_hash{};  ///< of everything that the runs are made from; FNV-1a, 64 bit, as hex
+  std::vector<std::string> overrides{};  ///< PATH=VALUE for all
+  std::vector<Variation> variations{};
   std::uint64_t seed{0};
   std::int64_t samples{0};
-  std::optional<double> duration;  ///< s; instead of the file's
-  double arrival{0.01};            ///< a final error that counts as arrived, rad or m
-  std::string version;             ///< of the program
+  std::optional<double> duration{};  ///< s; instead of the file's
+  double arrival{0.01};              ///< a final error that counts as arrived, rad or m
+  std::string version{};             ///< of the program
 
   /// `simulator.seed` of a sample: the upper 31 bits of models::Random::Seed(seed, sample).
   int SeedOf(std::int64_t sample) const;

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "oca/framework/dataflow/port.h"
+#include "oca/framework/dataflow/port_access.h"
 
 namespace oca {
 

@@ -157,6 +157,15 @@ class DiagramBuilder {
     AddSystem(std::move(name), std::move(system));
     return reference;
   }
+  /// The same with parameters in braces: Add<Gain>("gain", {.gain = 2.0}); `rest` is what the
+  /// constructor takes beside them, say the models.
+  template <class S, class... Rest>
+  const S& Add(std::string name, const typename S::Params& params, Rest&&... rest) {
+    auto system = std::make_unique<S>(params, std::forward<Rest>(rest)...);
+    const S& reference = *system;
+    AddSystem(std::move(name), std::move(system));
+    return reference;
+  }
   const System& AddSystem(std::string name, std::unique_ptr<System> system);
 
   template <class T>

@@ -33,20 +33,20 @@ class Length {
 
 /// A port of a Function. Length and unit count for Vectors; without a unit it connects to all.
 struct FunctionPort {
-  std::string name;
+  std::string name{};
   Length length{"n"};
   std::string unit{};
 };
 
 struct FunctionPorts {
   std::vector<FunctionPort> inputs{};
-  FunctionPort output;
+  FunctionPort output{};
 };
 
 /// The output of a Function that remembers: a state, `initial` at the start, which the callable
 /// changes every period.
 struct Memory {
-  Period period;
+  Period period{};
   PerComponent initial{};
 };
 

@@ -20,7 +20,7 @@ class Schedule;
 
 /// A discrete event that repeats: at offset, offset + period, offset + 2 period, ...
 struct Every {
-  Period period;
+  Period period{};
   Period offset{};
 };
 

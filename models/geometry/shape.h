@@ -35,7 +35,7 @@ struct Capsule {
 
 /// Convex polyhedron; vertices in the shape's frame, m. Shared because copies are frequent.
 struct ConvexMesh {
-  std::shared_ptr<const ConvexHull> hull;
+  std::shared_ptr<const ConvexHull> hull{};
 };
 
 /// Right circular cone, axis z: base at z = -length / 2, apex at z = +length / 2, m.
@@ -65,7 +65,7 @@ using Shape =
 /// `X_SP` pose of the part in the frame of the compound.
 struct CompoundPart {
   Eigen::Isometry3d X_SP{Eigen::Isometry3d::Identity()};
-  Shape shape;
+  Shape shape{};
 };
 
 }  // namespace oca::geometry

@@ -12,11 +12,11 @@ namespace oca::robot {
 
 /// Something that a robot holds or wears: a tool, a grasped box.
 struct AttachedObject {
-  std::string id;
-  std::string link;                                       ///< that carries it
+  std::string id{};
+  std::string link{};                                     ///< that carries it
   Eigen::Isometry3d X_LO{Eigen::Isometry3d::Identity()};  ///< of the shape's frame in that link
-  geometry::Shape shape;
-  std::vector<std::string> touches;  ///< links and earlier objects that it may touch
+  geometry::Shape shape{};
+  std::vector<std::string> touches{};  ///< links and earlier objects that it may touch
 };
 
 /// The robot with each object as one more link of that name, fixed to its carrier: it moves with

@@ -20,16 +20,16 @@ inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 /// it was described ("file:line"), for messages.
 struct CollisionElement {
   Eigen::Isometry3d X_LC{Eigen::Isometry3d::Identity()};
-  geometry::Shape shape;
-  std::string source;
+  geometry::Shape shape{};
+  std::string source{};
 };
 
 /// What a viewer draws: a shape, or else the file `mesh_file` scaled by `mesh_scale`.
 /// `colour` is red, green, blue, alpha in [0, 1].
 struct VisualElement {
   Eigen::Isometry3d X_LV{Eigen::Isometry3d::Identity()};
-  std::optional<geometry::Shape> shape;
-  std::string mesh_file;
+  std::optional<geometry::Shape> shape{};
+  std::string mesh_file{};
   Eigen::Vector3d mesh_scale{Eigen::Vector3d::Ones()};
   Eigen::Vector4d colour{0.7, 0.7, 0.7, 1.0};
 };
@@ -44,11 +44,11 @@ struct Inertia {
 
 /// `parent_joint` is -1 for the root. The link's frame is its parent joint's frame after motion.
 struct Link {
-  models::Name name;
+  models::Name name{};
   int parent_joint{-1};
-  std::vector<CollisionElement> collisions;
-  std::vector<VisualElement> visuals;
-  Inertia inertia;
+  std::vector<CollisionElement> collisions{};
+  std::vector<VisualElement> visuals{};
+  Inertia inertia{};
   bool attached{false};  ///< not of the robot itself: see AttachObjects
 };
 
@@ -65,7 +65,7 @@ struct Mimic {
 /// Limits are in rad or m and their derivatives, effort in Nm or N, infinite where not given; they
 /// are as described: what the robot has to keep of them says RobotModel, for mimics bind too.
 struct Joint {
-  models::Name name;
+  models::Name name{};
   JointType type{JointType::kFixed};
   int parent_link{-1};
   int child_link{-1};
@@ -77,7 +77,7 @@ struct Joint {
   double effort_limit{kUnlimited};
   double acceleration_limit{kUnlimited};
   double jerk_limit{kUnlimited};
-  std::optional<Mimic> mimic;
+  std::optional<Mimic> mimic{};
   int position_index{-1};  // own entry of q; -1 for fixed and mimic; RobotModel numbers them
 
   bool movable() const { return type != JointType::kFixed; }

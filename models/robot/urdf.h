@@ -26,15 +26,15 @@ struct LoadOptions {
   /// Pose of the root link in the world.
   Eigen::Isometry3d X_WB{Eigen::Isometry3d::Identity()};
   /// SRDF file with the pairs of links that are never checked for collision; empty: none.
-  std::filesystem::path srdf;
+  std::filesystem::path srdf{};
   /// rad/s^2 or m/s^2, rad/s^3 or m/s^3, more than 0: one for all, or one a position; empty: as in
   /// the URDF's <limit acceleration jerk>, unlimited where it has none.
-  Eigen::VectorXd acceleration_limits;
-  Eigen::VectorXd jerk_limits;
+  Eigen::VectorXd acceleration_limits{};
+  Eigen::VectorXd jerk_limits{};
   /// package://NAME/rest is looked up as find_package(NAME)/rest if that is set and not empty, then
   /// as DIR/NAME/rest for each DIR.
-  std::function<std::filesystem::path(const std::string& package)> find_package;
-  std::vector<std::filesystem::path> package_directories;
+  std::function<std::filesystem::path(const std::string& package)> find_package{};
+  std::vector<std::filesystem::path> package_directories{};
   /// true: a collision mesh counts as the compound that LoadDecomposition makes of it, which keeps
   /// its hollows, instead of its convex hull.
   bool decompose_meshes{false};
@@ -42,8 +42,8 @@ struct LoadOptions {
   /// Takes a line for each mesh whose hull adds volume, `link 'x': collision mesh ...` or `visual
   /// mesh`, and for limits that hardly mean what they say (LimitWarnings): `joint X: ...`; or
   /// unset. The line of a mesh ends with `hull_advice`.
-  std::function<void(const std::string& line)> warn;
-  std::string hull_advice;
+  std::function<void(const std::string& line)> warn{};
+  std::string hull_advice{};
   /// false: meshes that are only drawn need not exist, and their elements name no file.
   bool load_visuals{true};
 };

@@ -29,7 +29,7 @@ class AttractiveField final : public System {
       "force = -gain (x - target), no larger than gain saturation_distance",
       "Khatib 1986, section 3; Jain, Sixt, Exner 2016, eq. (2.2), (2.4)"};
   struct Params {
-    std::string link;
+    std::string link{};
     Eigen::Vector3d point{Eigen::Vector3d::Zero()};
     Eigen::Vector3d target{Eigen::Vector3d::Zero()};
     double gain{1.0};

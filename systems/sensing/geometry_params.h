@@ -17,8 +17,8 @@ namespace oca::systems {
 /// A pose as files give it; without rpy and quaternion it does not rotate.
 struct PoseParams {
   Eigen::Vector3d xyz{Eigen::Vector3d::Zero()};
-  std::optional<Eigen::Vector3d> rpy;
-  std::optional<Eigen::VectorXd> quaternion;
+  std::optional<Eigen::Vector3d> rpy{};
+  std::optional<Eigen::VectorXd> quaternion{};
   static void Describe(Fields<PoseParams>& fields);
 
   /// throws ConfigError naming `where` if it has both rotations, a quaternion that is not one, or

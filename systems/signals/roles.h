@@ -128,8 +128,8 @@ struct Repels {
 /// A plot that a record deserves. Those of one id are one plot; `requested`, `delta`, `final`,
 /// `distance` and `speed` come first.
 struct Plots {
-  std::string id;
-  std::string title;
+  std::string id{};
+  std::string title{};
   RolePort signal{};
   std::string unit{};  ///< empty: the signal's
 };

@@ -21,9 +21,9 @@ namespace oca::systems {
 
 /// What an obstacle is, apart from where it is: shared by all its samples.
 struct ObstacleBody {
-  models::Name id;
-  std::shared_ptr<const geometry::Collider> collider;
-  std::string file;  ///< of a mesh, as the user wrote it
+  models::Name id{};
+  std::shared_ptr<const geometry::Collider> collider{};
+  std::string file{};  ///< of a mesh, as the user wrote it
   /// No point of it is ever faster, m/s; 0 if nothing is known beyond its present velocity.
   double fastest{0.0};
 };
@@ -31,7 +31,7 @@ struct ObstacleBody {
 /// An obstacle at one instant. `linear` and `angular` velocity (m/s, rad/s) are those of its
 /// origin.
 struct Obstacle {
-  std::shared_ptr<const ObstacleBody> body;
+  std::shared_ptr<const ObstacleBody> body{};
   Eigen::Isometry3d X_WO{Eigen::Isometry3d::Identity()};
   Eigen::Vector3d linear{Eigen::Vector3d::Zero()};
   Eigen::Vector3d angular{Eigen::Vector3d::Zero()};
@@ -46,7 +46,7 @@ struct Obstacle {
 /// layout, if it is not 0, hold the same bodies in the same order, and those that are not in
 /// `moving` (places, ascending) stand still where they stood. JSON: the list of obstacles.
 struct ObstacleSet {
-  std::vector<Obstacle> obstacles;
+  std::vector<Obstacle> obstacles{};
   std::uint64_t layout{0};
   std::vector<int> moving{};
 };
@@ -58,9 +58,9 @@ struct ObstacleSet {
 /// known. JSON: "twist" as of an obstacle, optional on input (a link without one rests), never
 /// written.
 struct LinkPoses {
-  std::vector<models::Name> links;
-  std::vector<Eigen::Isometry3d> poses;
-  std::vector<int> bodies;
+  std::vector<models::Name> links{};
+  std::vector<Eigen::Isometry3d> poses{};
+  std::vector<int> bodies{};
   std::vector<robot::LinkVelocity> velocities{};
 
   std::size_t size() const { return links.size(); }
@@ -76,8 +76,8 @@ struct LinkPoses {
 /// Nearest points of one link and one obstacle. `distance` is signed (negative: penetration);
 /// `normal` is the unit vector from the obstacle to the link.
 struct Proximity {
-  models::Name link;
-  models::Name obstacle;
+  models::Name link{};
+  models::Name obstacle{};
   double distance{0.0};
   Eigen::Vector3d point_on_link{Eigen::Vector3d::Zero()};
   Eigen::Vector3d point_on_obstacle{Eigen::Vector3d::Zero()};
@@ -97,7 +97,7 @@ struct Proximity {
 /// (m/s). `compared` says whether any pair was looked at, listed or not: if none was, the set tells
 /// nothing. JSON: the list of proximities.
 struct ProximitySet {
-  std::vector<Proximity> proximities;
+  std::vector<Proximity> proximities{};
   double max_distance{0.0};
   double fastest{0.0};
   bool compared{false};
@@ -105,26 +105,26 @@ struct ProximitySet {
 
 /// A force (N) that acts on `link` at `point`, because of `obstacle`.
 struct LinkForce {
-  models::Name link;
-  models::Name obstacle;
+  models::Name link{};
+  models::Name obstacle{};
   Eigen::Vector3d force{Eigen::Vector3d::Zero()};
   Eigen::Vector3d point{Eigen::Vector3d::Zero()};
 };
 
 struct LinkForceSet {
-  std::vector<LinkForce> forces;
+  std::vector<LinkForce> forces{};
 };
 
 /// Force (N) and torque (Nm) on `link`, the torque about `origin`.
 struct LinkWrench {
-  models::Name link;
+  models::Name link{};
   Eigen::Vector3d force{Eigen::Vector3d::Zero()};
   Eigen::Vector3d torque{Eigen::Vector3d::Zero()};
   Eigen::Vector3d origin{Eigen::Vector3d::Zero()};
 };
 
 struct WrenchSet {
-  std::vector<LinkWrench> wrenches;
+  std::vector<LinkWrench> wrenches{};
 };
 
 }  // namespace oca::systems

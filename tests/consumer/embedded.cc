@@ -4,14 +4,12 @@
 
 #include "catalogue.h"
 #include <oca/diagrams/runs/run.h>
-#include <oca/framework/dataflow/port_access.h>
 #include <oca/framework/simulation/simulator.h>
 
 /// A diagram in C++: the block and a lambda, wired by hand. Returns the charge after 10 s.
 double ChargeLeft() {
   oca::DiagramBuilder builder;
-  const auto& monitor =
-      builder.Add<acme::BatteryMonitor>("monitor", acme::BatteryMonitor::Example());
+  const auto& monitor = builder.Add<acme::BatteryMonitor>("monitor", {.capacity = 1000.0});
   const auto& swing =
       builder.AddSystem("swing", oca::MakeBlock({.output = {"velocity", 1, "rad/s"}},
                                                 [](double t) { return t < 5.0 ? 1.0 : 0.0; }));

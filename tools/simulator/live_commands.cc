@@ -24,6 +24,7 @@
 #include "oca/diagrams/record/mcap_reader.h"
 #include "oca/diagrams/record/record_sink.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/version.h"
 #include "tools/simulator/terminal.h"
 
 namespace oca::tools {
@@ -144,7 +145,7 @@ int RunLiveCommand(const RunArguments& arguments, const std::vector<files::Overr
   options.overrides = overrides;
   options.duration = arguments.duration;
   options.realtime_factor = arguments.realtime.value_or(1.0);
-  options.version = OCA_VERSION;
+  options.version = Version();
   options.log = log;
   options.sinks = files.sinks();
   options.interrupted = interrupted;

@@ -8,6 +8,7 @@
 
 #include "oca/diagrams/live/page.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/version.h"
 
 namespace oca::tools {
 namespace {
@@ -32,7 +33,7 @@ ReportWriter::ReportWriter(const std::string& file, const loading::LoadedDiagram
       file_(Writable(file)),
       sink_(bytes_, record::Compression::kZstd),
       recorder_(loaded,
-                {.version = OCA_VERSION,
+                {.version = Version(),
                  .overrides = overrides,
                  .start_epoch = 0,
                  .attach_files = true,

@@ -19,6 +19,7 @@
 #include "oca/diagrams/runs/run.h"
 #include "oca/diagrams/runs/signal_recorder.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/version.h"
 #include "tools/simulator/commands.h"
 #include "tools/simulator/interrupt.h"
 #include "tools/simulator/live_commands.h"
@@ -111,7 +112,7 @@ class FileRecorder {
       : file_(arguments.record),
         stream_(Open(file_)),
         sink_(stream_, record::ParseCompression(arguments.record_compression)),
-        recorder_(loaded, {OCA_VERSION, overrides}, {&sink_}, log) {}
+        recorder_(loaded, {Version(), overrides}, {&sink_}, log) {}
 
   record::RunRecorder& recorder() { return recorder_; }
   /// Says what was lost. throws ConfigError if the file could not be written to the end.

@@ -12,6 +12,7 @@
 
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/nearest.h"
+#include "oca/version.h"
 #include "tools/simulator/commands.h"
 #include "tools/simulator/record_commands.h"
 #include "tools/simulator/sweep_commands.h"
@@ -37,7 +38,7 @@ class CommandLine {
  public:
   explicit CommandLine(const files::Catalogue& catalogue) : catalogue_(catalogue) {
     app_.require_subcommand(1);
-    app_.set_version_flag("--version", "simulator (OCA) " OCA_VERSION);
+    app_.set_version_flag("--version", std::string("simulator (OCA) ") + Version());
     AddRun();
     AddView();
     AddOthers();

@@ -24,6 +24,7 @@
 #include "oca/diagrams/sweep/sweep_run.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/opened_files.h"
+#include "oca/version.h"
 #include "tools/simulator/commands.h"
 #include "tools/simulator/interrupt.h"
 #include "tools/simulator/output_files.h"
@@ -139,7 +140,7 @@ int Report(const Results& results, Form form, bool colour) {
 
 int SweepCommand(const SweepArguments& arguments, const files::Catalogue& catalogue) {
   Campaign campaign = arguments.campaign;
-  campaign.version = OCA_VERSION;
+  campaign.version = Version();
   for (const std::string& text : arguments.variations) {
     campaign.variations.push_back(sweep::Variation::Parse(text));
   }

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/diagrams/files/load_models.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "oca/diagrams/files/package_paths.h"
+#include "oca/framework/dataflow/error.h"
+#include "oca/models/robot/attach_objects.h"
+#include "oca/models/robot/unseen_links.h"
+#include "oca/models/robot/urdf.h"
+
+namespace oca::files {
+namespace {
+
+std::vector<robot::AttachedObject> MakeAttached(const std::vector<AttachedParams>& params,
+                                                const std::string& where, const Warn& warn) {
+  std::vector<robot::AttachedObject> objects;
+  for (std::size_t i = 0; i < params.size(); ++i) {
+    const AttachedParams& from = params[i];
+    const std::string at = fmt::format("{}.attached[{}]", where, i);
+    if (from.shape.type == systems::ShapeType::kHalfSpace) {
+      throw ConfigError(at + ".shape.type: got a half_space; expected a body that ends");
+    }
+    std::vector<std::string> warnings;
+    const auto body = systems::MakeObstacleBody(from.id, from.shape, at + ".shape", &warnings);
+    for (const std::string& line : warnings) warn(line);
+    objects.push_back({from.id, from.link,
+                       from.pose.value_or(systems::PoseParams{}).Pose(at + ".pose"),
+                       body->collider->shape(), from.touches});
+  }
+  return objects;
+}
+
+std::string FromHere(const std::string& name) {
+  return name.empty() ? name : ResolvePath(name, {}, {}).string();
+}
+
+}  // namespace
+
+std::shared_ptr<const robot::RobotModel> LoadModel(
+    const std::string& where, const ModelParams& params,
+    const std::map<std::string, std::filesystem::path>& packages, const Warn& warn) {
+  const Warn tell = [&warn](const std::string& line) {
+    if (warn) warn(line);
+  };
+  robot::LoadOptions options;
+  options.warn = [&](const std::string& line) { tell(fmt::format("{}: {}", where, line)); };
+  options.hull_advice = "; collision: decomposition splits it";
+  options.X_WB = params.base_pose.Pose(where + ".base_pose");
+  options.decompose_meshes = params.collision == systems::CollisionMeshes::kDecomposition;
+  options.visual_as_collision = params.visual_as_collision;
+  options.srdf = params.srdf;
+  if (params.acceleration_limits) {
+    options.acceleration_limits = params.acceleration_limits->values();
+  }
+  if (params.jerk_limits) options.jerk_limits = params.jerk_limits->values();
+  options.find_package = [&packages](const std::string& package) -> std::filesystem::path {
+    const auto found = packages.find(package);
+    return found == packages.end() ? std::filesystem::path() : found->second;
+  };
+  options.package_directories = PackageFolders();
+  const robot::RobotModel robot = robot::LoadUrdf(params.urdf, options);
+  auto model = std::make_shared<const robot::RobotModel>(
+      robot::AttachObjects(robot, MakeAttached(params.attached, where, tell)));
+  const std::string unseen = robot::DescribeUnseen(*model, "visual_as_collision: missing");
+  if (!unseen.empty()) tell(fmt::format("{}: {}", where, unseen));
+  return model;
+}
+
+systems::ModelSet LoadModels(const std::vector<std::pair<std::string, ModelParams>>& models,
+                             const Warn& warn) {
+  systems::ModelSet loaded;
+  for (const auto& [name, params] : models) {
+    const std::string where = "models." + name;
+    ModelParams placed = Validated(params);
+    placed.urdf = FromHere(params.urdf);
+    placed.srdf = FromHere(params.srdf);
+    for (AttachedParams& object : placed.attached) {
+      if (object.shape.file) object.shape.file = FromHere(*object.shape.file);
+    }
+    loaded.Add(name, LoadModel(where, placed, {}, warn));
+  }
+  return loaded;
+}
+
+}  // namespace oca::files
