@@ -151,6 +151,18 @@ check_commands_are_there() {
   done
 }
 
+check_examples_are_short_and_told() {
+  local file count=0 lines
+  for file in tools/examples/[0-9][0-9]_*.cc; do
+    count=$((count + 1))
+    lines=$(wc -l < "$file")
+    [ "$lines" -le 60 ] || problem "$file: $lines lines; expected at most 60"
+    [[ $(basename "$file") == $(printf %02d "$count")_* ]] || problem "$file: expected number $count"
+    grep -qF "(../$file)" docs/cpp.md || problem "docs/cpp.md: does not name $file"
+  done
+  [ "$count" -ge 10 ] || problem "tools/examples: $count numbered programs; expected at least 10"
+}
+
 all=$(declare -F | awk '{ print $3 }' | grep '^check_' | sed 's/^check_//')
 for name in ${*:-$all}; do
   declare -F "check_$name" > /dev/null || { echo "no such check: $name; there are: $(tr '\n' ' ' <<< "$all")" >&2; exit 2; }

@@ -68,6 +68,45 @@ TEST(SignalLogTest, OverwritesTheOldestRowOnceAllAreTaken) {
   }
 }
 
+TEST(SignalLogTest, GivesMatricesWithTimesNamesAndUnits) {
+  DiagramBuilder builder;
+  const auto& source = builder.Add<Clocks>("source");
+  const auto& speed = builder.Add<blocks::Source>("speed", Vec({7.0}), "rad/s");
+  const auto diagram = builder.Build();
+  Simulator simulator(*diagram);
+  const SignalLog log(simulator, {source.out, speed.value}, Period(1, 2));
+  EXPECT_EQ(log.Matrix().rows(), 0);
+  EXPECT_EQ(log.Matrix().cols(), 3);
+  simulator.AdvanceTo(1.25);
+  EXPECT_EQ(log.times(), Vec({0.0, 0.5, 1.0}));
+  EXPECT_EQ(log.Matrix(), (Eigen::MatrixXd(3, 3) << 0, 0, 7, 0.5, 1, 7, 1, 2, 7).finished());
+  EXPECT_EQ(log.Matrix(0), (Eigen::MatrixXd(3, 2) << 0, 0, 0.5, 1, 1, 2).finished());
+  EXPECT_EQ(log.Matrix(1), Vec({7.0, 7.0, 7.0}));
+  EXPECT_THAT(log.names(),
+              testing::ElementsAre("source.out[0]", "source.out[1]", "speed.value[0]"));
+  EXPECT_THAT(log.units(), testing::ElementsAre("", "", "rad/s"));
+}
+
+TEST(SignalLogTest, WithoutACapacityKeepsEveryRow) {
+  Sources sources;
+  Simulator simulator(*sources.diagram);
+  const SignalLog log(simulator, {sources.clocks}, Period(1, 100));
+  simulator.AdvanceTo(20.0);
+  EXPECT_EQ(log.rows(), 2001);
+  EXPECT_EQ(log.overwritten(), 0);
+  EXPECT_EQ(log.time(0), 0.0);
+  EXPECT_EQ(log.values(2000, 0), Vec({20.0, 40.0}));
+}
+
+TEST(SignalLogTest, ItsMatrixBeginsWithTheOldestRowThatIsLeft) {
+  Sources sources;
+  Simulator simulator(*sources.diagram);
+  const SignalLog log(simulator, {sources.clocks}, Period(1, 1), 3);
+  simulator.AdvanceTo(7.0);
+  EXPECT_EQ(log.times(), Vec({5.0, 6.0, 7.0}));
+  EXPECT_EQ(log.Matrix().col(1), Vec({10.0, 12.0, 14.0}));
+}
+
 TEST(SignalLogTest, WithoutOutputsKeepsTheTimes) {
   Sources sources;
   Simulator simulator(*sources.diagram);
