@@ -163,6 +163,18 @@ check_examples_are_short_and_told() {
   [ "$count" -ge 10 ] || problem "tools/examples: $count numbered programs; expected at least 10"
 }
 
+check_ports_are_members_of_their_names() { # an input that shares its name with an output: NAME_in
+  local member port seen=0
+  while read -r member port; do
+    seen=$((seen + 1))
+    [ "$member" = push_back ] || [ "$member" = "$port" ] || [ "$member" = "${port}_in" ] ||
+      problem "systems: member $member is port $port; expected one name"
+  done < <(cat systems/*/*.h systems/*/*.cc | tr '\n' ' ' |
+    grep -oP '\b\w+\(\s*Declare(Input|OptionalInput|Output|StateOutput)\b(<[^()]*>)?\(\s*"\w+"' |
+    sed -E 's/^(\w+)\(.*"(\w+)"$/\1 \2/')
+  [ "$seen" -ge 100 ] || problem "systems: $seen ports found; expected at least 100"
+}
+
 all=$(declare -F | awk '{ print $3 }' | grep '^check_' | sed 's/^check_//')
 for name in ${*:-$all}; do
   declare -F "check_$name" > /dev/null || { echo "no such check: $name; there are: $(tr '\n' ' ' <<< "$all")" >&2; exit 2; }
