@@ -9,6 +9,8 @@ const kAnswerWithin = 400;  // ms from a change until what came of it is shown
 export class Knobs {
   private readonly setters = new Map<string, (value: unknown) => void>();
   private made = "";
+  private readonly held = new Set<string>();  // what somebody is changing just now
+  private later: Parameter[] | undefined;     // other sliders that wait for it
 
   constructor(private readonly parent: HTMLElement, private readonly live: LiveSource) {}
 
@@ -24,7 +26,9 @@ export class Knobs {
   /** Follows what the simulator says that the values are; other parameters are other sliders. */
   show(list: Parameter[]): void {
     const wanted = JSON.stringify(list.map(({ name, value }) => [name, typeof value, this.rangeOf(name)]));
-    if (wanted !== this.made) {
+    // Under a hand they stay: a value that is half typed would be lost with its field.
+    this.later = wanted !== this.made && this.held.size > 0 ? list : undefined;
+    if (wanted !== this.made && !this.later) {
       this.made = wanted;
       this.parent.replaceChildren();
       this.setters.clear();
@@ -32,6 +36,7 @@ export class Knobs {
     for (const { name, value } of list) {
       const set = this.setters.get(name);
       if (set) set(value);
+      else if (this.later) continue;
       else if (typeof value === "boolean") this.addSwitch(name, value);
       else if (typeof value === "number") this.addSlider(name, value);
     }
@@ -61,23 +66,24 @@ export class Knobs {
     number.max = upper === null ? "" : String(upper);
     number.type = "number";
     number.step = "any";
-    let told = value, held = false;
+    let told = value;
     const put = (to: number): void => {
       slider.value = String(to);
       number.value = String(Number(to.toPrecision(kDigits)));
     };
     // Nothing moves under a hand; once it is gone, what the simulator says counts.
     const letGo = (): void => {
-      held = false;
-      setTimeout(() => { if (!held) put(told); }, kAnswerWithin);
+      this.held.delete(name);
+      setTimeout(() => { if (!this.held.has(name)) put(told); }, kAnswerWithin);
+      if (this.later && this.held.size === 0) this.show(this.later);
     };
     slider.oninput = () => {
-      held = true;
+      this.held.add(name);
       number.value = String(Number(Number(slider.value).toPrecision(kDigits)));
       this.live.set(name, Number(number.value));
     };
     slider.onchange = number.onblur = letGo;
-    number.oninput = () => (held = true);
+    number.oninput = () => this.held.add(name);
     number.onchange = () => {
       if (Number.isFinite(number.valueAsNumber)) {
         slider.value = number.value;
@@ -91,7 +97,7 @@ export class Knobs {
     this.setters.set(name, (to) => {
       if (typeof to !== "number") return;
       told = to;
-      if (!held) put(to);
+      if (!this.held.has(name)) put(to);
     });
   }
 }

@@ -130,12 +130,12 @@ export async function testLive({ test, browser, simulator, errorsOf }) {
     const taken = watcher.next("serverInfo", ({ metadata }) => metadata["oca.parameters/force_gain"] === "2.5");
     await slider.fill("2.5");
     await slider.blur();
+    await taken;
     const { client, next } = connect(url);
     await next("serverInfo");
     client.getParameters(["force_gain"], "g");
     assert.equal((await next("parameterValues", ({ id }) => id === "g")).parameters[0].value, 2.5);
     await page.waitForFunction(() => window.oca.recording.about("force_gain", "oca.parameters") === "2.5", null, { timeout: 30000 });
-    await taken;
     client.close();
     watcher.client.close();
     assert.deepEqual(errorsOf(problems), []);
