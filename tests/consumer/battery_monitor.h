@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <oca/framework/dataflow/error.h>
+#include <oca/framework/dataflow/params.h>
+#include <oca/framework/dataflow/system.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
-
-#include <oca/framework/dataflow/error.h>
-#include <oca/framework/dataflow/params.h>
-#include <oca/framework/dataflow/system.h>
 
 namespace acme {
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "battery_monitor.h"
 #include <oca/diagrams/files/catalogue.h>
 #include <oca/framework/dataflow/function.h>
+
+#include "battery_monitor.h"
 
 namespace acme {
 

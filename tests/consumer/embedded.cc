@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <oca/diagrams/runs/run.h>
+#include <oca/framework/simulation/simulator.h>
+
 #include <cstdio>
 #include <exception>
 
 #include "catalogue.h"
-#include <oca/diagrams/runs/run.h>
-#include <oca/framework/simulation/simulator.h>
 
 /// A diagram in C++: the block and a lambda, wired by hand. Returns the charge after 10 s.
 double ChargeLeft() {

@@ -39,7 +39,8 @@ for (const file of shipped) {
 
 const nameless = new LanguageServer({schemas: {[schema]: '*.yaml'}});
 await nameless.start();
-const own = yamlFiles(join(source, 'tests'));
+// Not those with types of somebody else: a program that adds types prints a schema of its own.
+const own = yamlFiles(join(source, 'tests')).filter((path) => !path.includes('/tests/consumer/'));
 for (const file of own) await expectNoMarks(nameless, file);
 nameless.stop();
 
