@@ -41,7 +41,8 @@ class CommandLine {
     app_.set_version_flag("--version", std::string("simulator (OCA) ") + Version());
     AddRun();
     AddView();
-    AddOthers();
+    AddFileCommands();
+    AddCatalogueCommands();
     AddRecordCommands(app_, command_);
     AddSweepCommands(app_, command_, catalogue_);
     AddRobot();
@@ -122,7 +123,8 @@ class CommandLine {
     view->callback([this] { command_ = [this] { return ViewCommand(view_); }; });
   }
 
-  void AddOthers() {
+  /// What is said of a diagram file without a run of it.
+  void AddFileCommands() {
     CLI::App* const check = app_.add_subcommand("check", "find all errors of diagram files");
     check->add_option("FILE", check_files_, "diagram files")->required();
     check->add_option("-s,--set", check_overrides_, "PATH=VALUE: override a value of the files")
@@ -156,7 +158,9 @@ class CommandLine {
     graph->add_option("-s,--set", graph_.overrides, "PATH=VALUE: override a value of the file")
         ->allow_extra_args(false);
     graph->callback([this] { command_ = [this] { return GraphCommand(graph_, catalogue_); }; });
+  }
 
+  void AddCatalogueCommands() {
     app_.add_subcommand("list", "the system types, a line each")->callback([this] {
       command_ = [this] { return ListCommand(catalogue_); };
     });
