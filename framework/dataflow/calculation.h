@@ -12,8 +12,8 @@ namespace oca {
 
 /// One thing that a calculation reads.
 struct Read {
-  enum class Kind { kOfTime, kOfLog, kInput, kOutput, kState } kind;
-  int index{-1};                  ///< of the input, output or state in its system
+  enum class Kind { kOfTime, kOfLog, kInput, kOutput, kCached, kState } kind;
+  int index{-1};                  ///< of the input, output, cached value or state in its system
   const System* system{nullptr};  ///< the one that declared it; none for the time and the log
 };
 
@@ -81,6 +81,13 @@ struct Access<Output<T>> {
   }
 };
 template <class T>
+struct Access<Cached<T>> {
+  static const T& Get(std::byte* arena, Slot slot) { return ViewOf<T>::Read(arena, slot); }
+  static Read Declare(const Handle& handle) {
+    return {Read::Kind::kCached, handle.index, handle.system};
+  }
+};
+template <class T>
 struct Access<DiscreteState<T>> {
   static decltype(auto) Get(std::byte* arena, Slot slot) { return ViewOf<T>::Read(arena, slot); }
   static Read Declare(const Handle& handle) {
@@ -104,6 +111,17 @@ struct OwnerOf;
 template <class S, class R, class... A>
 struct OwnerOf<R (S::*)(A...) const> {
   using Type = S;
+};
+
+/// What a method computes that takes it last, as a reference to write to.
+template <class M>
+struct LastOf;
+template <class S, class R, class... A>
+struct LastOf<R (S::*)(A...) const> {
+  using Reference = std::tuple_element_t<sizeof...(A) - 1, std::tuple<A...>>;
+  using Type = std::remove_reference_t<Reference>;
+  static_assert(std::is_lvalue_reference_v<Reference> && !std::is_const_v<Type>,
+                "the last parameter is the value to write, a T&");
 };
 
 /// Calls a method that returns a double and stores it at the last slot.

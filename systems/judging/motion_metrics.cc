@@ -25,10 +25,10 @@ MotionMetrics::MotionMetrics(const Params& params, const ModelSet& models)
       goal(DeclareOptionalInput<Vector>("goal", spec_)),
       delta(DeclareOptionalInput<Vector>("delta", PortSpec{spec_.size, spec_.unit})),
       proximities(DeclareOptionalInput<ProximitySet>("proximities")),
-      tally(DeclareOutput<MotionTally, &MotionMetrics::CalcTally>(
-          "tally", {}, kTime, position, request, goal, delta, proximities, x_)),
+      tally_(DeclareCached<&MotionMetrics::CalcTally>(kTime, position, request, goal, delta,
+                                                      proximities, x_)),
       metrics(DeclareOutput<MotionMetricsValue, &MotionMetrics::CalcMetrics>(
-          "metrics", {}, kTime, position, request, goal, delta, proximities, tally)) {
+          "metrics", {}, kTime, position, request, goal, delta, proximities, tally_)) {
   DeclareUpdate<&MotionMetrics::Update>(Every{params.period}, Writes(x_), kTime, position, request,
                                         goal, delta, proximities);
   DeclareRole(Boundary{"the judge"});

@@ -50,7 +50,6 @@ namespace oca::systems {
 /// in    position, request, goal, delta  n  u   optional; n and u are common
 /// in    proximities  ProximitySet              optional
 /// out   metrics      MotionMetrics
-/// out   tally        MotionTally   the sums behind them, the present sample included
 /// state x            MotionTally
 /// throws ConfigError if period is not positive or there is no such model
 /// source models/robot/travel_bound.h
@@ -96,7 +95,11 @@ class MotionMetrics final : public System {
   const OptionalInput<Vector> goal;
   const OptionalInput<Vector> delta;
   const OptionalInput<ProximitySet> proximities;
-  const Output<MotionTally> tally;
+
+ private:
+  const Cached<MotionTally> tally_;  ///< the present sample included
+
+ public:
   const Output<MotionMetricsValue> metrics;
 };
 

@@ -66,14 +66,14 @@ FlaccoDeLuca::FlaccoDeLuca(const Params& params, const ModelSet& models)
       proximities(DeclareInput<ProximitySet>("proximities")),
       links(DeclareInput<LinkPoses>("links")),
       wish(DeclareInput<Vector>("wish", RateSpec(*model_))),
-      solution(DeclareOutput<AvoidanceVelocity, &FlaccoDeLuca::CalcSolution>(
-          "solution", {}, proximities, links, wish)),
+      solution_(DeclareCached<&FlaccoDeLuca::CalcSolution>(proximities, links, wish)),
       velocity(DeclareOutput<Vector, &FlaccoDeLuca::CalcVelocity>("velocity", RateSpec(*model_),
-                                                                  solution)) {
+                                                                  solution_)),
+      share(DeclareOutput<Vector, &FlaccoDeLuca::CalcShare>("share", {1, Unit::Any()}, solution_)),
+      rows(DeclareOutput<Vector, &FlaccoDeLuca::CalcRows>("rows", {1, Unit::Any()}, solution_)) {
   DeclareRole(Limits{.shown = Limits::Shown::kAbove,
-                     .signal = solution,
+                     .signal = rows,
                      .bound = {0.0},
-                     .member = "rows",
                      .how = "repulsed or held back"});
 }
 
@@ -148,6 +148,14 @@ void FlaccoDeLuca::CalcSolution(const ProximitySet& set, const LinkPoses& poses,
 
 void FlaccoDeLuca::CalcVelocity(const AvoidanceVelocity& result, MutableVectorView out) const {
   out = result.velocity;
+}
+
+void FlaccoDeLuca::CalcShare(const AvoidanceVelocity& result, MutableVectorView out) const {
+  out[0] = result.share;
+}
+
+void FlaccoDeLuca::CalcRows(const AvoidanceVelocity& result, MutableVectorView out) const {
+  out[0] = result.rows;
 }
 
 }  // namespace oca::systems

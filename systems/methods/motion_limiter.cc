@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oca/systems/methods/motion_limiter.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -30,15 +28,6 @@ motion::JointLimits LimitsOf(const robot::RobotModel& model, Eigen::Index index)
 }
 
 const char* NameOf(motion::MotionLimit limit) { return kLimitNames[static_cast<int>(limit)]; }
-
-motion::MotionLimit MotionLimitNamed(const std::string& name) {
-  const auto found = std::find(kLimitNames.begin(), kLimitNames.end(), name);
-  if (found != kLimitNames.end()) {
-    return static_cast<motion::MotionLimit>(found - kLimitNames.begin());
-  }
-  throw ConfigError(fmt::format(
-      "limit: got '{}'; expected none, position, velocity, acceleration or jerk", name));
-}
 
 /// What becomes of the request of one joint.
 struct MotionLimiter::Answer {
@@ -186,19 +175,6 @@ void Signal<MotionClips>::WriteJson(const MotionClips& value, std::string& out) 
                     {"amount", clip.amount}});
   }
   out += list.dump();
-}
-
-MotionClips Signal<MotionClips>::ReadJson(std::string_view text) {
-  const systems::Json json = systems::ParseJson(text);
-  MotionClips value;
-  systems::JsonReader(json, "clips").ForEach([&](const systems::JsonReader& item) {
-    item.CheckKeys({"joint", "limit", "yields", "amount"});
-    value.clips.push_back({static_cast<int>(item.At("joint").Number()),
-                           systems::MotionLimitNamed(item.At("limit").Text()),
-                           systems::MotionLimitNamed(item.At("yields").Text()),
-                           item.At("amount").Number()});
-  });
-  return value;
 }
 
 }  // namespace oca

@@ -10,7 +10,6 @@
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/robot/robot_model.h"
 #include "oca/systems/sensing/model_links.h"
-#include "oca/systems/signals/json_fields.h"
 #include "oca/systems/signals/roles.h"
 
 namespace oca::systems {
@@ -117,9 +116,9 @@ SafetyFilter::SafetyFilter(const Params& params, const ModelSet& models)
       measured_position(DeclareInput<Vector>("measured_position", PositionSpec(*model_))),
       command(DeclareOptionalInput<Vector>("command", PositionSpec(*model_))),
       clear(DeclareOptionalInput<ClearMotion>("clear")),
-      solution(DeclareOutput<FilterSolution, &SafetyFilter::CalcSolution>(
-          "solution", {}, proximities, links, position, velocity, acceleration, command, clear, c_,
-          u_, l_, activity_)),
+      solution(DeclareCached<&SafetyFilter::CalcSolution>(proximities, links, position, velocity,
+                                                          acceleration, command, clear, c_, u_, l_,
+                                                          activity_)),
       delta(DeclareOutput<Vector, &SafetyFilter::CalcDelta>("delta", DeltaSpec(*model_), position,
                                                             c_, u_)),
       activity(DeclareStateOutput("activity", activity_)) {
@@ -204,33 +203,3 @@ void SafetyFilter::CalcSolution(const ProximitySet& set, const LinkPoses& poses,
 }
 
 }  // namespace oca::systems
-
-namespace oca {
-
-using systems::FilterActivity;
-using systems::FilterSolution;
-
-Fault Signal<FilterSolution>::Check(const FilterSolution& value, Look look) {
-  if (!AllFinite(value.velocity.data(), static_cast<std::size_t>(value.velocity.size())))
-    return Fault::UnlessFinite(false);
-  return Signal<FilterActivity>::Check(value.activity, look);
-}
-
-void Signal<FilterSolution>::WriteJson(const FilterSolution& value, std::string& out) {
-  out += R"({"velocity":)";
-  WriteVectorJson(value.velocity.data(), static_cast<std::size_t>(value.velocity.size()), out);
-  out += R"(,"activity":)";
-  Signal<FilterActivity>::WriteJson(value.activity, out);
-  out += '}';
-}
-
-FilterSolution Signal<FilterSolution>::ReadJson(std::string_view text) {
-  const systems::Json json = systems::ParseJson(text);
-  systems::JsonReader(json, "solution").CheckKeys({"velocity", "activity"});
-  FilterSolution value;
-  value.velocity = ReadVectorJson(json["velocity"].dump());
-  value.activity = Signal<FilterActivity>::ReadJson(json["activity"].dump());
-  return value;
-}
-
-}  // namespace oca

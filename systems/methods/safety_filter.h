@@ -6,7 +6,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "oca/framework/dataflow/params.h"
@@ -27,7 +26,6 @@ struct FilterRow {
 };
 
 /// A velocity with what bound it, and the memory that it was computed in.
-/// JSON: {"velocity": [n], "activity": FilterActivity}
 struct FilterSolution {
   struct Workspace {
     Workspace(int num_positions, int most_rows);
@@ -95,7 +93,6 @@ struct FilterSolution {
 ///       clear              ClearMotion    of the request; optional, absent: not known
 /// out   delta     n  u
 ///       activity  FilterActivity      of the last tick
-///       solution  FilterSolution      what the filter would do at this instant
 /// state c         n  u
 ///       u         n  u/s
 ///       l         n  u
@@ -193,21 +190,9 @@ class SafetyFilter final : public System {
   const Input<Vector> measured_position;
   const OptionalInput<Vector> command;
   const OptionalInput<ClearMotion> clear;
-  const Output<FilterSolution> solution;
+  const Cached<FilterSolution> solution;  ///< what the filter would do at this instant
   const Output<Vector> delta;
   const Output<FilterActivity> activity;
 };
 
 }  // namespace oca::systems
-
-namespace oca {
-
-template <>
-struct Signal<systems::FilterSolution> {
-  static constexpr const char* kName = "FilterSolution";
-  static Fault Check(const systems::FilterSolution& value, Look look);
-  static void WriteJson(const systems::FilterSolution& value, std::string& out);
-  static systems::FilterSolution ReadJson(std::string_view text);
-};
-
-}  // namespace oca

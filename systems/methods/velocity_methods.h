@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "oca/models/robot/filtered_inverse.h"
 #include "oca/systems/signals/model_set.h"
@@ -13,7 +16,16 @@ namespace oca::systems {
 
 // What methods that choose joint velocities share.
 
-/// throws ConfigError as MovableModel, and if it has more joints than models::JointVector holds
+/// The joint velocity that a method chose, how much say avoidance had, and the memory that it was
+/// computed in.
+struct AvoidanceVelocity {
+  Eigen::VectorXd velocity{};
+  double share{0.0};  ///< 0: the request's alone, 1: avoidance goes first
+  int rows{0};        ///< proximities that took part
+  std::vector<Eigen::Isometry3d> reordered{};
+};
+
+/// throws ConfigError as MovableModel, and if it has more joints than robot::JointVector holds
 std::shared_ptr<const robot::RobotModel> FilteredModel(const ModelSet& models,
                                                        const std::string& name);
 

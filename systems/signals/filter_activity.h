@@ -3,7 +3,6 @@
 
 #include <array>
 #include <string>
-#include <string_view>
 
 #include "oca/framework/dataflow/signal.h"
 #include "oca/models/motion/stoppable_motion.h"
@@ -17,8 +16,8 @@ namespace oca::systems {
 struct FilterBound {
   enum class Kind { kDistance, kRecovery, kLower, kUpper, kUnmovable };
   Kind kind{Kind::kDistance};
-  models::Name link;      ///< of a distance; of a side of the box the joint
-  models::Name obstacle;  ///< of a distance
+  models::Name link{};      ///< of a distance; of a side of the box the joint
+  models::Name obstacle{};  ///< of a distance
   motion::MotionLimit limit{motion::MotionLimit::kNone};  ///< of a side of the box
   double multiplier{0.0};                                 ///< what one unit of the bound costs, > 0
   double slack{0.0};                                      ///< m/s by which a row is not kept
@@ -59,7 +58,6 @@ struct Signal<systems::FilterActivity> {
   static constexpr const char* kName = "FilterActivity";
   static Fault Check(const systems::FilterActivity& value, Look look);
   static void WriteJson(const systems::FilterActivity& value, std::string& out);
-  static systems::FilterActivity ReadJson(std::string_view text);
 };
 
 }  // namespace oca

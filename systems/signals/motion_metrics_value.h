@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "oca/framework/dataflow/signal.h"
@@ -142,14 +141,11 @@ struct Signal<systems::MotionMetricsValue> {
   static constexpr const char* kName = "MotionMetrics";
   static Fault Check(const systems::MotionMetricsValue& value, Look look);
   static void WriteJson(const systems::MotionMetricsValue& value, std::string& out);
-  static systems::MotionMetricsValue ReadJson(std::string_view text);
 };
 template <>
 struct Signal<systems::MotionTally> {
   static constexpr const char* kName = "MotionTally";
   static Fault Check(const systems::MotionTally& value, Look look);
-  static void WriteJson(const systems::MotionTally& value, std::string& out);
-  static systems::MotionTally ReadJson(std::string_view text);
 };
 
 }  // namespace oca

@@ -259,7 +259,6 @@ TEST(MotionMetricsTest, TellsHowLongTheArmWasStuckAndAtWhat) {
   std::string text;
   Signal<MotionMetricsValue>::WriteJson(value, text);
   EXPECT_NE(text.find(R"("stuck_pair":["hand","box"])"), std::string::npos) << text;
-  EXPECT_EQ(Signal<MotionMetricsValue>::ReadJson(text).stuck_obstacle, models::Name("box"));
 }
 
 TEST(MotionMetricsTest, IsNotStuckWhereItStandsAsRequestedOrForAShortTime) {
@@ -319,18 +318,17 @@ TEST(MotionMetricsTest, FindsTheFastestAndTheHardestTick) {
   EXPECT_NEAR(value.max_joint_acceleration.value(), 2.0, 1e-11);
 }
 
-TEST(MotionMetricsTest, ReadsTheJsonItWrites) {
+TEST(MotionMetricsTest, WritesEveryMetricWithNullWhereThereIsNone) {
   Bench bench({.position = [](double t) { return Vector2d(t, 0.0); },
                .delta = [](double) { return Vector2d(0.0, 0.5); },
                .distance = [](double) { return -0.5; }});
-  std::string text, again;
+  std::string text;
   Signal<MotionMetricsValue>::WriteJson(bench.At(1.0), text);
-  const auto value = Signal<MotionMetricsValue>::ReadJson(text);
-  Signal<MotionMetricsValue>::WriteJson(value, again);
-  EXPECT_EQ(text, again);
-  EXPECT_EQ(value.max_abs_delta, 0.5);
-  EXPECT_EQ(value.min_distance_link, models::Name("hand"));
-  EXPECT_THROW(Signal<MotionMetricsValue>::ReadJson("{}"), ConfigError);
+  EXPECT_TRUE(text.starts_with(
+      R"({"min_distance":-0.5,"min_distance_pair":["hand","box"],"min_distance_time":0.0,)"))
+      << text;
+  EXPECT_NE(text.find(R"("max_abs_delta":0.5,"final_error":null,)"), std::string::npos) << text;
+  EXPECT_TRUE(text.ends_with(R"("stuck_time":null,"stuck_pair":null})")) << text;
 }
 
 TEST(MotionMetricsTest, RefusesSignalsOfUnequalUnits) {
