@@ -135,6 +135,18 @@ void InvokeWitness(const System& system, std::byte* arena, const Slot* slots) {
   (std::index_sequence_for<Handles...>());
 }
 
+/// Shows a member of what it reads: a number or a vector as a Vector, others as they are.
+template <auto kMember, class From, class To>
+void InvokeMember(const System& /*system*/, std::byte* arena, const Slot* slots) {
+  const auto& value = Access<From>::Get(arena, slots[0]).*kMember;
+  auto&& shown = Access<To>::Get(arena, slots[1]);
+  if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>>) {
+    shown[0] = static_cast<double>(value);
+  } else {
+    shown = value;
+  }
+}
+
 template <auto kMethod, class... Handles>
 void Invoke(const System& system, std::byte* arena, const Slot* slots) {
   using Owner = typename OwnerOf<decltype(kMethod)>::Type;
@@ -147,11 +159,16 @@ void Invoke(const System& system, std::byte* arena, const Slot* slots) {
 }  // namespace internal
 
 /// Binds a member function to what it reads and then writes. A method whose parameters do not fit
-/// the handles does not compile.
-template <auto kMethod, class... WriteTypes, class... Reads>
+/// the handles does not compile. A data member, of the one value that is read, is copied.
+template <auto kMember, class... WriteTypes, class... Reads>
 Calculation MakeCalculation(const Reads&... reads) {
-  return {&internal::Invoke<kMethod, Reads..., WriteTypes...>,
-          {internal::Access<Reads>::Declare(reads)...}};
+  if constexpr (std::is_member_object_pointer_v<decltype(kMember)>) {
+    return {&internal::InvokeMember<kMember, Reads..., WriteTypes...>,
+            {internal::Access<Reads>::Declare(reads)...}};
+  } else {
+    return {&internal::Invoke<kMember, Reads..., WriteTypes...>,
+            {internal::Access<Reads>::Declare(reads)...}};
+  }
 }
 
 /// Binds a witness function, which returns its value, to what it reads.

@@ -167,7 +167,8 @@ class System {
     return Cached<T>(AddCached({&kType, MakeCalculation<kMethod, WriteOf<T>>(reads...)}));
   }
 
-  /// An output that `kMethod(reads..., T& out)` computes.
+  /// An output that `kMethod(reads..., T& out)` computes; or, with a data member as kMethod, that
+  /// shows this member of the one cached value, state or signal that it reads.
   template <class T, auto kMethod, class... Reads>
   Output<T> DeclareOutput(std::string name, PortSpec spec, const Reads&... reads) {
     static_assert(Shown<T>, "what an output shows has a Signal<T>::WriteJson");

@@ -13,8 +13,8 @@
 namespace oca::systems {
 
 struct JacobianMapping::Solution {
-  robot::MappingStatus status{robot::MappingStatus::kOk};
   Eigen::VectorXd delta;
+  bool regularised{false};
   std::vector<robot::BodyWrench> body_wrenches;
   std::vector<Eigen::Isometry3d> reordered;
   std::optional<robot::MappingWorkspace> workspace;
@@ -51,10 +51,9 @@ JacobianMapping::JacobianMapping(const Params& params, const ModelSet& models)
       wrenches(DeclareInput<WrenchSet>("wrenches")),
       links(DeclareInput<LinkPoses>("links")),
       solution_(DeclareCached<&JacobianMapping::CalcSolution>(wrenches, links)),
-      delta(DeclareOutput<Vector, &JacobianMapping::CalcDelta>("delta", DeltaSpec(*model_),
-                                                               solution_)),
-      regularised(DeclareOutput<Vector, &JacobianMapping::CalcRegularised>(
-          "regularised", {1, Unit::Any()}, solution_)) {
+      delta(DeclareOutput<Vector, &Solution::delta>("delta", DeltaSpec(*model_), solution_)),
+      regularised(DeclareOutput<Vector, &Solution::regularised>("regularised", {1, Unit::Any()},
+                                                                solution_)) {
   DeclareRole(MapsForces{
       .links = links, .delta = delta, .make_gain = [params, models](const Period& period) {
         LoopGain::Params gain{.period = period};
@@ -80,16 +79,9 @@ void JacobianMapping::CalcSolution(const WrenchSet& wrench_set, const LinkPoses&
     sum.force += wrench.force;
     sum.torque += wrench.torque + (wrench.origin - origin).cross(wrench.force);
   }
-  result.status = robot::MapWrenches(*model_, X_WL, result.body_wrenches, settings_,
-                                     *result.workspace, result.delta);
-}
-
-void JacobianMapping::CalcDelta(const Solution& result, MutableVectorView value) const {
-  value = result.delta;
-}
-
-void JacobianMapping::CalcRegularised(const Solution& result, MutableVectorView value) const {
-  value[0] = result.status == robot::MappingStatus::kRegularised ? 1.0 : 0.0;
+  const auto status = robot::MapWrenches(*model_, X_WL, result.body_wrenches, settings_,
+                                         *result.workspace, result.delta);
+  result.regularised = status == robot::MappingStatus::kRegularised;
 }
 
 }  // namespace oca::systems

@@ -61,8 +61,6 @@ class JacobianMapping final : public System {
   const robot::MappingSettings settings_;
   struct Solution;
   void CalcSolution(const WrenchSet& wrench_set, const LinkPoses& poses, Solution& result) const;
-  void CalcDelta(const Solution& result, MutableVectorView value) const;
-  void CalcRegularised(const Solution& result, MutableVectorView value) const;
 
  public:
   const Input<WrenchSet> wrenches;

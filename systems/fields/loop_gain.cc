@@ -42,7 +42,7 @@ LoopGain::LoopGain(const Params& params, const ModelSet& models)
       more_slopes(DeclareOptionalInput<ContactSlopes>("more_slopes")),
       links(DeclareInput<LinkPoses>("links")),
       estimate_(DeclareCached<&LoopGain::CalcEstimate>(slopes, more_slopes, links)),
-      gain(DeclareOutput<Vector, &LoopGain::CalcGain>("gain", {1, Unit::Any()}, estimate_)),
+      gain(DeclareOutput<Vector, &Estimate::gain>("gain", {1, Unit::Any()}, estimate_)),
       relaxation_time(
           DeclareOutput<Vector, &LoopGain::CalcTime>("relaxation_time", {1, "s"}, estimate_)) {}
 
@@ -69,10 +69,6 @@ void LoopGain::CalcEstimate(const ContactSlopes& first, const ContactSlopes* sec
   if (second != nullptr) AddContacts(*second, result.contacts);
   const auto X_WL = PosesInOrder(*model_, poses, result.reordered);
   result.gain = robot::LoopGain(*model_, X_WL, result.contacts, settings_, *result.workspace);
-}
-
-void LoopGain::CalcGain(const Estimate& result, MutableVectorView value) const {
-  value[0] = result.gain;
 }
 
 void LoopGain::CalcTime(const Estimate& result, MutableVectorView value) const {

@@ -68,7 +68,6 @@ class LoopGain final : public System {
   struct Estimate;
   void CalcEstimate(const ContactSlopes& first, const ContactSlopes* second, const LinkPoses& poses,
                     Estimate& result) const;
-  void CalcGain(const Estimate& result, MutableVectorView value) const;
   void CalcTime(const Estimate& result, MutableVectorView value) const;
 
  public:

@@ -67,10 +67,10 @@ FlaccoDeLuca::FlaccoDeLuca(const Params& params, const ModelSet& models)
       links(DeclareInput<LinkPoses>("links")),
       wish(DeclareInput<Vector>("wish", RateSpec(*model_))),
       solution_(DeclareCached<&FlaccoDeLuca::CalcSolution>(proximities, links, wish)),
-      velocity(DeclareOutput<Vector, &FlaccoDeLuca::CalcVelocity>("velocity", RateSpec(*model_),
-                                                                  solution_)),
-      share(DeclareOutput<Vector, &FlaccoDeLuca::CalcShare>("share", {1, Unit::Any()}, solution_)),
-      rows(DeclareOutput<Vector, &FlaccoDeLuca::CalcRows>("rows", {1, Unit::Any()}, solution_)) {
+      velocity(DeclareOutput<Vector, &AvoidanceVelocity::velocity>("velocity", RateSpec(*model_),
+                                                                   solution_)),
+      share(DeclareOutput<Vector, &AvoidanceVelocity::share>("share", {1, Unit::Any()}, solution_)),
+      rows(DeclareOutput<Vector, &AvoidanceVelocity::rows>("rows", {1, Unit::Any()}, solution_)) {
   DeclareRole(Limits{.shown = Limits::Shown::kAbove,
                      .signal = rows,
                      .bound = {0.0},
@@ -144,18 +144,6 @@ void FlaccoDeLuca::CalcSolution(const ProximitySet& set, const LinkPoses& poses,
   }
   result.velocity = robot::SaturateInNullspace(motion.M, motion.b, robot::JointVector(request),
                                                motion.lower, motion.upper, damping_);
-}
-
-void FlaccoDeLuca::CalcVelocity(const AvoidanceVelocity& result, MutableVectorView out) const {
-  out = result.velocity;
-}
-
-void FlaccoDeLuca::CalcShare(const AvoidanceVelocity& result, MutableVectorView out) const {
-  out[0] = result.share;
-}
-
-void FlaccoDeLuca::CalcRows(const AvoidanceVelocity& result, MutableVectorView out) const {
-  out[0] = result.rows;
 }
 
 }  // namespace oca::systems

@@ -98,9 +98,6 @@ class FlaccoDeLuca final : public System {
                std::span<const Eigen::Isometry3d> X_WL, VectorView wish, Motion& motion) const;
   void CalcSolution(const ProximitySet& set, const LinkPoses& poses, VectorView wish_value,
                     AvoidanceVelocity& result) const;
-  void CalcVelocity(const AvoidanceVelocity& result, MutableVectorView out) const;
-  void CalcShare(const AvoidanceVelocity& result, MutableVectorView out) const;
-  void CalcRows(const AvoidanceVelocity& result, MutableVectorView out) const;
 
  public:
   const Input<ProximitySet> proximities;

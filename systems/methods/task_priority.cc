@@ -77,10 +77,10 @@ TaskPriority::TaskPriority(const Params& params, const ModelSet& models)
       links(DeclareInput<LinkPoses>("links")),
       wish(DeclareInput<Vector>("wish", RateSpec(*model_))),
       solution_(DeclareCached<&TaskPriority::CalcSolution>(proximities, links, wish)),
-      velocity(DeclareOutput<Vector, &TaskPriority::CalcVelocity>("velocity", RateSpec(*model_),
-                                                                  solution_)),
-      share(DeclareOutput<Vector, &TaskPriority::CalcShare>("share", {1, Unit::Any()}, solution_)),
-      rows(DeclareOutput<Vector, &TaskPriority::CalcRows>("rows", {1, Unit::Any()}, solution_)) {
+      velocity(DeclareOutput<Vector, &AvoidanceVelocity::velocity>("velocity", RateSpec(*model_),
+                                                                   solution_)),
+      share(DeclareOutput<Vector, &AvoidanceVelocity::share>("share", {1, Unit::Any()}, solution_)),
+      rows(DeclareOutput<Vector, &AvoidanceVelocity::rows>("rows", {1, Unit::Any()}, solution_)) {
   DeclareRole(
       Limits{.shown = Limits::Shown::kAbove, .signal = rows, .bound = {0.0}, .how = "evading"});
 }
@@ -132,18 +132,6 @@ void TaskPriority::CalcSolution(const ProximitySet& set, const LinkPoses& poses,
   if (sums.swap > 0.0) {
     result.velocity += sums.swap * robot::SolveFiltered(sums.M, sums.b, damping_);
   }
-}
-
-void TaskPriority::CalcVelocity(const AvoidanceVelocity& result, MutableVectorView out) const {
-  out = result.velocity;
-}
-
-void TaskPriority::CalcShare(const AvoidanceVelocity& result, MutableVectorView out) const {
-  out[0] = result.share;
-}
-
-void TaskPriority::CalcRows(const AvoidanceVelocity& result, MutableVectorView out) const {
-  out[0] = result.rows;
 }
 
 }  // namespace oca::systems

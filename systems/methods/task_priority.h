@@ -94,9 +94,6 @@ class TaskPriority final : public System {
               Rows& rows) const;
   void CalcSolution(const ProximitySet& set, const LinkPoses& poses, VectorView wish_value,
                     AvoidanceVelocity& result) const;
-  void CalcVelocity(const AvoidanceVelocity& result, MutableVectorView out) const;
-  void CalcShare(const AvoidanceVelocity& result, MutableVectorView out) const;
-  void CalcRows(const AvoidanceVelocity& result, MutableVectorView out) const;
 
  public:
   const Input<ProximitySet> proximities;

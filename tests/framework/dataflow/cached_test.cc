@@ -255,6 +255,46 @@ TEST(CachedInDiagramTest, OneOfAnotherSystemIsRefused) {
   }
 }
 
+/// Shows the members of a cached value.
+class Members final : public System {
+ public:
+  struct Parts {
+    Eigen::VectorXd vector;
+    int number{0};
+    bool flag{false};
+    Label label;
+  };
+  Members()
+      : parts_(DeclareCached<&Members::CalcParts>(kTime)),
+        vector(DeclareOutput<Vector, &Parts::vector>("vector", {2}, parts_)),
+        number(DeclareOutput<Vector, &Parts::number>("number", {1}, parts_)),
+        flag(DeclareOutput<Vector, &Parts::flag>("flag", {1}, parts_)),
+        label(DeclareOutput<Label, &Parts::label>("label", {}, parts_)) {}
+
+ private:
+  void CalcParts(double t, Parts& parts) const {
+    parts = {Vec({t, 2.0 * t}), static_cast<int>(t), t > 1.0, {"at " + std::to_string(t)}};
+  }
+  const Cached<Parts> parts_;
+
+ public:
+  const Output<Vector> vector, number, flag;
+  const Output<Label> label;
+};
+
+TEST(CachedInDiagramTest, OutputsShowItsMembers) {
+  auto system = std::make_unique<Members>();
+  const Members& members = *system;
+  const auto diagram = MakeDiagramOf(std::move(system));
+  Context context = diagram->MakeContext();
+  EXPECT_EQ(members.flag.Eval(context)[0], 0.0);
+  context.SetTime(3.5);
+  EXPECT_EQ(Eigen::VectorXd(members.vector.Eval(context)), Vec({3.5, 7.0}));
+  EXPECT_EQ(members.number.Eval(context)[0], 3.0);
+  EXPECT_EQ(members.flag.Eval(context)[0], 1.0);
+  EXPECT_EQ(members.label.Eval(context).text, "at 3.500000");
+}
+
 /// A value that only states hold: neither written nor read as JSON.
 struct Memory {
   double value{0.0};
