@@ -10,6 +10,7 @@
 #include "oca/models/robot/travel_bound.h"
 #include "oca/systems/signals/model_set.h"
 #include "oca/systems/signals/motion_metrics_value.h"
+#include "oca/systems/signals/signals.h"
 
 namespace oca::systems {
 
@@ -73,20 +74,21 @@ class MotionMetrics final : public System {
   const std::shared_ptr<const robot::RobotModel> model_;  ///< null: positions mean nothing
   const std::optional<robot::TravelBound> travel_;
   const PortSpec spec_;
-  const DiscreteState<MotionTally> x_;
+  const DiscreteState<robot::MotionTally> x_;
   PortSpec MakeSpec();
-  MotionSample Sample(double time, OptionalVector position_value, OptionalVector request_value,
-                      OptionalVector goal_value, OptionalVector delta_value,
-                      const ProximitySet* proximity_set) const;
+  robot::MotionSample Sample(double time, OptionalVector position_value,
+                             OptionalVector request_value, OptionalVector goal_value,
+                             OptionalVector delta_value, const ProximitySet* proximity_set) const;
   void Update(double time, OptionalVector position_value, OptionalVector request_value,
               OptionalVector goal_value, OptionalVector delta_value,
-              const ProximitySet* proximity_set, MotionTally& next) const;
+              const ProximitySet* proximity_set, robot::MotionTally& next) const;
   void CalcTally(double time, OptionalVector position_value, OptionalVector request_value,
                  OptionalVector goal_value, OptionalVector delta_value,
-                 const ProximitySet* proximity_set, const MotionTally& x, MotionTally& value) const;
+                 const ProximitySet* proximity_set, const robot::MotionTally& x,
+                 robot::MotionTally& value) const;
   void CalcMetrics(double time, OptionalVector position_value, OptionalVector request_value,
                    OptionalVector goal_value, OptionalVector delta_value,
-                   const ProximitySet* proximity_set, const MotionTally& complete,
+                   const ProximitySet* proximity_set, const robot::MotionTally& complete,
                    MotionMetricsValue& value) const;
 
  public:
@@ -97,7 +99,7 @@ class MotionMetrics final : public System {
   const OptionalInput<ProximitySet> proximities;
 
  private:
-  const Cached<MotionTally> tally_;  ///< the present sample included
+  const Cached<robot::MotionTally> tally_;  ///< the present sample included
 
  public:
   const Output<MotionMetricsValue> metrics;

@@ -10,7 +10,6 @@ namespace oca {
 
 using systems::Json;
 using systems::MotionMetricsValue;
-using systems::MotionTally;
 
 namespace {
 
@@ -67,27 +66,8 @@ void Signal<MotionMetricsValue>::WriteJson(const MotionMetricsValue& value, std:
   out += json.dump();
 }
 
-Fault Signal<MotionTally>::Check(const MotionTally& value, Look /*look*/) {
-  const auto finite = [](const std::vector<double>& vector) {
-    return AllFinite(vector.data(), static_cast<std::size_t>(vector.size()));
-  };
-  const std::array numbers{value.certified_,
-                           value.reach_,
-                           value.fastest_,
-                           value.last_time_,
-                           value.min_distance_.value_or(0.0),
-                           value.contact_time_,
-                           value.max_abs_delta_,
-                           value.position_path_,
-                           value.request_path_,
-                           value.max_speed_,
-                           value.max_acceleration_,
-                           value.limit_violations_,
-                           value.goal_time_.value_or(0.0),
-                           value.stuck_time_};
-  return Fault::UnlessFinite(AllFinite(numbers.data(), numbers.size()) && finite(value.position_) &&
-                             finite(value.velocity_) && finite(value.request_) &&
-                             finite(value.delta_));
+Fault Signal<robot::MotionTally>::Check(const robot::MotionTally& value, Look /*look*/) {
+  return Fault::UnlessFinite(value.finite());
 }
 
 }  // namespace oca

@@ -275,39 +275,6 @@ TEST(MotionMetricsTest, IsNotStuckWhereItStandsAsRequestedOrForAShortTime) {
   EXPECT_GT(Bench(alone).At(3.5).stuck_time.value(), 2.0);
 }
 
-TEST(MotionMetricsTest, CountsTheJointsBeyondALimitAtEachSample) {
-  auto plain = LoadTestModel("lwr4");
-  auto joints = plain->joints();
-  for (auto& joint : joints) joint.acceleration_limit = 2.0;
-  const robot::RobotModel model(plain->name(), plain->links(), joints);
-  // The first joint goes through the positions, one each 0.1 s.
-  const auto violations = [&](const std::vector<double>& positions) {
-    MotionTally tally;
-    double time = 0.0;
-    double count = -1.0;
-    for (const double position : positions) {
-      Eigen::VectorXd value = Eigen::VectorXd::Zero(7);
-      value[0] = position;
-      MotionSample sample{};
-      sample.time = time;
-      sample.position.emplace(value.data(), value.size());
-      sample.model = &model;
-      tally.Add(sample);
-      count = tally.At(sample).limit_violations.value();
-      time += 0.1;
-    }
-    return count;
-  };
-  const double v = model.velocity_limits()[0], upper = model.upper_limits()[0];
-  EXPECT_EQ(violations({0.0, 0.1 * v, 0.2 * v}), 0.0);
-  EXPECT_EQ(violations({0.0, 0.1001 * v, 0.2002 * v}), 2.0);
-  EXPECT_EQ(violations({upper, upper}), 0.0);
-  EXPECT_EQ(violations({upper + 1e-5, upper + 1e-5, upper}), 2.0);
-  EXPECT_EQ(violations({-upper - 1e-5}), 1.0);
-  EXPECT_EQ(violations({0.0, 0.0, 0.02}), 0.0);
-  EXPECT_EQ(violations({0.0, 0.0, 0.0201}), 1.0);
-}
-
 TEST(MotionMetricsTest, FindsTheFastestAndTheHardestTick) {
   // q = t^2 on joint 2: over the last tick 1.9 rad/s, and 2 rad/s^2 at each.
   Bench bench({.position = [](double t) { return Vector2d(0.0, -t * t); }});
