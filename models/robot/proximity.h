@@ -2,11 +2,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <span>
 #include <vector>
 
 #include "oca/models/name.h"
 
 namespace oca::robot {
+
+class RobotModel;
 
 /// Nearest points of one link and one obstacle. `distance` is signed (negative: penetration);
 /// `normal` is the unit vector from the obstacle to the link.
@@ -36,5 +40,13 @@ struct ProximitySet {
   double fastest{0.0};
   bool compared{false};
 };
+
+/// The number of a link that a proximity names. throws ModelError if the model has no such link
+int NumberOfLink(const RobotModel& model, models::Name link);
+
+/// d(distance)/d(position) of every joint, into `row` of num_positions() entries. throws ModelError
+/// if it is of no link of the model
+void DistanceRow(const RobotModel& model, std::span<const Eigen::Isometry3d> X_WL,
+                 const Proximity& proximity, Eigen::Ref<Eigen::VectorXd> row);
 
 }  // namespace oca::robot

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "oca/framework/dataflow/error.h"
+#include "oca/models/robot/motion_limits.h"
 #include "oca/models/robot/robot_model.h"
 #include "oca/systems/sensing/model_links.h"
 #include "oca/systems/signals/json_fields.h"
@@ -21,11 +22,6 @@ constexpr double kUnchanged = 1e-12;
 constexpr double kCatchUpShare = 0.5;
 
 }  // namespace
-
-motion::JointLimits LimitsOf(const robot::RobotModel& model, Eigen::Index index) {
-  return {model.lower_limits()[index], model.upper_limits()[index], model.velocity_limits()[index],
-          model.acceleration_limits()[index], model.jerk_limits()[index]};
-}
 
 const char* NameOf(motion::MotionLimit limit) { return kLimitNames[static_cast<int>(limit)]; }
 
@@ -118,7 +114,7 @@ MotionLimiter::Answer MotionLimiter::Answers(VectorView request, const Past& pas
   Answer answer{request[joint], whole, {}};
   if (!params_.enabled) return answer;
   if (past.started[0] == 0.0) return {c, 0.0, {}};
-  const motion::JointLimits limits = LimitsOf(*model_, joint);
+  const motion::JointLimits limits = robot::LimitsOf(*model_, joint);
   const motion::VelocityRange range =
       motion::StoppableVelocities(limits, {c, past.v[joint], past.a[joint]}, dt);
   const double wish = Wish(request[joint], c, past.r[joint], past.v[joint], limits);

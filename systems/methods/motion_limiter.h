@@ -107,9 +107,6 @@ class MotionLimiter final : public System {
   const Output<MotionClips> clips;
 };
 
-/// The limits of joint position number `index`, as MotionLimiter and SafetyFilter take them.
-motion::JointLimits LimitsOf(const robot::RobotModel& model, Eigen::Index index);
-
 /// "none", "position", ...
 const char* NameOf(motion::MotionLimit limit);
 

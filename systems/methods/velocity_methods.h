@@ -33,10 +33,7 @@ std::shared_ptr<const robot::RobotModel> FilteredModel(const ModelSet& models,
 /// several are last and none is named
 int TipNumber(const robot::RobotModel& model, const std::string& tip);
 
-/// The number of a link. throws ConfigError if the model has no such link
-int NumberOfLink(const robot::RobotModel& model, models::Name link);
-
-/// d(distance)/d(position) of every joint. throws ConfigError if it is of no link of the model
+/// d(distance)/d(position) of every joint. throws ModelError if it is of no link of the model
 robot::JointVector RowOf(const robot::RobotModel& model, std::span<const Eigen::Isometry3d> X_WL,
                          const Proximity& proximity);
 
