@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "oca/framework/dataflow/signal.h"
@@ -61,7 +60,6 @@ struct Signal<systems::BandMemory> {
   static constexpr const char* kName = "BandMemory";
   static Fault Check(const systems::BandMemory& value, Look look);
   static void WriteJson(const systems::BandMemory& value, std::string& out);
-  static systems::BandMemory ReadJson(std::string_view text);
 };
 
 }  // namespace oca

@@ -19,7 +19,7 @@ namespace oca::systems {
 /// Bends the requested motion around what stands and moves, in time: an elastic band in space and
 /// time, planned anew every plan_period, whose place in time a SafetyFilter then follows.
 ///
-///     position = request(t) + x(t),   x the deviation of models::ElasticBand
+///     position = request(t) + x(t),   x the deviation of planning::BandOptimizer
 ///
 /// A plan looks ahead to the end of the request and a little further, at least least_horizon. It
 /// takes every obstacle to go on as it does now for `prediction` seconds and then to stay. It

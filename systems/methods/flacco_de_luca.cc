@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "oca/models/robot/kinematics.h"
+#include "oca/models/robot/motion_limits.h"
 #include "oca/models/robot/robot_model.h"
 #include "oca/models/robot/saturated_task.h"
 #include "oca/systems/basics/require.h"
-#include "oca/systems/methods/motion_limiter.h"
 #include "oca/systems/methods/velocity_methods.h"
 #include "oca/systems/sensing/model_links.h"
 #include "oca/systems/signals/roles.h"
@@ -66,14 +66,14 @@ FlaccoDeLuca::FlaccoDeLuca(const Params& params, const ModelSet& models)
       proximities(DeclareInput<ProximitySet>("proximities")),
       links(DeclareInput<LinkPoses>("links")),
       wish(DeclareInput<Vector>("wish", RateSpec(*model_))),
-      solution(DeclareOutput<AvoidanceVelocity, &FlaccoDeLuca::CalcSolution>(
-          "solution", {}, proximities, links, wish)),
-      velocity(DeclareOutput<Vector, &FlaccoDeLuca::CalcVelocity>("velocity", RateSpec(*model_),
-                                                                  solution)) {
+      solution_(DeclareCached<&FlaccoDeLuca::CalcSolution>(proximities, links, wish)),
+      velocity(DeclareOutput<Vector, &AvoidanceVelocity::velocity>("velocity", RateSpec(*model_),
+                                                                   solution_)),
+      share(DeclareOutput<Vector, &AvoidanceVelocity::share>("share", {1, Unit::Any()}, solution_)),
+      rows(DeclareOutput<Vector, &AvoidanceVelocity::rows>("rows", {1, Unit::Any()}, solution_)) {
   DeclareRole(Limits{.shown = Limits::Shown::kAbove,
-                     .signal = solution,
+                     .signal = rows,
                      .bound = {0.0},
-                     .member = "rows",
                      .how = "repulsed or held back"});
 }
 
@@ -112,7 +112,7 @@ void FlaccoDeLuca::AddLink(const ProximitySet& set, std::size_t first, int link,
   if (model_->body(link) == model_->body(tip_)) return;
   const robot::JointVector row = RowOf(*model_, X_WL, *nearest);
   for (Eigen::Index j = 0; j < row.size(); ++j) {
-    const double limit = std::min(LimitsOf(*model_, j).velocity, params_.max_joint_velocity);
+    const double limit = std::min(robot::LimitsOf(*model_, j).velocity, params_.max_joint_velocity);
     if (row[j] < -kNoLever) motion.upper[j] = std::min(motion.upper[j], limit * (1.0 - risk));
     if (row[j] > kNoLever) motion.lower[j] = std::max(motion.lower[j], -limit * (1.0 - risk));
   }
@@ -125,7 +125,7 @@ void FlaccoDeLuca::CalcSolution(const ProximitySet& set, const LinkPoses& poses,
   Motion motion{robot::JointMatrix::Zero(n, n), robot::JointVector::Zero(n), robot::JointVector(n),
                 robot::JointVector(n)};
   for (Eigen::Index j = 0; j < n; ++j) {
-    motion.upper[j] = std::min(LimitsOf(*model_, j).velocity, params_.max_joint_velocity);
+    motion.upper[j] = std::min(robot::LimitsOf(*model_, j).velocity, params_.max_joint_velocity);
   }
   motion.lower = -motion.upper;
   result.share = 0.0;
@@ -139,15 +139,11 @@ void FlaccoDeLuca::CalcSolution(const ProximitySet& set, const LinkPoses& poses,
     const auto same = [&](const Proximity& before) { return before.link == all[i].link; };
     const auto here = all.begin() + static_cast<std::ptrdiff_t>(i);
     if (std::any_of(all.begin(), here, same)) continue;
-    const int link = NumberOfLink(*model_, all[i].link);
+    const int link = robot::NumberOfLink(*model_, all[i].link);
     AddLink(set, i, link, X_WL, request, motion);
   }
   result.velocity = robot::SaturateInNullspace(motion.M, motion.b, robot::JointVector(request),
                                                motion.lower, motion.upper, damping_);
-}
-
-void FlaccoDeLuca::CalcVelocity(const AvoidanceVelocity& result, MutableVectorView out) const {
-  out = result.velocity;
 }
 
 }  // namespace oca::systems

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "oca/models/robot/filtered_inverse.h"
 #include "oca/systems/signals/model_set.h"
@@ -13,7 +16,16 @@ namespace oca::systems {
 
 // What methods that choose joint velocities share.
 
-/// throws ConfigError as MovableModel, and if it has more joints than models::JointVector holds
+/// The joint velocity that a method chose, how much say avoidance had, and the memory that it was
+/// computed in.
+struct AvoidanceVelocity {
+  Eigen::VectorXd velocity{};
+  double share{0.0};  ///< 0: the request's alone, 1: avoidance goes first
+  int rows{0};        ///< proximities that took part
+  std::vector<Eigen::Isometry3d> reordered{};
+};
+
+/// throws ConfigError as MovableModel, and if it has more joints than robot::JointVector holds
 std::shared_ptr<const robot::RobotModel> FilteredModel(const ModelSet& models,
                                                        const std::string& name);
 
@@ -21,10 +33,7 @@ std::shared_ptr<const robot::RobotModel> FilteredModel(const ModelSet& models,
 /// several are last and none is named
 int TipNumber(const robot::RobotModel& model, const std::string& tip);
 
-/// The number of a link. throws ConfigError if the model has no such link
-int NumberOfLink(const robot::RobotModel& model, models::Name link);
-
-/// d(distance)/d(position) of every joint. throws ConfigError if it is of no link of the model
+/// d(distance)/d(position) of every joint. throws ModelError if it is of no link of the model
 robot::JointVector RowOf(const robot::RobotModel& model, std::span<const Eigen::Isometry3d> X_WL,
                          const Proximity& proximity);
 

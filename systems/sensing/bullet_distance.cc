@@ -94,8 +94,8 @@ BulletDistance::BulletDistance(const Params& params, const ModelSet& models)
       links(DeclareInput<LinkPoses>("links")),
       obstacles(DeclareInput<ObstacleSet>("obstacles")),
       links_of_others(DeclareOtherLinks()),
-      scene(DeclareOutput<ObstacleScene, &BulletDistance::CalcScene>("scene", {}, obstacles)),
-      near(DeclareOutput<NearObstacles, &BulletDistance::CalcNear>("near", {}, links, scene)),
+      scene_(DeclareCached<&BulletDistance::CalcScene>(obstacles)),
+      near_(DeclareCached<&BulletDistance::CalcNear>(links, scene_)),
       proximities(DeclareProximities(link_forces_ ? moving_others_ : 0)) {
   DeclareRoles(params, models);
 }
@@ -214,7 +214,7 @@ Output<ProximitySet> BulletDistance::DeclareProximities(std::size_t moving) {
   }
   return [this]<std::size_t... I>(std::index_sequence<I...>) {
     return DeclareOutput<ProximitySet, &BulletDistance::CalcProximities<PosesOfOne<I>...>>(
-        "proximities", {}, links, obstacles, scene, near, links_of_others[I]...);
+        "proximities", {}, links, obstacles, scene_, near_, links_of_others[I]...);
   }
   (std::make_index_sequence<kMoving>());
 }

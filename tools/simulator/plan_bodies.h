@@ -8,7 +8,7 @@
 
 #include "oca/framework/dataflow/context.h"
 #include "oca/framework/dataflow/diagram.h"
-#include "oca/models/planning/elastic_band.h"
+#include "oca/models/planning/band_optimizer.h"
 #include "oca/models/robot/link_colliders.h"
 #include "oca/systems/signals/signals.h"
 

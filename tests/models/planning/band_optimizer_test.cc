@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "oca/models/planning/elastic_band.h"
+#include "oca/models/planning/band_optimizer.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "tests/models/planning/scene.h"
 
 namespace oca::planning {
-namespace elastic_band_test {
+namespace band_optimizer_test {
 
 using Eigen::VectorXd;
 
@@ -46,9 +46,9 @@ class Sweep {
   VectorXd home;
 };
 
-TEST(ElasticBandTest, TheRequestItselfGoesThroughTheBox) {
+TEST(BandOptimizerTest, TheRequestItselfGoesThroughTheBox) {
   const Sweep sweep;
-  ElasticBand band(sweep.model, {});
+  BandOptimizer band(sweep.model, {});
   const BandCurve curve = sweep.Curve();
   band.Prepare(curve, sweep.request(), sweep.bodies, true);
   const BandCheck check = band.Check(curve);
@@ -59,10 +59,10 @@ TEST(ElasticBandTest, TheRequestItselfGoesThroughTheBox) {
   EXPECT_GT(check.last, check.time);
 }
 
-TEST(ElasticBandTest, ItsGradientIsTheDerivativeOfItsCost) {
+TEST(BandOptimizerTest, ItsGradientIsTheDerivativeOfItsCost) {
   const Sweep sweep;
   for (const bool end_fixed : {true, false}) {
-    ElasticBand band(sweep.model, {});
+    BandOptimizer band(sweep.model, {});
     BandCurve curve = sweep.Curve();
     models::Random random(5);
     for (Eigen::Index i = 0; i < curve.controls().size(); ++i) {
@@ -93,9 +93,9 @@ TEST(ElasticBandTest, ItsGradientIsTheDerivativeOfItsCost) {
   }
 }
 
-TEST(ElasticBandTest, RelaxesPastTheBoxWithinTheLimits) {
+TEST(BandOptimizerTest, RelaxesPastTheBoxWithinTheLimits) {
   const Sweep sweep;
-  ElasticBand band(sweep.model, {});
+  BandOptimizer band(sweep.model, {});
   BandCurve curve = sweep.Curve();
   band.Prepare(curve, sweep.request(), sweep.bodies, true);
   const double before = band.Cost(curve);
@@ -108,7 +108,7 @@ TEST(ElasticBandTest, RelaxesPastTheBoxWithinTheLimits) {
   EXPECT_TRUE(curve.controls().rightCols(3).isZero(0.0));
 }
 
-TEST(ElasticBandTest, AnswersTheMirroredSceneWithTheMirroredBand) {
+TEST(BandOptimizerTest, AnswersTheMirroredSceneWithTheMirroredBand) {
   const Sweep sweep;
   const auto relax = [&](double side) {
     std::vector<BandBody> bodies = sweep.bodies;
@@ -119,7 +119,7 @@ TEST(ElasticBandTest, AnswersTheMirroredSceneWithTheMirroredBand) {
       sweep.request()(time, derivative, out);
       out[0] *= side;
     };
-    ElasticBand band(sweep.model, {});
+    BandOptimizer band(sweep.model, {});
     BandCurve curve = sweep.Curve();
     band.Prepare(curve, request, bodies, true);
     band.Relax(curve, 10);
@@ -132,9 +132,9 @@ TEST(ElasticBandTest, AnswersTheMirroredSceneWithTheMirroredBand) {
   EXPECT_LT((left - mirror.asDiagonal() * relax(-1.0)).norm(), 1e-3 * left.norm());
 }
 
-TEST(ElasticBandTest, IsNotClearWhereItExceedsLimitsThatTheRequestKeeps) {
+TEST(BandOptimizerTest, IsNotClearWhereItExceedsLimitsThatTheRequestKeeps) {
   const Sweep sweep;
-  ElasticBand band(sweep.model, {});
+  BandOptimizer band(sweep.model, {});
   BandCurve curve = sweep.Curve();
   const auto check = [&](double away) {
     const robot::PlacedBody far = test::BoxAt({0.2, 0.2, 0.2}, {0.0, 9.0, 1.0});
@@ -177,7 +177,7 @@ struct Rest {
     const VectorXd zero = VectorXd::Zero(3);
     curve.StartWith(from * VectorXd::Unit(3, 1), zero, zero);
     curve.Follow([&](double) -> VectorXd { return to * VectorXd::Unit(3, 1); });
-    ElasticBand band(model, {});
+    BandOptimizer band(model, {});
     band.Prepare(
         curve, [](double, int, Eigen::Ref<VectorXd> out) { out.setZero(); }, bodies, false);
     EXPECT_TRUE(std::isfinite(band.Cost(curve)));
@@ -190,7 +190,7 @@ struct Rest {
   std::vector<BandBody> bodies;
 };
 
-TEST(ElasticBandTest, KeepsALimitOnOneSideAndNoneOfARangeThatOverflows) {
+TEST(BandOptimizerTest, KeepsALimitOnOneSideAndNoneOfARangeThatOverflows) {
   const Rest above(-robot::kUnlimited, 0.5);
   EXPECT_TRUE(above.Check(0.0, 0.4).clear());
   EXPECT_FALSE(above.Check(0.0, 0.6).clear());
@@ -201,7 +201,7 @@ TEST(ElasticBandTest, KeepsALimitOnOneSideAndNoneOfARangeThatOverflows) {
   EXPECT_TRUE(Rest(-1e308, 1e308).Check(0.0, 2.0).clear());
 }
 
-TEST(ElasticBandTest, AllowsAnArmBeyondALimitToComeBack) {
+TEST(BandOptimizerTest, AllowsAnArmBeyondALimitToComeBack) {
   const Rest rest(-0.5, 0.5);
   EXPECT_TRUE(rest.Check(0.8, 0.0).clear());
   EXPECT_TRUE(rest.Check(0.8, 0.8).clear());  // no worse
@@ -209,12 +209,12 @@ TEST(ElasticBandTest, AllowsAnArmBeyondALimitToComeBack) {
   EXPECT_FALSE(rest.Check(0.8, -0.6).clear());
 }
 
-TEST(ElasticBandTest, DividesByNoLimit) {
+TEST(BandOptimizerTest, DividesByNoLimit) {
   for (const double limit : {1e-300, 0.0, 1e308, robot::kUnlimited})
     Rest(-1, 1, limit).Check(0.0, 0.5);
 }
 
-TEST(ElasticBandTest, TouchesWhatStandsSoonerThanWhatMovesAndWhereItBeginsToo) {
+TEST(BandOptimizerTest, TouchesWhatStandsSoonerThanWhatMovesAndWhereItBeginsToo) {
   const Sweep sweep;
   const BandRequest hold = [&](double, int derivative, Eigen::Ref<VectorXd> out) {
     out = derivative == 0 ? sweep.home : VectorXd::Zero(7);
@@ -225,7 +225,7 @@ TEST(ElasticBandTest, TouchesWhatStandsSoonerThanWhatMovesAndWhereItBeginsToo) {
   const auto touch = [&](double trust, double flying, bool stands) {
     settings.trust_distance = trust;
     settings.flying_distance = flying;
-    ElasticBand band(sweep.model, settings);
+    BandOptimizer band(sweep.model, settings);
     std::vector<BandBody> bodies = sweep.bodies;
     bodies[0].stands = stands;
     band.Prepare(curve, hold, bodies, true);
@@ -233,7 +233,7 @@ TEST(ElasticBandTest, TouchesWhatStandsSoonerThanWhatMovesAndWhereItBeginsToo) {
   };
   const double never = std::numeric_limits<double>::infinity();
   settings.trust_distance = 0.0;
-  ElasticBand band(sweep.model, settings);
+  BandOptimizer band(sweep.model, settings);
   band.Prepare(curve, hold, sweep.bodies, true);
   const double distance = band.Distance(sweep.home, 0.0);
   ASSERT_GT(distance, 0.01);
@@ -244,7 +244,7 @@ TEST(ElasticBandTest, TouchesWhatStandsSoonerThanWhatMovesAndWhereItBeginsToo) {
   EXPECT_EQ(touch(0.0, distance + 1e-3, false), curve.start());
 }
 
-TEST(ElasticBandTest, LooksAtItsOwnLinksWithoutAnyBody) {
+TEST(BandOptimizerTest, LooksAtItsOwnLinksWithoutAnyBody) {
   const Sweep sweep;
   VectorXd folded = VectorXd::Zero(7);
   folded << 0.0, 0.0, 0.0, 2.0, 0.0, 2.0, 0.0;
@@ -254,16 +254,16 @@ TEST(ElasticBandTest, LooksAtItsOwnLinksWithoutAnyBody) {
   BandSettings wide;
   wide.margin = 1.0;
   for (const bool own : {false, true}) {
-    ElasticBand band(sweep.model, wide, own);
+    BandOptimizer band(sweep.model, wide, own);
     const BandCurve curve = sweep.Curve();
     band.Prepare(curve, request, {}, true);
     EXPECT_EQ(band.Check(curve).min_distance < wide.margin, own);
   }
 }
 
-TEST(ElasticBandTest, WithoutBodiesTheRequestIsBest) {
+TEST(BandOptimizerTest, WithoutBodiesTheRequestIsBest) {
   const Sweep sweep;
-  ElasticBand band(sweep.model, {});
+  BandOptimizer band(sweep.model, {});
   BandCurve curve = sweep.Curve();
   curve.Follow([](double) -> VectorXd { return VectorXd::Constant(7, 0.1); });
   curve.controls().rightCols(3).setZero();
@@ -273,5 +273,5 @@ TEST(ElasticBandTest, WithoutBodiesTheRequestIsBest) {
   EXPECT_LT(curve.controls().cwiseAbs().maxCoeff(), 1e-6);
 }
 
-}  // namespace elastic_band_test
+}  // namespace band_optimizer_test
 }  // namespace oca::planning

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "oca/framework/simulation/integrator.h"
+#include "oca/framework/simulation/integration_method.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/schedule.h"
-#include "oca/framework/simulation/sundials_integrator.h"
+#include "oca/framework/simulation/sundials_method.h"
 
 namespace oca {
 namespace {
@@ -22,7 +22,7 @@ void CheckPositive(double value, const char* name) {
 }
 
 /// Explicit Runge-Kutta with equal steps no longer than `fixed_step` between two events.
-class FixedStepIntegrator : public Integrator {
+class FixedStepIntegrator : public IntegrationMethod {
  public:
   FixedStepIntegrator(const Schedule& schedule, const IntegratorOptions& options)
       : schedule_(schedule),
@@ -172,8 +172,8 @@ class TableauIntegrator final : public FixedStepIntegrator {
 
 }  // namespace
 
-std::unique_ptr<Integrator> MakeIntegrator(const Schedule& schedule,
-                                           const IntegratorOptions& options) {
+std::unique_ptr<IntegrationMethod> MakeIntegrationMethod(const Schedule& schedule,
+                                                         const IntegratorOptions& options) {
   CheckPositive(options.relative_tolerance, "relative_tolerance");
   CheckPositive(options.absolute_tolerance, "absolute_tolerance");
   CheckPositive(options.max_step, "max_step");
@@ -184,9 +184,19 @@ std::unique_ptr<Integrator> MakeIntegrator(const Schedule& schedule,
       return std::make_unique<TableauIntegrator<4>>(schedule, options, kRk4);
     case IntegratorKind::kFixedDp5:
       return std::make_unique<TableauIntegrator<6>>(schedule, options, kDormandPrince5);
-    default:
-      return MakeSundialsIntegrator(schedule, options);
+    // Tables by name: their defaults differ between versions of SUNDIALS.
+    case IntegratorKind::kErkDp5:
+      return MakeErkMethod(schedule, options, "ARKODE_DORMAND_PRINCE_7_4_5");
+    case IntegratorKind::kErkBs3:
+      return MakeErkMethod(schedule, options, "ARKODE_BOGACKI_SHAMPINE_4_2_3");
+    case IntegratorKind::kCvodeAdams:
+      return MakeCvodeMethod(schedule, options, CvodeFormulas::kAdams);
+    case IntegratorKind::kCvodeBdf:
+      return MakeCvodeMethod(schedule, options, CvodeFormulas::kBdf);
   }
+  throw ConfigError(
+      "simulator: integrator; got no such method; expected one of those that "
+      "IntegratorKind names");
 }
 
 }  // namespace oca

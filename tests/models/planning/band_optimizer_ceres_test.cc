@@ -6,15 +6,15 @@
 #include "tests/models/planning/band_in_ceres.h"
 
 namespace oca::planning::test {
-namespace elastic_band_ceres_test {
+namespace band_optimizer_ceres_test {
 
 constexpr std::uint64_t kScenes = 20;
 
-TEST(ElasticBandCeresTest, ABandCostsWhatItsFormulaSays) {
+TEST(BandOptimizerCeresTest, ABandCostsWhatItsFormulaSays) {
   models::Random random(7);
   for (std::uint64_t seed = 0; seed < kScenes; ++seed) {
     const BandScene scene = MakeBandScene(seed);
-    ElasticBand band(scene.model, {});
+    BandOptimizer band(scene.model, {});
     BandCurve curve = StraightBand();
     for (Eigen::Index i = 0; i < curve.controls().size(); ++i) {
       curve.controls().data()[i] = random.Uniform(-0.5, 0.5);
@@ -28,11 +28,11 @@ TEST(ElasticBandCeresTest, ABandCostsWhatItsFormulaSays) {
 
 // The cost has many minima, and from a start in the middle of a box it is chance which one a step
 // leads to. Where both end in the same it must be the same to the last digits that either seeks.
-TEST(ElasticBandCeresTest, FromTheSameStartItMostlyEndsWhereCeresDoes) {
+TEST(BandOptimizerCeresTest, FromTheSameStartItMostlyEndsWhereCeresDoes) {
   int same = 0, cheaper = 0, dearer = 0;
   for (std::uint64_t seed = 0; seed < kScenes; ++seed) {
     const BandScene scene = MakeBandScene(seed);
-    ElasticBand band(scene.model, {});
+    BandOptimizer band(scene.model, {});
     BandCurve ours = StraightBand(), theirs = ours;
     band.Prepare(ours, scene.request, scene.bodies, true);
     double last = band.Cost(ours);
@@ -53,5 +53,5 @@ TEST(ElasticBandCeresTest, FromTheSameStartItMostlyEndsWhereCeresDoes) {
   RecordProperty("dearer", dearer);
 }
 
-}  // namespace elastic_band_ceres_test
+}  // namespace band_optimizer_ceres_test
 }  // namespace oca::planning::test

@@ -19,9 +19,9 @@ struct IntegratorStatistics {
 };
 
 /// Advances the continuous state of a Context between two events.
-class Integrator {
+class IntegrationMethod {
  public:
-  virtual ~Integrator() = default;
+  virtual ~IntegrationMethod() = default;
   /// Forgets the past: the right-hand side changed (`jumped` false) or the state jumped.
   virtual void Restart(Context& context, bool jumped) = 0;
   /// Integrates the context's continuous state from its time to `to`.
@@ -42,7 +42,7 @@ class Integrator {
 };
 
 /// throws ConfigError if an option is out of bounds.
-std::unique_ptr<Integrator> MakeIntegrator(const Schedule& schedule,
-                                           const IntegratorOptions& options);
+std::unique_ptr<IntegrationMethod> MakeIntegrationMethod(const Schedule& schedule,
+                                                         const IntegratorOptions& options);
 
 }  // namespace oca

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a SafetyFilter states its problem, and how it reads the answer.
-#include <fmt/format.h>
+#include "oca/models/robot/barrier_filter.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "oca/framework/dataflow/error.h"
 #include "oca/models/motion/following.h"
-#include "oca/models/robot/kinematics.h"
-#include "oca/systems/methods/motion_limiter.h"
-#include "oca/systems/methods/safety_filter.h"
-#include "oca/systems/sensing/link_colliders.h"
+#include "oca/models/robot/link_colliders.h"
+#include "oca/models/robot/motion_limits.h"
+#include "oca/models/robot/robot_model.h"
 
-namespace oca::systems {
+namespace oca::robot {
 namespace {
 
 // A way that is as good as none (rad, m).
@@ -22,43 +20,85 @@ constexpr double kFastest = 1e3;
 // Of a joint's velocity limit, at most kFastest: a wish beyond it is cut, for one without bound
 // would pay any price for slack.
 constexpr double kFastestWish = 10.0;
+// Of a row, times the reach; a slider's: times 1.
+constexpr double kLeastLever = 1e-12;
+
+/// No point of the arm is farther than this from a joint before it.
+double ReachOf(const RobotModel& model) {
+  // Along each link's chain of joints, to the far side of its solids.
+  std::vector<double> from_base(model.links().size(), 0.0);
+  double reach = 0.0;
+  for (int i = 1; i < model.num_links(); ++i) {
+    const Joint& joint = model.joints()[i - 1];
+    const bool first = model.body(joint.parent_link) < 0;
+    from_base[i] = first ? 0.0 : from_base[joint.parent_link] + joint.X_PJ.translation().norm();
+    reach = std::max(reach, from_base[i]);
+  }
+  for (const LinkCollider& link : LinkCollidersOf(model)) {
+    reach = std::max(reach, from_base[link.number] + link.centre.norm() + link.radius);
+  }
+  return reach;
+}
+
+Eigen::VectorXd LeastEntries(const RobotModel& model, double reach) {
+  Eigen::VectorXd least = Eigen::VectorXd::Zero(model.num_positions());
+  for (const KinematicStep& step : model.steps()) {
+    if (step.column < 0) continue;
+    const double lever = step.type == JointType::kPrismatic ? 1.0 : reach;
+    least[step.column] =
+        std::max(least[step.column], kLeastLever * std::abs(step.multiplier) * lever);
+  }
+  return least;
+}
 
 }  // namespace
 
-FilterSolution::Workspace::Workspace(int num_positions, int most_rows)
+BarrierFilter::Solution::Workspace::Workspace(int num_positions, int most_rows)
     : qp(num_positions, most_rows),
       solver(num_positions, most_rows),
       solution(qp),
       box(static_cast<std::size_t>(num_positions)),
-      command(Eigen::VectorXd::Zero(num_positions)),
-      last_velocity(command),
-      row(command) {
+      row(Eigen::VectorXd::Zero(num_positions)) {
   rows.reserve(static_cast<std::size_t>(most_rows));
   unmovable.reserve(FilterActivity::kMostBounds);
 }
 
-double SafetyFilter::Approach(double headroom) const {
+BarrierFilter::BarrierFilter(std::shared_ptr<const RobotModel> model, BarrierSettings settings)
+    : model_(std::move(model)),
+      settings_(std::move(settings)),
+      reach_(ReachOf(*model_)),
+      least_entries_(LeastEntries(*model_, reach_)) {}
+
+void BarrierFilter::Solve(const Tick& tick, Solution& result) const {
+  if (!result.workspace) {
+    result.workspace.emplace(model_->num_positions(), settings_.most_rows);
+    result.velocity.resize(model_->num_positions());
+  }
+  Solution::Workspace& work = *result.workspace;
+  result.activity = {};
+  FillBox(result);
+  FillWish(tick, result);
+  FillRows(tick, result);
+  FillGuess(tick, result);
+  work.solver.Solve(work.qp, work.solution);
+  result.velocity = work.solution.u;
+  if (work.solution.status != qp::QpStatus::kOptimal) Brake(result);
+  Report(tick, result);
+}
+
+double BarrierFilter::Approach(double headroom) const {
   if (headroom <= 0.0) return 0.0;
-  if (params_.form == Form::kLinear) return params_.approach_gain * headroom;
-  return motion::LargestStoppableVelocity(headroom, params_.deceleration, params_.period.seconds());
+  if (settings_.form == BarrierSettings::Form::kLinear) return settings_.approach_gain * headroom;
+  return motion::LargestStoppableVelocity(headroom, settings_.deceleration, settings_.period);
 }
 
-int SafetyFilter::FindLink(models::Name name) const {
-  const auto& all = model_->links();
-  const auto found = std::find_if(all.begin(), all.end(),
-                                  [&](const robot::Link& link) { return link.name == name; });
-  if (found != all.end()) return static_cast<int>(found - all.begin());
-  throw ConfigError(fmt::format("proximities: got one of '{}'; expected a link of '{}'",
-                                name.text(), model_->name().text()));
-}
-
-void SafetyFilter::FillBox(FilterSolution& result) const {
-  FilterSolution::Workspace& work = *result.workspace;
-  const double dt = params_.period.seconds();
+void BarrierFilter::FillBox(Solution& result) const {
+  Solution::Workspace& work = *result.workspace;
+  const double dt = settings_.period;
   for (Eigen::Index j = 0; j < model_->num_positions(); ++j) {
-    const motion::JointMotion motion{work.command[j], work.last_velocity[j], 0.0};
+    const motion::JointMotion motion{result.command[j], result.last_velocity[j], 0.0};
     motion::JointLimits limits = LimitsOf(*model_, j);
-    limits.jerk = robot::kUnlimited;  // a MotionLimiter's task
+    limits.jerk = kUnlimited;  // a MotionLimiter's task
     limits.velocity = std::min(limits.velocity, kFastest);
     motion::VelocityRange& range = work.box[static_cast<std::size_t>(j)];
     range = motion::StoppableVelocities(limits, motion, dt);
@@ -68,30 +108,29 @@ void SafetyFilter::FillBox(FilterSolution& result) const {
   }
 }
 
-void SafetyFilter::FillWish(VectorView request, OptionalVector rate, OptionalVector rate_rate,
-                            VectorView l, FilterSolution& result) const {
-  FilterSolution::Workspace& work = *result.workspace;
-  const double dt = params_.period.seconds();
-  for (Eigen::Index j = 0; j < request.size(); ++j) {
-    const motion::JointRequest joint{request[j], rate ? (*rate)[j] : 0.0,
-                                     rate_rate ? (*rate_rate)[j] : 0.0};
-    work.qp.wish[j] = motion::FollowingVelocity(joint, work.command[j], params_.position_gain,
+void BarrierFilter::FillWish(const Tick& tick, Solution& result) const {
+  Solution::Workspace& work = *result.workspace;
+  const double dt = settings_.period;
+  for (Eigen::Index j = 0; j < tick.position.size(); ++j) {
+    const motion::JointRequest joint{tick.position[j], tick.velocity ? (*tick.velocity)[j] : 0.0,
+                                     tick.acceleration ? (*tick.acceleration)[j] : 0.0};
+    work.qp.wish[j] = motion::FollowingVelocity(joint, result.command[j], settings_.position_gain,
                                                 model_->acceleration_limits()[j], dt);
     const double fastest = std::min(kFastestWish * model_->velocity_limits()[j], kFastest);
     work.qp.wish[j] = std::clamp(work.qp.wish[j], -fastest, fastest);
   }
-  const double most = l.maxCoeff() + kNoWay;
-  for (Eigen::Index j = 0; j < request.size(); ++j) {
-    const double share = l[j] / most;
-    work.qp.weights[j] = params_.weights[j] * (1.0 + params_.progress_weight * share);
+  const double most = tick.way.maxCoeff() + kNoWay;
+  for (Eigen::Index j = 0; j < tick.way.size(); ++j) {
+    const double share = tick.way[j] / most;
+    work.qp.weights[j] = settings_.weights[j] * (1.0 + settings_.progress_weight * share);
   }
 }
 
-bool SafetyFilter::Moves(const Eigen::VectorXd& row) const {
+bool BarrierFilter::Moves(const Eigen::VectorXd& row) const {
   return !(row.array().abs() < least_entries_.array()).all();  // what is no number moves too
 }
 
-void SafetyFilter::LeaveOut(const Proximity& proximity, double lack, FilterSolution& result) const {
+void BarrierFilter::LeaveOut(const Proximity& proximity, double lack, Solution& result) const {
   auto& unmovable = result.workspace->unmovable;
   if (!(lack > 0.0) || unmovable.size() == unmovable.capacity()) return;
   FilterBound bound;
@@ -103,26 +142,26 @@ void SafetyFilter::LeaveOut(const Proximity& proximity, double lack, FilterSolut
 }
 
 /// To rest as fast as the box lets every joint.
-void SafetyFilter::Brake(FilterSolution& result) const {
+void BarrierFilter::Brake(Solution& result) const {
   const qp::ProjectionQp& qp = result.workspace->qp;
   result.velocity.setZero();
   result.velocity = result.velocity.cwiseMax(qp.lower).cwiseMin(qp.upper);
 }
 
-void SafetyFilter::AddRow(const FilterRow& source, double bound, FilterSolution& result) const {
-  FilterSolution::Workspace& work = *result.workspace;
+void BarrierFilter::AddRow(const Solution::Row& source, double bound, Solution& result) const {
+  Solution::Workspace& work = *result.workspace;
   const auto reach =
       work.row.cwiseProduct(work.qp.lower).cwiseMin(work.row.cwiseProduct(work.qp.upper));
   if (reach.sum() >= bound) return;  // every velocity of the box keeps it
   auto at = static_cast<std::size_t>(work.qp.num_rows);
-  if (work.qp.num_rows < params_.most_rows) {
+  if (work.qp.num_rows < settings_.most_rows) {
     work.rows.push_back(source);
     ++work.qp.num_rows;
   } else {
     ++result.activity.dropped;
     const auto farthest = std::max_element(
         work.rows.begin(), work.rows.end(),
-        [](const FilterRow& a, const FilterRow& b) { return a.headroom < b.headroom; });
+        [](const Solution::Row& a, const Solution::Row& b) { return a.headroom < b.headroom; });
     if (farthest->headroom <= source.headroom) return;
     *farthest = source;
     at = static_cast<std::size_t>(farthest - work.rows.begin());
@@ -130,29 +169,27 @@ void SafetyFilter::AddRow(const FilterRow& source, double bound, FilterSolution&
   const auto row = static_cast<Eigen::Index>(at);
   work.qp.rows.row(row) = work.row.transpose();
   work.qp.bounds[row] = bound;
-  work.qp.penalties[row] = source.recovery ? params_.recovery_penalty : params_.slack_penalty;
+  work.qp.penalties[row] = source.recovery ? settings_.recovery_penalty : settings_.slack_penalty;
 }
 
-void SafetyFilter::FillRows(const ProximitySet& set, Poses X_WL, const ClearMotion* clear_motion,
-                            FilterSolution& result) const {
-  FilterSolution::Workspace& work = *result.workspace;
+void BarrierFilter::FillRows(const Tick& tick, Solution& result) const {
+  const ProximitySet& set = tick.proximities;
+  Solution::Workspace& work = *result.workspace;
   work.rows.clear();
   work.unmovable.clear();
   work.qp.num_rows = 0;
-  const bool trusted = clear_motion && clear_motion->clear_for > params_.trust_time;
+  const bool trusted = tick.clear != nullptr && tick.clear->clear_for > settings_.trust_time;
   for (std::size_t i = 0; i < set.proximities.size(); ++i) {
     const Proximity& proximity = set.proximities[i];
-    const int link = FindLink(proximity.link);
-    const int other = proximity.own_link.empty() ? -1 : FindLink(proximity.own_link);
-    robot::DistanceRow(*model_, X_WL, link, proximity.point_on_link, other,
-                       proximity.point_on_obstacle, proximity.normal, work.row);
-    const double headroom = proximity.distance - params_.safe_distance;
+    DistanceRow(*model_, tick.X_WL, proximity, work.row);
+    const double headroom = proximity.distance - settings_.safe_distance;
     const double rest = proximity.normal.dot(proximity.obstacle_velocity);
     double bound = rest - Approach(headroom);
-    const bool known = trusted && clear_motion->Knows(proximity.obstacle, other >= 0);
+    const bool known =
+        trusted && tick.clear->Knows(proximity.obstacle, !proximity.own_link.empty());
     if (known) bound = std::min(bound, work.row.dot(work.qp.wish));
     const bool recovers = headroom < 0.0 && !known;
-    const double growth = std::min(-params_.recovery_gain * headroom, params_.recovery_speed);
+    const double growth = std::min(-settings_.recovery_gain * headroom, settings_.recovery_speed);
     if (!Moves(work.row)) {
       LeaveOut(proximity, recovers ? rest + growth : bound, result);
       continue;
@@ -164,9 +201,9 @@ void SafetyFilter::FillRows(const ProximitySet& set, Poses X_WL, const ClearMoti
 }
 
 /// The rows that were active at the last tick, found again by what they are about.
-void SafetyFilter::FillGuess(const ProximitySet& set, const FilterActivity& last,
-                             FilterSolution& result) const {
-  FilterSolution::Workspace& work = *result.workspace;
+void BarrierFilter::FillGuess(const Tick& tick, Solution& result) const {
+  const FilterActivity& last = tick.last;
+  Solution::Workspace& work = *result.workspace;
   using Kind = qp::QpActive::Kind;
   auto& guess = work.solution.active;
   guess.clear();
@@ -182,7 +219,7 @@ void SafetyFilter::FillGuess(const ProximitySet& set, const FilterActivity& last
     }
     const bool recovery = bound.kind == FilterBound::Kind::kRecovery;
     for (std::size_t i = 0; i < work.rows.size(); ++i) {
-      const Proximity& proximity = set.proximities[work.rows[i].proximity];
+      const Proximity& proximity = tick.proximities.proximities[work.rows[i].proximity];
       if (work.rows[i].recovery == recovery && proximity.link == bound.link &&
           proximity.obstacle == bound.obstacle) {
         guess.push_back({Kind::kRow, static_cast<int>(i), 0.0, 0.0});
@@ -192,32 +229,17 @@ void SafetyFilter::FillGuess(const ProximitySet& set, const FilterActivity& last
   }
 }
 
-double SafetyFilter::TickMargin(double turn, double reach, double obstacle_speed) const {
+double BarrierFilter::TickMargin(double turn, double reach, double obstacle_speed) const {
   const double bend = turn * turn * reach + 2.0 * turn * obstacle_speed;
-  const double gain = params_.form == Form::kLinear
-                          ? std::min(params_.approach_gain, params_.recovery_gain)
-                          : params_.recovery_gain;
-  return 0.5 * params_.period.seconds() * bend / gain;
+  const double gain = settings_.form == BarrierSettings::Form::kLinear
+                          ? std::min(settings_.approach_gain, settings_.recovery_gain)
+                          : settings_.recovery_gain;
+  return 0.5 * settings_.period * bend / gain;
 }
 
-double SafetyFilter::Reach() const {
-  // Along each link's chain of joints, to the far side of its solids.
-  std::vector<double> from_base(model_->links().size(), 0.0);
-  double reach = 0.0;
-  for (int i = 1; i < model_->num_links(); ++i) {
-    const robot::Joint& joint = model_->joints()[i - 1];
-    const bool first = model_->body(joint.parent_link) < 0;
-    from_base[i] = first ? 0.0 : from_base[joint.parent_link] + joint.X_PJ.translation().norm();
-    reach = std::max(reach, from_base[i]);
-  }
-  for (const LinkCollider& link : MakeLinkColliders(*model_)) {
-    reach = std::max(reach, from_base[link.number] + link.centre.norm() + link.radius);
-  }
-  return reach;
-}
-
-void SafetyFilter::Report(const ProximitySet& set, Poses X_WL, FilterSolution& result) const {
-  const FilterSolution::Workspace& work = *result.workspace;
+void BarrierFilter::Report(const Tick& tick, Solution& result) const {
+  const ProximitySet& set = tick.proximities;
+  const Solution::Workspace& work = *result.workspace;
   FilterActivity& report = result.activity;
   report.status = work.solution.status;
   const bool valid = report.status != qp::QpStatus::kInvalid;
@@ -226,7 +248,7 @@ void SafetyFilter::Report(const ProximitySet& set, Poses X_WL, FilterSolution& r
   for (const Proximity& proximity : set.proximities) {
     double reach = 0.0;
     for (const int body : model_->bodies()) {
-      reach = std::max(reach, (proximity.point_on_link - X_WL[body].translation()).norm());
+      reach = std::max(reach, (proximity.point_on_link - tick.X_WL[body].translation()).norm());
     }
     report.margin = std::max(report.margin, TickMargin(result.velocity.cwiseAbs().sum(), reach,
                                                        proximity.obstacle_velocity.norm()));
@@ -236,7 +258,7 @@ void SafetyFilter::Report(const ProximitySet& set, Poses X_WL, FilterSolution& r
     bound.multiplier = active.multiplier;
     bound.slack = active.slack;
     if (active.kind == qp::QpActive::Kind::kRow) {
-      const FilterRow& row = work.rows[static_cast<std::size_t>(active.index)];
+      const Solution::Row& row = work.rows[static_cast<std::size_t>(active.index)];
       const Proximity& proximity = set.proximities[row.proximity];
       bound.kind = row.recovery ? FilterBound::Kind::kRecovery : FilterBound::Kind::kDistance;
       bound.link = proximity.link;
@@ -254,4 +276,4 @@ void SafetyFilter::Report(const ProximitySet& set, Poses X_WL, FilterSolution& r
   for (const FilterBound& bound : work.unmovable) report.Add(bound);
 }
 
-}  // namespace oca::systems
+}  // namespace oca::robot

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "oca/models/planning/elastic_band.h"
+#include "oca/models/planning/band_optimizer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,8 +31,8 @@ bool Moves(std::span<const BandBody> bodies) {
                      [](const BandBody& body) { return !body.stands; });
 }
 
-ElasticBand::ElasticBand(std::shared_ptr<const robot::RobotModel> model,
-                         const BandSettings& settings, bool self_collision)
+BandOptimizer::BandOptimizer(std::shared_ptr<const robot::RobotModel> model,
+                             const BandSettings& settings, bool self_collision)
     : model_(std::move(model)),
       settings_(settings),
       self_collision_(self_collision),
@@ -47,7 +47,7 @@ ElasticBand::ElasticBand(std::shared_ptr<const robot::RobotModel> model,
   }
 }
 
-void ElasticBand::Place(const Sample& sample, const Eigen::VectorXd& x) {
+void BandOptimizer::Place(const Sample& sample, const Eigen::VectorXd& x) {
   ++evaluations_;
   q_ = sample.request[0] + x;
   clearance_.MoveTo(q_);
@@ -58,14 +58,14 @@ void ElasticBand::Place(const Sample& sample, const Eigen::VectorXd& x) {
   }
 }
 
-int ElasticBand::Variable(int control) const {
+int BandOptimizer::Variable(int control) const {
   if (control < 3) return -1;
   if (control < num_controls_ - 3) return control - 3;
   return end_fixed_ ? -1 : num_controls_ - 6;
 }
 
-void ElasticBand::Prepare(const BandCurve& curve, const BandRequest& request,
-                          std::span<const BandBody> bodies, bool end_fixed) {
+void BandOptimizer::Prepare(const BandCurve& curve, const BandRequest& request,
+                            std::span<const BandBody> bodies, bool end_fixed) {
   bodies_.assign(bodies.begin(), bodies.end());
   something_near_ = !bodies_.empty() || self_collision_;
   std::vector<robot::PlacedBody> placed;
@@ -79,12 +79,12 @@ void ElasticBand::Prepare(const BandCurve& curve, const BandRequest& request,
   start_ += checks_.front().request[0];
 }
 
-void ElasticBand::FixEnd(bool fixed) {
+void BandOptimizer::FixEnd(bool fixed) {
   end_fixed_ = fixed;
   num_variables_ = num_controls_ - 6 + (fixed ? 0 : 1);
 }
 
-void ElasticBand::AddSamples(const BandCurve& curve, const BandRequest& request) {
+void BandOptimizer::AddSamples(const BandCurve& curve, const BandRequest& request) {
   samples_.clear();
   checks_.clear();
   poses_.clear();
@@ -104,8 +104,8 @@ void ElasticBand::AddSamples(const BandCurve& curve, const BandRequest& request)
   }
 }
 
-ElasticBand::Sample ElasticBand::MakeSample(const BandCurve& curve, const BandRequest& request,
-                                            double time, double weight) {
+BandOptimizer::Sample BandOptimizer::MakeSample(const BandCurve& curve, const BandRequest& request,
+                                                double time, double weight) {
   Sample sample{time, weight, curve.BasisAt(time), static_cast<int>(poses_.size()), {}};
   for (int d = 0; d < 3; ++d) {
     sample.request[d].resize(curve.size());
@@ -115,7 +115,7 @@ ElasticBand::Sample ElasticBand::MakeSample(const BandCurve& curve, const BandRe
   return sample;
 }
 
-void ElasticBand::AddClearance(bool rows) {
+void BandOptimizer::AddClearance(bool rows) {
   clearance_.Collect(settings_.margin, pairs_);
   for (const robot::NearPair& pair : pairs_) {
     const double lacking = settings_.margin - pair.distance;
@@ -128,7 +128,8 @@ void ElasticBand::AddClearance(bool rows) {
   }
 }
 
-ElasticBand::Range ElasticBand::RangeOf(Eigen::Index joint, int derivative, double share) const {
+BandOptimizer::Range BandOptimizer::RangeOf(Eigen::Index joint, int derivative,
+                                            double share) const {
   if (derivative > 0) {
     const double limit =
         derivative == 1 ? model_->velocity_limits()[joint] : model_->acceleration_limits()[joint];
@@ -142,7 +143,7 @@ ElasticBand::Range ElasticBand::RangeOf(Eigen::Index joint, int derivative, doub
   return {lower + inset, upper - inset, kPositionUnit};
 }
 
-double ElasticBand::AddedExcess(const Sample& sample, const BandCurve& curve) const {
+double BandOptimizer::AddedExcess(const Sample& sample, const BandCurve& curve) const {
   double largest = 0.0;
   Eigen::VectorXd x(q_.size());
   for (int d = 0; d < 3; ++d) {
@@ -162,7 +163,7 @@ double ElasticBand::AddedExcess(const Sample& sample, const BandCurve& curve) co
   return largest;
 }
 
-void ElasticBand::AddDiagonal(const Sample& sample, const Eigen::VectorXd x[3]) {
+void BandOptimizer::AddDiagonal(const Sample& sample, const Eigen::VectorXd x[3]) {
   const double price = settings_.limits;
   for (Eigen::Index j = 0; j < q_.size(); ++j) {
     cost_ += settings_.nearness * x[0][j] * x[0][j] + settings_.smoothness * x[2][j] * x[2][j];
@@ -184,7 +185,7 @@ void ElasticBand::AddDiagonal(const Sample& sample, const Eigen::VectorXd x[3]) 
   }
 }
 
-void ElasticBand::Assemble(const Sample& sample, Normal& normal) const {
+void BandOptimizer::Assemble(const Sample& sample, Normal& normal) const {
   const Eigen::Index n = q_.size();
   for (int a = 0; a < 4; ++a) {
     const int row = Variable(sample.basis.first + a);
@@ -206,7 +207,7 @@ void ElasticBand::Assemble(const Sample& sample, Normal& normal) const {
   }
 }
 
-void ElasticBand::Linearize(const Eigen::MatrixXd& controls, bool rows, Normal& normal) {
+void BandOptimizer::Linearize(const Eigen::MatrixXd& controls, bool rows, Normal& normal) {
   const Eigen::Index n = q_.size();
   normal.cost = 0.0;
   if (rows) {
@@ -243,19 +244,19 @@ void ElasticBand::Linearize(const Eigen::MatrixXd& controls, bool rows, Normal& 
   normal.right.tail(n) -= settings_.nearness * end;
 }
 
-double ElasticBand::Cost(const BandCurve& curve) {
+double BandOptimizer::Cost(const BandCurve& curve) {
   Normal normal;
   Linearize(curve.controls(), false, normal);
   return normal.cost;
 }
 
-Eigen::VectorXd ElasticBand::HalfGradient(const BandCurve& curve) {
+Eigen::VectorXd BandOptimizer::HalfGradient(const BandCurve& curve) {
   Normal normal;
   Linearize(curve.controls(), true, normal);
   return -normal.right;
 }
 
-bool ElasticBand::Touches(double nearest) {
+bool BandOptimizer::Touches(double nearest) {
   if (!(nearest < std::max(settings_.trust_distance, settings_.flying_distance))) return false;
   clearance_.Collect(std::max(settings_.trust_distance, settings_.flying_distance), pairs_);
   return std::any_of(pairs_.begin(), pairs_.end(), [&](const robot::NearPair& pair) {
@@ -264,7 +265,7 @@ bool ElasticBand::Touches(double nearest) {
   });
 }
 
-BandCheck ElasticBand::Check(const BandCurve& curve) {
+BandCheck BandOptimizer::Check(const BandCurve& curve) {
   BandCheck check{.min_distance = settings_.margin};
   if (!something_near_) return check;
   Eigen::VectorXd x(q_.size()), before;
@@ -293,7 +294,7 @@ BandCheck ElasticBand::Check(const BandCurve& curve) {
   return check;
 }
 
-void ElasticBand::PlaceAt(const Eigen::VectorXd& q, double time) {
+void BandOptimizer::PlaceAt(const Eigen::VectorXd& q, double time) {
   ++evaluations_;
   clearance_.MoveTo(q);
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -301,7 +302,7 @@ void ElasticBand::PlaceAt(const Eigen::VectorXd& q, double time) {
   }
 }
 
-bool ElasticBand::DistanceGradient(const Eigen::VectorXd& q, double time, Eigen::VectorXd& row) {
+bool BandOptimizer::DistanceGradient(const Eigen::VectorXd& q, double time, Eigen::VectorXd& row) {
   PlaceAt(q, time);
   const robot::NearPair pair = clearance_.Nearest(settings_.margin);
   if (!(pair.distance < settings_.margin)) return false;
@@ -310,7 +311,7 @@ bool ElasticBand::DistanceGradient(const Eigen::VectorXd& q, double time, Eigen:
   return true;
 }
 
-double ElasticBand::Distance(const Eigen::VectorXd& q, double time) {
+double BandOptimizer::Distance(const Eigen::VectorXd& q, double time) {
   PlaceAt(q, time);
   return std::min(clearance_.Nearest(settings_.margin).distance, settings_.margin);
 }

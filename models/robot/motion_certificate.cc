@@ -3,12 +3,10 @@
 #include <cmath>
 
 #include "oca/models/robot/kinematics.h"
-#include "oca/systems/signals/motion_metrics_value.h"
+#include "oca/models/robot/motion_tally.h"
 
-namespace oca::systems {
+namespace oca::robot {
 namespace {
-
-using robot::LeastDistanceBetween;
 
 bool Known(const MotionSample& sample) {
   return sample.travel != nullptr && sample.position && sample.proximities != nullptr &&
@@ -45,11 +43,11 @@ MotionTally::Pair* MotionTally::FindPair(const Proximity& proximity, std::size_t
   return nullptr;
 }
 
-double MotionTally::TravelOf(const robot::RobotModel& model, models::Name link) const {
+double MotionTally::TravelOf(const RobotModel& model, models::Name link) const {
   if (link.empty()) return 0.0;
   const auto& links = model.links();
   const auto found = std::find_if(links.begin(), links.end(),
-                                  [&](const robot::Link& other) { return other.name == link; });
+                                  [&](const Link& other) { return other.name == link; });
   if (found != links.end()) return travel_[static_cast<std::size_t>(found - links.begin())];
   return *std::max_element(travel_.begin(), travel_.end());
 }
@@ -58,13 +56,13 @@ void MotionTally::CalcTravel(const MotionSample& sample) {
   const Eigen::Map<const Eigen::VectorXd> before(position_.data(), std::ssize(position_));
   Eigen::Map<Eigen::VectorXd> path(path_.data(), before.size());
   path = (*sample.position - before).cwiseAbs();
-  robot::ForwardKinematics(*sample.model, before, poses_);
+  ForwardKinematics(*sample.model, before, poses_);
   sample.travel->Calc(poses_, path, travel_);
 }
 
 double MotionTally::LeastInStep(const MotionSample& sample, double step) {
   const ProximitySet& now = *sample.proximities;
-  const robot::RobotModel& model = *sample.model;
+  const RobotModel& model = *sample.model;
   const double fastest = std::max(fastest_, now.fastest);
   const double most = travel_.empty() ? 0.0 : *std::max_element(travel_.begin(), travel_.end());
   // What is listed neither before nor after; two links of the robot may come near each other.
@@ -115,4 +113,4 @@ void MotionTally::Certify(const MotionSample& sample, double step) {
   }
 }
 
-}  // namespace oca::systems
+}  // namespace oca::robot

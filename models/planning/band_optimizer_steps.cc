@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The damped Gauss-Newton steps of ElasticBand.
+// The damped Gauss-Newton steps of BandOptimizer.
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
-#include "oca/models/planning/elastic_band.h"
+#include "oca/models/planning/band_optimizer.h"
 
 namespace oca::planning {
 namespace {
@@ -17,7 +17,7 @@ constexpr double kMostDamping = 1e6;
 
 /// Solves (A + damping diag A) step = right by a Cholesky factor in blocks, L_ij for i - 3 <= j <=
 /// i.
-bool ElasticBand::Step(const Normal& normal, double damping) {
+bool BandOptimizer::Step(const Normal& normal, double damping) {
   const Eigen::Index n = q_.size();
   factor_ = normal.blocks;
   for (int i = 0; i < num_variables_; ++i) {
@@ -53,7 +53,7 @@ bool ElasticBand::Step(const Normal& normal, double damping) {
   return step_.allFinite();
 }
 
-double ElasticBand::Relax(BandCurve& curve, int most) {
+double BandOptimizer::Relax(BandCurve& curve, int most) {
   const Eigen::Index n = q_.size();
   Normal now, next;
   Linearize(curve.controls(), true, now);

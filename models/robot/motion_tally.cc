@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "oca/models/robot/motion_tally.h"
+
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
-#include "oca/systems/signals/motion_metrics_value.h"
-
-namespace oca::systems {
+namespace oca::robot {
 namespace {
+
+using Positions = MotionSample::Positions;
 
 // A change of the delta below this is none, so that rounding does not count as chatter.
 constexpr double kLeastChange = 1e-6;
@@ -23,7 +26,7 @@ double MaxNorm(const Eigen::Ref<const Eigen::VectorXd>& values) {
 }
 
 /// Sum of |now - before| over the components.
-double PathLength(VectorView now, const std::vector<double>& before) {
+double PathLength(Positions now, const std::vector<double>& before) {
   double length = 0.0;
   for (std::size_t i = 0; i < before.size(); ++i) {
     length += std::fabs(now[static_cast<Eigen::Index>(i)] - before[i]);
@@ -31,16 +34,16 @@ double PathLength(VectorView now, const std::vector<double>& before) {
   return length;
 }
 
-double Farthest(VectorView one, VectorView other) {
+double Farthest(Positions one, Positions other) {
   return one.size() == 0 ? 0.0 : (one - other).cwiseAbs().maxCoeff();
 }
 
-VectorView View(const std::vector<double>& values) {
-  return VectorView(values.data(), static_cast<Eigen::Index>(values.size()));
+Positions View(const std::vector<double>& values) {
+  return Positions(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
 /// Standard vectors keep their capacity where Eigen's let it go.
-void Keep(VectorView values, std::vector<double>& kept) {
+void Keep(Positions values, std::vector<double>& kept) {
   kept.assign(values.begin(), values.end());
 }
 
@@ -97,8 +100,7 @@ void MotionTally::AddDistance(const MotionSample& sample) {
   if (in_contact_ && !first_contact_time_) first_contact_time_ = sample.time;
 }
 
-void MotionTally::CountViolations(VectorView position, const robot::RobotModel& model,
-                                  double step) {
+void MotionTally::CountViolations(Positions position, const RobotModel& model, double step) {
   for (Eigen::Index i = 0; i < position.size(); ++i) {
     bool beyond = position[i] < model.lower_limits()[i] - kTallyRounding ||
                   position[i] > model.upper_limits()[i] + kTallyRounding;
@@ -113,7 +115,7 @@ void MotionTally::CountViolations(VectorView position, const robot::RobotModel& 
   }
 }
 
-void MotionTally::AddPosition(VectorView position, const robot::RobotModel* model, double step) {
+void MotionTally::AddPosition(Positions position, const RobotModel* model, double step) {
   if (model != nullptr) CountViolations(position, *model, step);
   if (samples_ == 0) {
     velocity_.assign(static_cast<std::size_t>(position.size()), 0.0);
@@ -131,7 +133,7 @@ void MotionTally::AddPosition(VectorView position, const robot::RobotModel* mode
   Keep(position, position_);
 }
 
-void MotionTally::AddDelta(VectorView delta) {
+void MotionTally::AddDelta(Positions delta) {
   max_abs_delta_ = std::max(max_abs_delta_, MaxNorm(delta));
   if (samples_ == 0) {
     delta_direction_.assign(static_cast<std::size_t>(delta.size()), 0.0);
@@ -148,7 +150,7 @@ void MotionTally::AddDelta(VectorView delta) {
 }
 
 void MotionTally::AddStandstill(const MotionSample& sample) {
-  const VectorView q = *sample.position;
+  const Positions q = *sample.position;
   const bool as_requested = sample.request && Farthest(q, *sample.request) <= kArrived;
   if (samples_ == 0 || as_requested || Farthest(q, *sample.goal) <= kArrived ||
       Farthest(q, View(still_)) > kStill) {
@@ -207,4 +209,28 @@ MotionMetricsValue MotionTally::At(const MotionSample& now) const {
   return value;
 }
 
-}  // namespace oca::systems
+bool MotionTally::finite() const {
+  const auto all_finite = [](const std::vector<double>& values) {
+    return View(values).allFinite();
+  };
+  const double numbers[] = {certified_,
+                            reach_,
+                            fastest_,
+                            last_time_,
+                            contact_time_,
+                            max_abs_delta_,
+                            position_path_,
+                            request_path_,
+                            max_speed_,
+                            max_acceleration_,
+                            limit_violations_,
+                            stuck_time_,
+                            min_distance_.value_or(0.0),
+                            goal_time_.value_or(0.0)};
+  return std::all_of(std::begin(numbers), std::end(numbers),
+                     [](double number) { return std::isfinite(number); }) &&
+         all_finite(position_) && all_finite(velocity_) && all_finite(request_) &&
+         all_finite(delta_);
+}
+
+}  // namespace oca::robot

@@ -49,7 +49,7 @@ struct BandCheck {
   models::Name link{};  ///< the nearest pair
   models::Name body{};  ///< of no meaning if min_distance is the margin
   /// m s; integral of what lacks to clear_distance, and of 0.05 m times what is exceeded of limits
-  /// (units as in ElasticBand) that the request does not exceed
+  /// (units as in BandOptimizer) that the request does not exceed
   double violation{0.0};
   double first{0.0};  ///< s; first and last time at which it is not clear
   double last{0.0};
@@ -72,10 +72,10 @@ struct BandCheck {
 /// are banded and solved in blocks. The state at the start is fixed, the end fixed or free.
 /// source Quinlan, Khatib, Elastic bands, ICRA 1993; Ratliff et al., CHOMP, ICRA 2009;
 ///        Madsen, Nielsen, Tingleff, Methods for non-linear least squares problems, 2004
-class ElasticBand {
+class BandOptimizer {
  public:
-  ElasticBand(std::shared_ptr<const robot::RobotModel> model, const BandSettings& settings,
-              bool self_collision = false);
+  BandOptimizer(std::shared_ptr<const robot::RobotModel> model, const BandSettings& settings,
+                bool self_collision = false);
 
   const robot::RobotModel& model() const { return *model_; }
   const BandSettings& settings() const { return settings_; }
