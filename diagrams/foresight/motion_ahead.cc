@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/simulator/motion_ahead.h"
+#include "oca/diagrams/foresight/motion_ahead.h"
 
 #include <fmt/format.h>
 
 #include <set>
+#include <utility>
 #include <vector>
 
+#include "oca/framework/dataflow/dynamic_port.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/port_access.h"
 #include "oca/systems/signals/request_ahead.h"
 
-namespace oca::tools {
+namespace oca::foresight {
 namespace {
 
 using Ahead = Output<systems::RequestAhead>;
@@ -43,7 +45,13 @@ MotionAhead MotionAheadOf(const Diagram& diagram, const OutputHandle& output,
     if (found.empty()) continue;
     const Context context = diagram.MakeContext();
     auto motion = found[0].Eval(context).trajectory;
-    if (motion) return {std::move(motion), found[0].system};
+    if (!motion) continue;
+    if (motion->size() != diagram.SizeOf(output)) {
+      throw ConfigError(fmt::format("{}: length of '{}'; got {} joints; expected {}", where,
+                                    diagram.PathOf(*found[0].system), motion->size(),
+                                    diagram.SizeOf(output)));
+    }
+    return {std::move(motion), found[0].system};
   }
   throw ConfigError(fmt::format(
       "{}: motion ahead; got '{}', up the line from which nobody knows it; expected a source with "
@@ -51,4 +59,20 @@ MotionAhead MotionAheadOf(const Diagram& diagram, const OutputHandle& output,
       where, diagram.PathOf(*output.system)));
 }
 
-}  // namespace oca::tools
+PositionsAhead PositionsAheadOf(const Diagram& diagram, const OutputHandle& output,
+                                const std::string& where) {
+  if (!diagram.UpstreamOf(output, Through::kInstant).of_time_alone()) {
+    auto [motion, source] = MotionAheadOf(diagram, output, where);
+    return {[motion = std::move(motion)](double time) { return motion->Evaluate(time, 0); }, source,
+            true};
+  }
+  const auto context = std::make_shared<Context>(diagram.MakeContext());
+  const auto vector = Typed<Vector>(output);
+  const auto at = [context, vector](double time) {
+    context->SetTime(time);
+    return Eigen::VectorXd(vector.Eval(*context));
+  };
+  return {at, output.system, false};
+}
+
+}  // namespace oca::foresight
