@@ -129,7 +129,7 @@ void Foresight::AddOther(const MeasuresDistances::Other& of,
         fmt::format("{}: driver; got {}; expected the kinematics of a robot", where,
                     links ? fmt::format("'{}'", diagram_.PathOf(*links->system)) : "nothing"));
   }
-  const PositionsAhead ahead = PositionsAheadOf(diagram_, *positions, where);
+  const PositionsAhead ahead = PositionsAheadOf(diagram_, *positions, Samples::kBetween, where);
   const std::string source = diagram_.PathOf(*ahead.source);
   AddLinks(name, other, ahead.at);
   sees_.push_back(

@@ -24,6 +24,11 @@ void AddAheadOf(const System& system, std::vector<Ahead>& found) {
   }
 }
 
+double TickNotBefore(const Period& period, double time) {
+  const double tick = period.seconds(period.CountAt(time));
+  return tick == time ? tick : period.TickAfter(time);
+}
+
 }  // namespace
 
 MotionAhead MotionAheadOf(const Diagram& diagram, const OutputHandle& output,
@@ -44,14 +49,14 @@ MotionAhead MotionAheadOf(const Diagram& diagram, const OutputHandle& output,
     }
     if (found.empty()) continue;
     const Context context = diagram.MakeContext();
-    auto motion = found[0].Eval(context).trajectory;
-    if (!motion) continue;
-    if (motion->size() != diagram.SizeOf(output)) {
+    const systems::RequestAhead& known = found[0].Eval(context);
+    if (!known.trajectory) continue;
+    if (known.trajectory->size() != diagram.SizeOf(output)) {
       throw ConfigError(fmt::format("{}: length of '{}'; got {} joints; expected {}", where,
-                                    diagram.PathOf(*found[0].system), motion->size(),
+                                    diagram.PathOf(*found[0].system), known.trajectory->size(),
                                     diagram.SizeOf(output)));
     }
-    return {std::move(motion), found[0].system};
+    return {known.trajectory, known.period, found[0].system};
   }
   throw ConfigError(fmt::format(
       "{}: motion ahead; got '{}', up the line from which nobody knows it; expected a source with "
@@ -59,12 +64,15 @@ MotionAhead MotionAheadOf(const Diagram& diagram, const OutputHandle& output,
       where, diagram.PathOf(*output.system)));
 }
 
-PositionsAhead PositionsAheadOf(const Diagram& diagram, const OutputHandle& output,
+PositionsAhead PositionsAheadOf(const Diagram& diagram, const OutputHandle& output, Samples samples,
                                 const std::string& where) {
   if (!diagram.UpstreamOf(output, Through::kInstant).of_time_alone()) {
-    auto [motion, source] = MotionAheadOf(diagram, output, where);
-    return {[motion = std::move(motion)](double time) { return motion->Evaluate(time, 0); }, source,
-            true};
+    const MotionAhead ahead = MotionAheadOf(diagram, output, where);
+    const Period period = samples == Samples::kShown ? ahead.period : Period();
+    const auto at = [motion = ahead.motion, period](double time) {
+      return motion->Evaluate(period.positive() ? TickNotBefore(period, time) : time, 0);
+    };
+    return {at, ahead.source, true};
   }
   const auto context = std::make_shared<Context>(diagram.MakeContext());
   const auto vector = Typed<Vector>(output);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "oca/framework/dataflow/diagram.h"
+#include "oca/framework/dataflow/period.h"
 #include "oca/systems/commands/trajectory.h"
 
 namespace oca::foresight {
@@ -14,6 +15,7 @@ namespace oca::foresight {
 /// A motion that is known before it is made, and the system that knows it.
 struct MotionAhead {
   std::shared_ptr<const systems::Trajectory> motion;  ///< rad or m; never null
+  Period period;                                      ///< of its samples; 0: none
   const System* source;
 };
 
@@ -34,10 +36,14 @@ struct PositionsAhead {
   bool requested;  ///< of somebody who may evade; else they are what the output will be
 };
 
+/// Of a motion that its source samples: all of it, or at a time what is shown just before it, that
+/// of the next tick.
+enum class Samples { kBetween, kShown };
+
 /// A Vector output at every time, if time alone moves it; else what MotionAheadOf says is requested.
 /// `diagram` must outlive the answer. One answer a thread.
 /// throws ConfigError as MotionAheadOf; WiringError if the output is no Vector
-PositionsAhead PositionsAheadOf(const Diagram& diagram, const OutputHandle& output,
+PositionsAhead PositionsAheadOf(const Diagram& diagram, const OutputHandle& output, Samples samples,
                                 const std::string& where);
 
 }  // namespace oca::foresight

@@ -107,7 +107,9 @@ class Probe {
     gain_ = Typed<Vector>(gain.FindOutput("gain"));
     if (fields_.empty()) return;
     const std::string where = loaded.diagram->PathOf(RoleOf<AddsDelta>(*loop.overlay).request);
-    request_ = foresight::PositionsAheadOf(*loaded.diagram, loop.request, where).at;
+    request_ = foresight::PositionsAheadOf(*loaded.diagram, loop.request,
+                                           foresight::Samples::kShown, where)
+                   .at;
     diagram_ = builder_.Build();
     position_ = diagram_->GetInput<Vector>("position");
     simulator_.emplace(*diagram_);

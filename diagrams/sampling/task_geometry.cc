@@ -63,7 +63,7 @@ TaskGeometry::TaskGeometry(const Value& root, const TaskNames& names,
   if (!request_source_) return;
   const std::string port = names.request + ".position";
   request_ = foresight::PositionsAheadOf(*request_source_, request_source_->FindOutput(port),
-                                         "systems." + port)
+                                         foresight::Samples::kBetween, "systems." + port)
                  .at;
   const Eigen::Index joints = Request(0.0).size();
   if (joints == model_->num_positions()) return;

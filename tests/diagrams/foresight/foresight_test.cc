@@ -78,7 +78,7 @@ TEST(ForesightTest, SeesTheOtherArmAlongItsRequestButNotTheLowestPair) {
   for (const auto& [link, body] : foresight.ignored()) {
     EXPECT_EQ(foresight.model()->body(link), lowest);
     const auto& name = foresight.bodies().at(static_cast<std::size_t>(body)).name;
-    EXPECT_TRUE(name == models::Name("left/lwr4_link_0") ||
+    EXPECT_TRUE(name == models::Name("left/lwr4_base_link") ||
                 name == models::Name("left/lwr4_link_1"))
         << name.text();
   }

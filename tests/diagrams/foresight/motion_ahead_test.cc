@@ -99,7 +99,7 @@ TEST(PositionsAheadTest, AreTheOutputAtAnyTimeIfTimeAloneMovesIt) {
   DiagramBuilder builder;
   const auto& sine = builder.Add<systems::SineSource>("sine", {.amplitude = 2.0});
   const auto diagram = builder.Build();
-  const PositionsAhead ahead = PositionsAheadOf(*diagram, sine.value, "here");
+  const PositionsAhead ahead = PositionsAheadOf(*diagram, sine.value, Samples::kShown, "here");
   EXPECT_EQ(ahead.source, &sine);
   EXPECT_FALSE(ahead.requested);
   for (const double time : {0.3, 0.1, 7.25}) {
@@ -112,11 +112,23 @@ TEST(PositionsAheadTest, AreTheWholeMotionOfASplineThatIsSampled) {
   const auto& spline = AddSpline(builder, "spline", 2.0);
   const auto& hold = AddHold(builder, "hold", spline.position);
   const auto diagram = builder.Build();
-  const PositionsAhead ahead = PositionsAheadOf(*diagram, hold.out, "here");
+  const PositionsAhead ahead = PositionsAheadOf(*diagram, hold.out, Samples::kBetween, "here");
   EXPECT_EQ(ahead.source, &spline);
   EXPECT_TRUE(ahead.requested);
   EXPECT_DOUBLE_EQ(ahead.at(0.25)[0], 2.0 * 0.25 * 0.25 * (3.0 - 2.0 * 0.25));  // no tick
   EXPECT_EQ(ahead.at(9.0), Eigen::Vector2d(2.0, 0.0));
+}
+
+TEST(PositionsAheadTest, AreWhatASplineShowsIfItsSamplesAreAskedFor) {
+  DiagramBuilder builder;
+  const auto& spline = AddSpline(builder, "spline", 2.0);
+  const auto diagram = builder.Build();
+  const PositionsAhead ahead = PositionsAheadOf(*diagram, spline.position, Samples::kShown, "here");
+  const MotionAhead motion = MotionAheadOf(*diagram, spline.position, "here");
+  EXPECT_EQ(motion.period, Period(1, 10));
+  for (const auto& [time, tick] : {std::pair(0.0, 0.0), {0.25, 0.3}, {0.3, 0.3}, {0.301, 0.4}}) {
+    EXPECT_EQ(ahead.at(time), motion.motion->Evaluate(tick, 0)) << time;
+  }
 }
 
 }  // namespace motion_ahead_test

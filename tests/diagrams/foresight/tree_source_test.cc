@@ -46,8 +46,8 @@ struct Alone {
 TEST(TreeSourceTest, IsAFunctionOfTimeThoughTheFileSamplesIt) {
   const Alone spline("spline");
   ASSERT_NE(spline.source, nullptr) << spline.Problem();
-  const auto request =
-      PositionsAheadOf(*spline.source, spline.source->FindOutput("spline.position"), "here");
+  const auto request = PositionsAheadOf(
+      *spline.source, spline.source->FindOutput("spline.position"), Samples::kBetween, "here");
   EXPECT_FALSE(request.requested);
   EXPECT_DOUBLE_EQ(request.at(0.25)[0], 2.0 * 0.25 * 0.25 * (3.0 - 2.0 * 0.25));
   const Alone obstacles("obstacles");
