@@ -13,6 +13,7 @@
 #include "oca/diagrams/files/expression.h"
 #include "oca/diagrams/files/model_section.h"
 #include "oca/diagrams/files/section.h"
+#include "oca/diagrams/foresight/tree_source.h"
 #include "oca/framework/dataflow/dynamic_port.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/nearest.h"
@@ -39,14 +40,6 @@ std::vector<std::string> InsideOf(const Diagram& whole) {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Whether a system of a type says by its parameters where obstacles are.
-bool SaysObstacles(const files::Catalogue& catalogue, const std::string& type) {
-  const auto& rows = catalogue.rows();
-  return std::any_of(rows.begin(), rows.end(), [&](const files::Catalogue::Row& row) {
-    return row->type == type && row->says_obstacles;
-  });
-}
 
 /// Walks the resolved tree section by section and collects every problem on the way.
 class Loader {
@@ -249,7 +242,7 @@ class Loader {
     for (const Value::Entry& field : *entry.value.map()) {
       if (field.key != "type") rest.push_back(field);
     }
-    TellObstacles(rest);
+    foresight::TellGoal(Map("systems"), catalogue_, rest);
     try {
       const files::Catalogue::Row& row = catalogue_.Find(*type->string());
       const Value params = models_->ResolveFiles(Value(std::move(rest), entry.value.location()));
@@ -278,25 +271,6 @@ class Loader {
         loaded_.warnings.push_back(
             fmt::format("{}: warning: {}: {}", location.ToString(), where, line));
       }
-    }
-  }
-
-  /// A goal with a clearance is kept from the obstacles of the file, unless it names others.
-  void TellObstacles(Value::Map& params) {
-    for (Value::Entry& field : params) {
-      const bool goal = field.key == "goal" && field.value.Find("clearance") != nullptr;
-      if (!goal || field.value.Find("around") != nullptr) continue;
-      Value::List sources;
-      for (const Value::Entry& system : Map("systems")) {
-        const Value* const type = system.value.Find("type");
-        if (type == nullptr || type->string() == nullptr) continue;
-        if (!SaysObstacles(catalogue_, *type->string())) continue;
-        Value::Map source = *system.value.map();
-        std::erase_if(source, [](const Value::Entry& entry) { return entry.key == "type"; });
-        sources.emplace_back(std::move(source), system.value.location());
-      }
-      field.value.map()->push_back(
-          {"around", field.location, {std::move(sources), field.location}});
     }
   }
 

@@ -36,7 +36,8 @@ class TrajectorySource final : public System {
 
   explicit TrajectorySource(const Params& params)
       : params_(Request::Checked(params)),
-        ahead_{std::make_shared<const Trajectory>(Request::MakeTrajectory(params_))},
+        ahead_{std::make_shared<const Trajectory>(Request::MakeTrajectory(params_)),
+               params_.period},
         trajectory_(*ahead_.trajectory),
         spec_{static_cast<int>(trajectory_.size()), Unit(params_.unit)},
         rate_spec_{spec_.size, spec_.unit.Rate()},

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/simulator/motion_ahead.h"
+#include "oca/diagrams/foresight/motion_ahead.h"
 
 #include <fmt/format.h>
 
 #include <set>
+#include <utility>
 #include <vector>
 
+#include "oca/framework/dataflow/dynamic_port.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/port_access.h"
 #include "oca/systems/signals/request_ahead.h"
 
-namespace oca::tools {
+namespace oca::foresight {
 namespace {
 
 using Ahead = Output<systems::RequestAhead>;
@@ -20,6 +22,11 @@ void AddAheadOf(const System& system, std::vector<Ahead>& found) {
     if (output.type != &TypeOf<systems::RequestAhead>()) continue;
     found.push_back(Typed<systems::RequestAhead>(system.FindOutput(output.name)));
   }
+}
+
+double TickNotBefore(const Period& period, double time) {
+  const double tick = period.seconds(period.CountAt(time));
+  return tick == time ? tick : period.TickAfter(time);
 }
 
 }  // namespace
@@ -42,8 +49,14 @@ MotionAhead MotionAheadOf(const Diagram& diagram, const OutputHandle& output,
     }
     if (found.empty()) continue;
     const Context context = diagram.MakeContext();
-    auto motion = found[0].Eval(context).trajectory;
-    if (motion) return {std::move(motion), found[0].system};
+    const systems::RequestAhead& known = found[0].Eval(context);
+    if (!known.trajectory) continue;
+    if (known.trajectory->size() != diagram.SizeOf(output)) {
+      throw ConfigError(fmt::format("{}: length of '{}'; got {} joints; expected {}", where,
+                                    diagram.PathOf(*found[0].system), known.trajectory->size(),
+                                    diagram.SizeOf(output)));
+    }
+    return {known.trajectory, known.period, found[0].system};
   }
   throw ConfigError(fmt::format(
       "{}: motion ahead; got '{}', up the line from which nobody knows it; expected a source with "
@@ -51,4 +64,23 @@ MotionAhead MotionAheadOf(const Diagram& diagram, const OutputHandle& output,
       where, diagram.PathOf(*output.system)));
 }
 
-}  // namespace oca::tools
+PositionsAhead PositionsAheadOf(const Diagram& diagram, const OutputHandle& output, Samples samples,
+                                const std::string& where) {
+  if (!diagram.UpstreamOf(output, Through::kInstant).of_time_alone()) {
+    const MotionAhead ahead = MotionAheadOf(diagram, output, where);
+    const Period period = samples == Samples::kShown ? ahead.period : Period();
+    const auto at = [motion = ahead.motion, period](double time) {
+      return motion->Evaluate(period.positive() ? TickNotBefore(period, time) : time, 0);
+    };
+    return {at, ahead.source, true};
+  }
+  const auto context = std::make_shared<Context>(diagram.MakeContext());
+  const auto vector = Typed<Vector>(output);
+  const auto at = [context, vector](double time) {
+    context->SetTime(time);
+    return Eigen::VectorXd(vector.Eval(*context));
+  };
+  return {at, output.system, false};
+}
+
+}  // namespace oca::foresight
