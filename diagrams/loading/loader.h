@@ -2,53 +2,14 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "oca/diagrams/files/catalogue.h"
-#include "oca/diagrams/files/diagram_file.h"
 #include "oca/diagrams/files/document.h"
-#include "oca/diagrams/files/output_sections.h"
-#include "oca/diagrams/sampling/scenario.h"
-#include "oca/framework/dataflow/diagram.h"
-#include "oca/systems/signals/model_set.h"
+#include "oca/diagrams/loading/loaded_diagram.h"
 
 namespace oca::loading {
-
-/// Everything a diagram file says, ready to run.
-struct LoadedDiagram {
-  struct Block {
-    std::string name;
-    std::string type;
-    Value params;  ///< as given, with ${...} worked out and paths of files resolved
-    files::Catalogue::Row row;
-  };
-
-  std::string file;
-  std::vector<std::filesystem::path> sources;     ///< diagram files that were read, first its own
-  std::vector<std::filesystem::path> candidates;  ///< as DocumentSources has them
-  std::vector<std::filesystem::path> opened;      ///< all files that it was made from
-  std::vector<files::Override> overrides;         ///< that it was loaded with
-  Value document;                     ///< includes merged, scenario drawn, overrides applied
-  sampling::Scenario scenario;        ///< what was drawn
-  Value resolved;                     ///< the same without parameters, ${...} worked out
-  std::vector<std::string> warnings;  ///< a line each, with its place
-  std::string name;
-  std::string description;
-  files::SimulatorParams simulator;
-  systems::ModelSet models;
-  std::vector<Block> systems;
-  std::unique_ptr<Diagram> diagram;
-  std::vector<files::RecordedSignal> record;
-  Period scene_period{1, 60};  ///< of the scene in a record
-  std::vector<files::Expectation> expectations;
-  /// Outputs of the systems that judge (systems::Judges), with the names of those.
-  files::NamedOutputs metrics;
-
-  /// The block that a system of the diagram is.
-  const Block& BlockOf(const System& system) const;
-};
 
 /// Reads, checks and builds a diagram file.
 ///
@@ -65,13 +26,6 @@ LoadedDiagram LoadDiagram(const std::filesystem::path& file,
 LoadedDiagram LoadMovable(const std::filesystem::path& file,
                           const std::vector<files::Override>& overrides = {},
                           const files::Catalogue& catalogue = files::Catalogue::Standard());
-
-/// The name under which a part exports a port: `plant_position` for `plant.position`.
-std::string ExportedName(std::string port);
-
-/// The systems that stand for nothing outside (systems::Boundary), by path: the part that a robot's
-/// own loop runs.
-std::vector<std::string> InsideOf(const Diagram& whole);
 
 /// The named systems of a diagram file alone, for a program that takes the place of the others, as
 /// a robot's control loop does with the plant; the whole file is checked all the same.
