@@ -48,9 +48,12 @@ bool OpenedFiles::Allows(const fs::path& file) const {
                                      [&](const fs::path& root) { return LiesBelow(file, root); });
 }
 
-bool OpenedFiles::Contains(const fs::path& file) const {
-  const fs::path plain = PlainPath(file);
-  return std::find(files_.begin(), files_.end(), plain) != files_.end();
+bool OpenedFiles::Contains(const fs::path& file) const { return Has(PlainPath(file)); }
+
+bool OpenedFiles::Has(const fs::path& plain) const {
+  return std::any_of(files_.begin(), files_.end(), [&](const fs::path& file) {
+    return file.native() == plain.native();  // as texts: paths compare part by part
+  });
 }
 
 void NoteOpened(const fs::path& file) {
@@ -61,8 +64,9 @@ void NoteOpened(const fs::path& file) {
                     "or of a package (package://NAME/PATH)",
                     file.string()));
   }
+  const fs::path plain = PlainPath(file);
   for (OpenedFiles* at = innermost; at != nullptr; at = at->apart_ ? nullptr : at->outer_) {
-    if (!at->Contains(file)) at->files_.push_back(PlainPath(file));
+    if (!at->Has(plain)) at->files_.push_back(plain);
   }
 }
 

@@ -13,6 +13,7 @@
 #include "oca/diagrams/files/section.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/nearest.h"
+#include "oca/models/file_cache.h"
 #include "oca/models/opened_files.h"
 
 namespace oca::loading {
@@ -58,25 +59,34 @@ std::set<std::string> KnownToParts(const ResolvedDocument& read) {
   return known;
 }
 
-/// The same of all parts that could have been chosen, as one of avoidance_*.yaml, with what they
-/// use: a file says for all of them what each may need.
+/// Parameters that a part has or uses, as far as it can be read.
+std::set<std::string> ParametersOf(const fs::path& file) {
+  std::set<std::string> known;
+  Problems ignored;  // of a part on its own
+  try {
+    const Value part = files::LoadFiles(file, {}, ignored);
+    const Value* const parameters = part.Find("parameters");
+    files::Expressions expressions(parameters == nullptr ? Value() : *parameters, ignored);
+    expressions.Resolve(part);
+    known = expressions.used();
+    for (const Value::Entry& entry : files::SectionOf(part, "parameters", ignored)) {
+      known.insert(entry.key);
+    }
+  } catch (const ConfigError&) {  // not to be read; whoever chooses it is told
+  }
+  return known;
+}
+
+/// Those of all parts that could have been chosen, as one of avoidance_*.yaml: a file says for all
+/// of them what each may need.
 std::set<std::string> KnownToAlternatives(const files::DocumentSources& sources) {
   std::set<std::string> known;
   // The diagram is not made from them.
-  models::OpenedFiles looked_at(models::OpenedFiles::Elder::kNotesNot);
+  const models::OpenedFiles looked_at(models::OpenedFiles::Elder::kNotesNot);
   for (const fs::path& file : sources.alternatives) {
-    Problems ignored;  // of a part on its own
-    try {
-      const Value part = files::LoadFiles(file, {}, ignored);
-      const Value* const parameters = part.Find("parameters");
-      files::Expressions expressions(parameters == nullptr ? Value() : *parameters, ignored);
-      expressions.Resolve(part);
-      known.insert(expressions.used().begin(), expressions.used().end());
-      for (const Value::Entry& entry : files::SectionOf(part, "parameters", ignored)) {
-        known.insert(entry.key);
-      }
-    } catch (const ConfigError&) {  // not to be read; whoever chooses it is told
-    }
+    const auto own = models::ReadOnce<std::set<std::string>>(file, "parameters",
+                                                             [&] { return ParametersOf(file); });
+    known.insert(own->begin(), own->end());
   }
   return known;
 }
