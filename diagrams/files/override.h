@@ -14,6 +14,8 @@ struct Override {
   std::string value{};
   /// throws ConfigError if `text` is not PATH=VALUE.
   static Override Parse(const std::string& text);
+  /// VALUE; what is wrong with it is added to `problems`.
+  Value Read(Problems& problems) const;
 };
 
 /// Sets what the overrides name in the tree of a diagram file, one after the other; what they get
