@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include "oca/models/error.h"
@@ -22,7 +23,12 @@ bool Below(const fs::path& file, const fs::path& folder) {
 
 }  // namespace
 
-fs::path PlainPath(const fs::path& file) { return fs::absolute(file).lexically_normal(); }
+fs::path PlainPath(const fs::path& file) {
+  const std::string& name = file.native();
+  const bool plain = name.starts_with('/') && name.find("//") == std::string::npos &&
+                     name.find("/.") == std::string::npos;  // as most are: saves their parsing
+  return plain ? file : fs::absolute(file).lexically_normal();
+}
 
 bool LiesBelow(const fs::path& file, const fs::path& folder) {
   fs::path root = PlainPath(folder);
@@ -48,9 +54,12 @@ bool OpenedFiles::Allows(const fs::path& file) const {
                                      [&](const fs::path& root) { return LiesBelow(file, root); });
 }
 
-bool OpenedFiles::Contains(const fs::path& file) const {
-  const fs::path plain = PlainPath(file);
-  return std::find(files_.begin(), files_.end(), plain) != files_.end();
+bool OpenedFiles::Contains(const fs::path& file) const { return Has(PlainPath(file)); }
+
+bool OpenedFiles::Has(const fs::path& plain) const {
+  return std::any_of(files_.begin(), files_.end(), [&](const fs::path& file) {
+    return file.native() == plain.native();  // as texts: paths compare part by part
+  });
 }
 
 void NoteOpened(const fs::path& file) {
@@ -61,8 +70,9 @@ void NoteOpened(const fs::path& file) {
                     "or of a package (package://NAME/PATH)",
                     file.string()));
   }
+  const fs::path plain = PlainPath(file);
   for (OpenedFiles* at = innermost; at != nullptr; at = at->apart_ ? nullptr : at->outer_) {
-    if (!at->Contains(file)) at->files_.push_back(PlainPath(file));
+    if (!at->Has(plain)) at->files_.push_back(plain);
   }
 }
 

@@ -34,6 +34,7 @@ class OpenedFiles {
  private:
   friend void NoteOpened(const std::filesystem::path& file);
   bool Allows(const std::filesystem::path& file) const;
+  bool Has(const std::filesystem::path& plain) const;
 
   OpenedFiles* const outer_;
   const bool apart_{false};  // the outer one does not hear of it

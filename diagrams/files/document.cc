@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <memory>
 #include <utility>
 
@@ -13,11 +12,25 @@
 #include "oca/diagrams/files/yaml_reader.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/nearest.h"
+#include "oca/models/file_cache.h"
 
 namespace oca::files {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// A file as it was read, by itself or with all that it includes.
+struct ReadDocument {
+  Value root;
+  Problems problems;
+  DocumentSources sources;
+};
+
+ReadDocument ReadFile(const fs::path& file) {
+  ReadDocument read;
+  read.root = ReadYaml(ReadTextFile(file), file.string(), read.problems);
+  return read;
+}
 
 /// What a file includes by two ways counts once.
 void AddOnce(Value::List& list, Value item) {
@@ -49,21 +62,27 @@ void Merge(Value& base, Value over) {
   }
 }
 
+/// Parameters that are texts, which may choose files; the first one of a name wins.
+using Texts = std::vector<std::pair<std::string, std::string>>;
+
+Texts TextsOf(const std::vector<Override>& overrides) {
+  constexpr std::string_view kParameters = "parameters.";
+  Texts texts;
+  for (const Override& change : overrides) {
+    if (!change.path.starts_with(kParameters)) continue;
+    Problems ignored;  // Apply reports them
+    const Value value = change.Read(ignored);
+    if (value.string() == nullptr) continue;
+    const std::string name = change.path.substr(kParameters.size());
+    std::erase_if(texts, [&](const auto& text) { return text.first == name; });  // the last counts
+    texts.emplace_back(name, *value.string());
+  }
+  return texts;
+}
+
 class Includer {
  public:
-  Includer(const std::vector<Override>& overrides, Problems& problems) : problems_(problems) {
-    constexpr std::string_view kParameters = "parameters.";
-    for (const Override& change : overrides) {
-      if (!change.path.starts_with(kParameters)) continue;
-      Problems ignored;  // Apply reports them
-      const Value value = ReadYaml(change.value, "-s " + change.path, ignored);
-      if (value.string() == nullptr) continue;
-      const std::string name = change.path.substr(kParameters.size());
-      std::erase_if(texts_,
-                    [&](const auto& text) { return text.first == name; });  // the last counts
-      texts_.emplace_back(name, *value.string());
-    }
-  }
+  Includer(Texts texts, Problems& problems) : problems_(problems), texts_(std::move(texts)) {}
 
   Value Load(const fs::path& file, const Location& from) {
     std::error_code ignored;
@@ -83,7 +102,10 @@ class Includer {
     if (choices_ > 0) sources_.chosen.insert(file.string());
     Value value;
     try {
-      value = ReadYaml(ReadTextFile(file), file.string(), problems_);
+      const auto read =
+          models::ReadOnce<ReadDocument>(file, "YAML", [&] { return ReadFile(file); });
+      value = read->root;
+      problems_.Add(read->problems);
     } catch (const ConfigError& error) {
       if (from.line == 0) throw;
       problems_.Add(from, fmt::format("include: {}{}", error.what(), Kin(file)));
@@ -224,151 +246,35 @@ class Includer {
   Problems& problems_;
   static constexpr int kMostFiles = 200;
   std::vector<fs::path> open_;
-  std::vector<std::pair<std::string, std::string>> texts_;  // parameters; the first one wins
+  Texts texts_;
   DocumentSources sources_;
   int files_{0};
   int choices_{0};  // that led to the file at hand
 };
 
-std::vector<std::string> SplitPath(const std::string& path) {
-  std::vector<std::string> keys;
-  for (std::size_t from = 0; from <= path.size();) {
-    const std::size_t dot = std::min(path.find('.', from), path.size());
-    keys.push_back(path.substr(from, dot - from));
-    from = dot + 1;
-  }
-  return keys;
-}
-
-std::vector<std::string> KeysOf(const Value& value) {
-  std::vector<std::string> keys;
-  if (value.map() != nullptr) {
-    for (const Value::Entry& entry : *value.map()) keys.push_back(entry.key);
-  }
-  return keys;
-}
-
-/// Follows the path of an override into the tree.
-class Path {
- public:
-  Path(const std::string& path, const Location& location, Problems& problems)
-      : keys_(SplitPath(path)), location_(location), problems_(problems) {}
-
-  /// What the path leads to, made where it may be; nullptr, with a problem, if it leads nowhere.
-  Value* Follow(Value& root) {
-    Value* at = &root;
-    while (at != nullptr && depth_ < keys_.size()) {
-      at = at->list() != nullptr ? Item(*at->list()) : Child(*at);
-    }
-    return at;
-  }
-
- private:
-  Value* Item(Value::List& list) {
-    const std::string& key = keys_[depth_++];
-    std::size_t index = 0;
-    const char* const last = key.data() + key.size();
-    const auto [end, error] = std::from_chars(key.data(), last, index);
-    if (error == std::errc() && end == last && index < list.size()) return &list[index];
-    problems_.Add(location_, fmt::format("got '{}'; expected an index below {}", key, list.size()));
-    return nullptr;
-  }
-
-  Value* Child(Value& parent) {
-    Value::Map* const map = parent.map();
-    if (map == nullptr) {
-      problems_.Add(location_, fmt::format("'{}' lies below {}; expected a key of a map",
-                                           keys_[depth_], parent.Show()));
-      return nullptr;
-    }
-    // A key may hold dots itself: the longest that fits.
-    for (std::size_t end = keys_.size(); end > depth_; --end) {
-      const std::string key =
-          fmt::format("{}", fmt::join(keys_.begin() + static_cast<std::ptrdiff_t>(depth_),
-                                      keys_.begin() + static_cast<std::ptrdiff_t>(end), "."));
-      for (Value::Entry& entry : *map) {
-        if (entry.key != key) continue;
-        depth_ = end;
-        return &entry.value;
-      }
-    }
-    return MayBeMade(parent) ? Make(*map) : nullptr;
-  }
-
-  /// A key that the file leaves at its default may be set; the reader of the tree knows whether it
-  /// exists. Names that only the file gives must be there.
-  bool MayBeMade(const Value& parent) {
-    const std::string& key = keys_[depth_];
-    std::vector<std::string> known;
-    if (depth_ == 0) {
-      for (const Section& section : Sections()) known.emplace_back(section.key);
-      if (std::find(known.begin(), known.end(), key) != known.end()) return true;
-    } else {
-      const bool named_by_file =
-          keys_[0] == "parameters" || keys_[0] == "systems" || keys_[0] == "models";
-      if (depth_ > 1 || !named_by_file) return true;
-      known = KeysOf(parent);
-    }
-    problems_.Add(location_, fmt::format("no '{}' there{}", key, DidYouMean(key, known)));
-    return false;
-  }
-
-  Value* Make(Value::Map& map) {
-    const std::string& key = keys_[depth_++];
-    Value::Data data;
-    if (depth_ < keys_.size()) data = Value::Map{};
-    map.push_back({key, location_, Value(std::move(data), location_)});
-    return &map.back().value;
-  }
-
-  const std::vector<std::string> keys_;
-  const Location& location_;
-  Problems& problems_;
-  std::size_t depth_{0};
-};
-
-void Apply(const Override& change, Value& root, Problems& problems) {
-  const std::string name = "-s " + change.path;
-  const Location location{std::make_shared<const std::string>(name), 0, 0};
-  if (change.path == "include" || change.path.starts_with("include.")) {
-    problems.Add(location, "include: cannot be overridden; expected another path");
-    return;
-  }
-  Problems syntax;
-  Value value = ReadYaml(change.value, name, syntax);
-  if (syntax.empty() && value.null()) {
-    syntax.Add(location, fmt::format("got '{}'; expected a YAML value", change.value));
-  }
-  problems.Add(syntax);
-  if (!syntax.empty()) return;
-  if (Value* const at = Path(change.path, location, problems).Follow(root)) *at = std::move(value);
-}
-
 }  // namespace
-
-Override Override::Parse(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  if (equals == std::string::npos || equals == 0) {
-    throw ConfigError(fmt::format("-s: got '{}'; expected PATH=VALUE", text));
-  }
-  return {text.substr(0, equals), text.substr(equals + 1)};
-}
 
 Value LoadFiles(const fs::path& file, const std::vector<Override>& overrides, Problems& problems,
                 DocumentSources* sources) {
-  Includer includer(overrides, problems);
-  Value root = includer.Load(file, {});
-  if (sources != nullptr) *sources = includer.sources();
+  const Texts texts = TextsOf(overrides);
+  std::string form = "with includes";
+  for (const auto& [name, text] : texts) form += '\0' + name + '\0' + text;
+  const auto read = models::MakeOnce<ReadDocument>(file, form, [&] {
+    ReadDocument merged;
+    Includer includer(texts, merged.problems);
+    merged.root = includer.Load(file, {});
+    merged.sources = includer.sources();
+    return merged;
+  });
+  problems.Add(read->problems);
+  if (sources != nullptr) *sources = read->sources;
+  const Value& root = read->root;
   if (root.map() == nullptr && problems.empty()) {
     problems.Add({std::make_shared<const std::string>(file.string()), 1, 1},
                  root.null() ? "is empty; expected a map with systems"
                              : fmt::format("got {}; expected a map with systems", root.Show()));
   }
   return root;
-}
-
-void ApplyOverrides(const std::vector<Override>& overrides, Value& root, Problems& problems) {
-  for (const Override& change : overrides) Apply(change, root, problems);
 }
 
 Value LoadDocument(const fs::path& file, const std::vector<Override>& overrides, Problems& problems,

@@ -6,17 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "oca/diagrams/files/override.h"
 #include "oca/framework/dataflow/value.h"
 
 namespace oca::files {
-
-/// `-s PATH=VALUE`: PATH is dot-separated keys, items of lists by index from 0; VALUE is YAML.
-struct Override {
-  std::string path{};
-  std::string value{};
-  /// throws ConfigError if `text` is not PATH=VALUE.
-  static Override Parse(const std::string& text);
-};
 
 /// The files behind a document.
 struct DocumentSources {
@@ -37,9 +30,9 @@ struct DocumentSources {
 Value LoadDocument(const std::filesystem::path& file, const std::vector<Override>& overrides,
                    Problems& problems, DocumentSources* sources = nullptr);
 
-/// The two halves of it: the merged files, of which overrides only choose; and the overrides.
+/// The files merged, of which overrides only choose: the first half of it, before ApplyOverrides.
+/// While a models::FileCache is in use, each file is read once.
 Value LoadFiles(const std::filesystem::path& file, const std::vector<Override>& overrides,
                 Problems& problems, DocumentSources* sources = nullptr);
-void ApplyOverrides(const std::vector<Override>& overrides, Value& root, Problems& problems);
 
 }  // namespace oca::files

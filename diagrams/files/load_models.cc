@@ -2,11 +2,13 @@
 #include "oca/diagrams/files/load_models.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <nlohmann/json.hpp>
 #include <optional>
 
-#include "oca/diagrams/files/package_paths.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/models/file_cache.h"
 #include "oca/models/robot/attach_objects.h"
 #include "oca/models/robot/unseen_links.h"
 #include "oca/models/robot/urdf.h"
@@ -37,18 +39,19 @@ std::string FromHere(const std::string& name) {
   return name.empty() ? name : ResolvePath(name, {}, {}).string();
 }
 
-}  // namespace
+/// A robot with what there is to know of it.
+struct Read {
+  std::shared_ptr<const robot::RobotModel> model;
+  std::vector<std::string> lines;
+};
 
-std::shared_ptr<const robot::RobotModel> LoadModel(
-    const std::string& where, const ModelParams& params,
-    const std::map<std::string, std::filesystem::path>& packages, const Warn& warn) {
-  const Warn tell = [&warn](const std::string& line) {
-    if (warn) warn(line);
-  };
+/// All of `params` but the pose of its base, which is the world's frame.
+Read ReadModel(const std::string& where, const ModelParams& params, const PackageMap& packages) {
+  Read read;
+  const Warn tell = [&read](const std::string& line) { read.lines.push_back(line); };
   robot::LoadOptions options;
   options.warn = [&](const std::string& line) { tell(fmt::format("{}: {}", where, line)); };
   options.hull_advice = "; collision: decomposition splits it";
-  options.X_WB = params.base_pose.Pose(where + ".base_pose");
   options.decompose_meshes = params.collision == systems::CollisionMeshes::kDecomposition;
   options.visual_as_collision = params.visual_as_collision;
   options.srdf = params.srdf;
@@ -62,11 +65,49 @@ std::shared_ptr<const robot::RobotModel> LoadModel(
   };
   options.package_directories = PackageFolders();
   const robot::RobotModel robot = robot::LoadUrdf(params.urdf, options);
-  auto model = std::make_shared<const robot::RobotModel>(
+  read.model = std::make_shared<const robot::RobotModel>(
       robot::AttachObjects(robot, MakeAttached(params.attached, where, tell)));
-  const std::string unseen = robot::DescribeUnseen(*model, "visual_as_collision: missing");
+  const std::string unseen = robot::DescribeUnseen(*read.model, "visual_as_collision: missing");
   if (!unseen.empty()) tell(fmt::format("{}: {}", where, unseen));
-  return model;
+  return read;
+}
+
+/// Tells what ReadModel makes from what else it makes of the same URDF.
+std::string FormOf(const std::string& where, const ModelParams& params,
+                   const PackageMap& packages) {
+  std::string form =
+      fmt::format("{}\n{}\n{} {}", where, params.srdf, static_cast<int>(params.collision),
+                  static_cast<int>(params.visual_as_collision));
+  for (const auto* const limits : {&params.acceleration_limits, &params.jerk_limits}) {
+    form += limits->has_value() ? fmt::format("\n{}", fmt::join((*limits)->values(), " ")) : "\n";
+  }
+  for (const AttachedParams& object : params.attached) {
+    form += "\n" + JsonOfFields(FieldsOf<AttachedParams>(), &object).dump();
+  }
+  for (const auto& [name, folder] : packages) {
+    form += fmt::format("\n{} {}", name, folder.native());
+  }
+  return form;
+}
+
+}  // namespace
+
+std::shared_ptr<const robot::RobotModel> LoadModel(const std::string& where,
+                                                   const ModelParams& params,
+                                                   const PackageMap& packages, const Warn& warn) {
+  using ModelPtr = std::shared_ptr<const robot::RobotModel>;
+  const Eigen::Isometry3d X_WB = params.base_pose.Pose(where + ".base_pose");
+  const std::string form = FormOf(where, params, packages);
+  const auto read =
+      models::MakeOnce<Read>(params.urdf, form, [&] { return ReadModel(where, params, packages); });
+  if (warn) {
+    for (const std::string& line : read->lines) warn(line);
+  }
+  const std::string pose =
+      fmt::format("\nbase {}", fmt::join(X_WB.data(), X_WB.data() + X_WB.matrix().size(), " "));
+  return *models::MakeOnce<ModelPtr>(params.urdf, form + pose, [&]() -> ModelPtr {
+    return std::make_shared<const robot::RobotModel>(read->model->At(X_WB));
+  });
 }
 
 systems::ModelSet LoadModels(const std::vector<std::pair<std::string, ModelParams>>& models,

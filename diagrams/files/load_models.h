@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <filesystem>
 #include <functional>
-#include <map>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "oca/diagrams/files/diagram_file.h"
+#include "oca/diagrams/files/package_paths.h"
 #include "oca/systems/signals/model_set.h"
 
 namespace oca::files {
@@ -29,9 +28,10 @@ systems::ModelSet LoadModels(const std::vector<std::pair<std::string, ModelParam
                              const Warn& warn = {});
 
 /// One of them, its files being paths. `where` begins the messages about parameters and the lines of
-/// `warn`; `packages` are looked in first.
-std::shared_ptr<const robot::RobotModel> LoadModel(
-    const std::string& where, const ModelParams& params,
-    const std::map<std::string, std::filesystem::path>& packages, const Warn& warn);
+/// `warn`; `packages` are looked in first. It is found as it was read (models::FileCache) if nothing
+/// but its place differs.
+std::shared_ptr<const robot::RobotModel> LoadModel(const std::string& where,
+                                                   const ModelParams& params,
+                                                   const PackageMap& packages, const Warn& warn);
 
 }  // namespace oca::files

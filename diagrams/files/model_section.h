@@ -2,10 +2,10 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
+#include "oca/diagrams/files/package_paths.h"
 #include "oca/framework/dataflow/value.h"
 #include "oca/systems/signals/model_set.h"
 
@@ -32,7 +32,7 @@ class ModelSection {
   std::filesystem::path Resolve(const std::string& name, const Location& location) const;
 
   Problems& problems_;
-  std::map<std::string, std::filesystem::path> packages_;
+  PackageMap packages_;
   systems::ModelSet models_;
   std::vector<std::string> warnings_;
   bool failed_{false};

@@ -13,6 +13,7 @@
 
 #include "oca/diagrams/files/data_folders.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/models/file_cache.h"
 
 namespace oca::files {
 
@@ -36,8 +37,23 @@ std::vector<fs::path> PackageFolders() {
   return folders;
 }
 
-fs::path ResolvePath(const std::string& name, const fs::path& folder,
-                     const std::map<std::string, fs::path>& packages) {
+namespace {
+
+/// The folder of a package that a file does not say. `name` is what is looked for in it.
+fs::path FindPackage(const std::string& package, const std::string& name) {
+  std::string places;
+  for (const fs::path& place : PackageFolders()) {
+    std::error_code error;
+    if (fs::is_directory(place / package, error)) return place / package;
+    places += (places.empty() ? "" : ", ") + place.string();
+  }
+  throw ConfigError(fmt::format("{}: no package '{}'; looked in packages, {}", name, package,
+                                places.empty() ? "OCA_PACKAGE_PATH" : places));
+}
+
+}  // namespace
+
+fs::path ResolvePath(const std::string& name, const fs::path& folder, const PackageMap& packages) {
   static const std::string kScheme = "package://";
   if (!name.starts_with(kScheme))
     return fs::path(name).is_absolute() ? fs::path(name) : folder / name;
@@ -47,14 +63,9 @@ fs::path ResolvePath(const std::string& name, const fs::path& folder,
   if (const auto found = packages.find(package); found != packages.end()) {
     return found->second / inside;
   }
-  std::string places;
-  for (const fs::path& place : PackageFolders()) {
-    std::error_code error;
-    if (fs::is_directory(place / package, error)) return place / package / inside;
-    places += (places.empty() ? "" : ", ") + place.string();
-  }
-  throw ConfigError(fmt::format("{}: no package '{}'; looked in packages, {}", name, package,
-                                places.empty() ? "OCA_PACKAGE_PATH" : places));
+  return *models::ReadOnce<fs::path>(kScheme + package, "folder", [&] {
+    return FindPackage(package, name);
+  }) / inside;
 }
 
 bool IsPartOfOca(const fs::path& file) {

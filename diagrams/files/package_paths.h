@@ -8,15 +8,18 @@
 
 namespace oca::files {
 
+/// Folders of packages, by name.
+using PackageMap = std::map<std::string, std::filesystem::path>;
+
 /// Folders that hold packages when a file does not say: OCA_PACKAGE_PATH, then the robots and
 /// worlds that come with OCA.
 std::vector<std::filesystem::path> PackageFolders();
 
-/// `name` as a path: `package://NAME/REST` looked up in `packages`, then in PackageFolders(); a
-/// relative path from `folder`.
+/// `name` as a path: `package://NAME/REST` looked up in `packages`, then in PackageFolders(), once
+/// while a models::FileCache is in use; a relative path from `folder`.
 /// throws ConfigError naming the places where the package was looked for.
 std::filesystem::path ResolvePath(const std::string& name, const std::filesystem::path& folder,
-                                  const std::map<std::string, std::filesystem::path>& packages);
+                                  const PackageMap& packages);
 
 /// Whether a diagram file is one of the parts that come with OCA, by its name and content, wherever
 /// it lies.

@@ -39,11 +39,15 @@ void Put(std::vector<Override>& overrides, const Override& one) {
 class LiveRunner {
  public:
   LiveRunner(const LiveRunOptions& options, LiveServer& server)
-      : options_(options), server_(server), overrides_(options.overrides), epoch_(WallClock()) {
+      : options_(options),
+        server_(server),
+        blueprint_(options.file, options.catalogue),
+        overrides_(options.overrides),
+        epoch_(WallClock()) {
     for (record::RecordSink* const sink : options.sinks) {
       files_.push_back(std::make_unique<ContinuedSink>(*sink));
     }
-    LoadedDiagram loaded = Load(overrides_);
+    LoadedDiagram loaded = Build(overrides_);
     runs::AddChatterWarnings(loaded);
     for (const std::string& warning : loaded.warnings) Warn(warning);
     std::vector<std::string> warnings = loaded.warnings;
@@ -80,8 +84,8 @@ class LiveRunner {
   }
 
  private:
-  LoadedDiagram Load(const std::vector<Override>& overrides) const {
-    return loading::LoadMovable(options_.file, overrides, options_.catalogue);
+  LoadedDiagram Build(const std::vector<Override>& overrides) const {
+    return blueprint_.Build(overrides, {.movable = true});
   }
 
   void Warn(const std::string& warning) const {
@@ -175,26 +179,26 @@ class LiveRunner {
     return std::nullopt;
   }
 
-  /// Takes what clients asked for: moves for the next tick; for the rest, loads the diagram
+  /// Takes what clients asked for: moves for the next tick; for the rest, builds the diagram
   /// elsewhere.
   void BeginChange() {
     const std::vector<LiveParameter> changes = server_.TakeChanges();
     wanted_ = overrides_;
-    bool load = false;
+    bool build = false;
     try {
       for (const LiveParameter& change : changes) {
         if (const auto move = MoveOf(change)) {
           moved_[change.name] = *move;
         } else {
           Put(wanted_, OverrideOf(session_->loaded(), change));
-          load = true;
+          build = true;
         }
       }
     } catch (const std::exception& error) {
       return Refuse(error.what());
     }
-    if (!load) return;
-    next_ = std::async(std::launch::async, [this, wanted = wanted_] { return Load(wanted); });
+    if (!build) return;
+    next_ = std::async(std::launch::async, [this, wanted = wanted_] { return Build(wanted); });
   }
 
   void Move() {
@@ -233,6 +237,7 @@ class LiveRunner {
 
   const LiveRunOptions& options_;
   LiveServer& server_;
+  const loading::Blueprint blueprint_;
   std::vector<Override> overrides_, wanted_;
   std::uint64_t epoch_;
   std::vector<std::unique_ptr<ContinuedSink>> files_;

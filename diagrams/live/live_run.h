@@ -41,8 +41,8 @@ struct LiveRunResult {
 
 /// Runs a diagram in step with the wall clock for whoever looks at `server`. An obstacle that is
 /// moved is so at the next tick, by the input `offsets` of its source. A change of a parameter
-/// makes the diagram anew, on a thread of its own, and the run goes on with it from the state it
-/// has at the next tick after that. One that the diagram refuses is undone, and all clients are
+/// builds the diagram anew, of files as they were read first, on a thread of its own, and the run
+/// goes on with it from the state it has at the next tick after that. One that the diagram refuses is undone, and all clients are
 /// told why. throws ConfigError if the file cannot be loaded.
 LiveRunResult RunLive(const LiveRunOptions& options, LiveServer& server);
 

@@ -43,10 +43,6 @@ Value::Map Without(const Value& map, const char* key) {
   return rest;
 }
 
-robot::RobotModel At(const robot::RobotModel& model, const Eigen::Isometry3d& X_WB) {
-  return {model.name(), model.links(), model.joints(), X_WB, model.disabled_pairs()};
-}
-
 }  // namespace
 
 TaskGeometry::TaskGeometry(const Value& root, const TaskNames& names,
@@ -93,7 +89,7 @@ void TaskGeometry::LoadModel(const Value& root, ModelCache& cache, Problems& pro
     const std::string where = fmt::format("models.{}.base_pose", names_.model);
     ReadFields(*value, FieldsOf<systems::PoseParams>(), where, &pose, problems);
   }
-  model_ = std::make_shared<const robot::RobotModel>(At(*cache.model, pose.Pose("base_pose")));
+  model_ = std::make_shared<const robot::RobotModel>(cache.model->At(pose.Pose("base_pose")));
   clearance_.emplace(model_);
 }
 

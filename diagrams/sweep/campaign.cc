@@ -9,7 +9,6 @@
 #include <set>
 #include <string_view>
 
-#include "oca/diagrams/loading/loader.h"
 #include "oca/diagrams/record/record_files.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/random.h"
@@ -207,7 +206,7 @@ std::string Campaign::DifferenceTo(const Campaign& other) const {
   return differences;
 }
 
-std::vector<std::string> Inspect(Campaign& campaign, const files::Catalogue& catalogue) {
+std::vector<std::string> Inspect(Campaign& campaign, const loading::Blueprint& blueprint) {
   constexpr std::int64_t kTried = 3;
   std::vector<std::string> warnings;
   Hash hash;
@@ -215,8 +214,7 @@ std::vector<std::string> Inspect(Campaign& campaign, const files::Catalogue& cat
     for (std::int64_t sample = 0;; ++sample) {
       const int seed = campaign.SeedOf(sample);
       try {
-        const auto loaded =
-            loading::LoadDiagram(campaign.file, campaign.OverridesOf(seed, combination), catalogue);
+        const auto loaded = blueprint.Build(campaign.OverridesOf(seed, combination));
         campaign.name = loaded.name;
         for (const std::string& warning : loaded.warnings) {
           const bool told = std::find(warnings.begin(), warnings.end(), warning) != warnings.end();

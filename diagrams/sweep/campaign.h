@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "oca/diagrams/files/catalogue.h"
-#include "oca/diagrams/files/document.h"
+#include "oca/diagrams/files/override.h"
+#include "oca/diagrams/loading/blueprint.h"
 #include "oca/diagrams/sweep/variation.h"
 
 namespace oca::sweep {
@@ -66,10 +66,10 @@ struct Campaign {
   std::string DifferenceTo(const Campaign& other) const;
 };
 
-/// Loads the diagram once for each combination, with the first of samples 0 to 2 that loads, and
-/// fills in `name` and `file_hash`. Returns the warnings of the loads, each once.
-/// throws ConfigError with the problems of the file if none does.
-std::vector<std::string> Inspect(Campaign& campaign,
-                                 const files::Catalogue& catalogue = files::Catalogue::Standard());
+/// Builds the diagram, of the campaign's file, once for each combination, with the first of samples
+/// 0 to 2 that can be built, and fills in `name` and `file_hash`. Returns the warnings of the
+/// builds, each once.
+/// throws ConfigError with the problems of the file if none can.
+std::vector<std::string> Inspect(Campaign& campaign, const loading::Blueprint& blueprint);
 
 }  // namespace oca::sweep

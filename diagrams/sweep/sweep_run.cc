@@ -107,8 +107,10 @@ class Queue {
 /// The threads of a sweep, and what they tell.
 class Crew {
  public:
-  Crew(const Campaign& campaign, const Shard& shard, const SweepOptions& options, ResultFile& file)
+  Crew(const Campaign& campaign, const loading::Blueprint& blueprint, const Shard& shard,
+       const SweepOptions& options, ResultFile& file)
       : campaign_(campaign),
+        blueprint_(blueprint),
         options_(options),
         file_(file),
         queue_(campaign, shard, file.results().rows),
@@ -163,10 +165,12 @@ class Crew {
     crashed.outcome = Outcome::kCrashed;
     crashed.error = "the program crashed in this run";
     const CrashGuard guard(file_.descriptor(), crashed.Line() + '\n');
-    return RunSample(campaign_, run.sample, run.combination, run.settings, options_, timing);
+    return RunSample(campaign_, blueprint_, run.sample, run.combination, run.settings, options_,
+                     timing);
   }
 
   const Campaign& campaign_;
+  const loading::Blueprint& blueprint_;
   const SweepOptions& options_;
   ResultFile& file_;
   Queue queue_;
@@ -181,9 +185,9 @@ class Crew {
 
 }  // namespace
 
-std::optional<SampleRow> RunSample(const Campaign& campaign, std::int64_t sample, int combination,
-                                   const Settings& settings, const SweepOptions& options,
-                                   SampleTiming& timing) {
+std::optional<SampleRow> RunSample(const Campaign& campaign, const loading::Blueprint& blueprint,
+                                   std::int64_t sample, int combination, const Settings& settings,
+                                   const SweepOptions& options, SampleTiming& timing) {
   SampleRow row;
   timing.sample = row.sample = sample;
   timing.combination = row.combination = combination;
@@ -193,8 +197,7 @@ std::optional<SampleRow> RunSample(const Campaign& campaign, std::int64_t sample
   row.outcome = Outcome::kNotLoaded;
   try {
     const auto start = Clock::now();
-    const auto loaded = loading::LoadDiagram(
-        campaign.file, campaign.OverridesOf(row.seed, settings), options.catalogue);
+    const auto loaded = blueprint.Build(campaign.OverridesOf(row.seed, settings));
     timing.load_seconds = SecondsSince(start);
     row.outcome = Outcome::kFailed;
     StepWatch watch(options, timing.steps);
@@ -222,10 +225,10 @@ std::int64_t CountRuns(const Campaign& campaign, const Shard& shard) {
   return std::max<std::int64_t>(0, samples) * std::ssize(campaign.Combinations());
 }
 
-bool RunSweep(const Campaign& campaign, const Shard& shard, const SweepOptions& options,
-              ResultFile& file) {
+bool RunSweep(const Campaign& campaign, const loading::Blueprint& blueprint, const Shard& shard,
+              const SweepOptions& options, ResultFile& file) {
   if (file.complete()) return true;
-  Crew crew(campaign, shard, options, file);
+  Crew crew(campaign, blueprint, shard, options, file);
   crew.Work();
   if (!crew.all_done()) return false;
   file.Finish();

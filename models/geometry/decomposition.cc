@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "oca/models/error.h"
+#include "oca/models/file_cache.h"
 #include "oca/models/geometry/decomposition_cache.h"
 #include "oca/models/geometry/mesh_surface.h"
 
@@ -117,17 +118,20 @@ std::vector<std::shared_ptr<const ConvexHull>> DecomposeMesh(const TriangleMesh&
 
 Compound LoadDecomposition(const std::filesystem::path& file, const Vector3d& scale,
                            double concavity, const std::filesystem::path& cache) {
-  const internal::DecompositionEntry entry(cache, file, scale, concavity);
-  auto parts = entry.Read(file.string());
-  if (parts.empty()) {
-    parts = DecomposeMesh(LoadMesh(file, scale), file.string(), concavity);
-    entry.Write(parts);
-  }
-  Compound compound;
-  for (const auto& hull : parts) {
-    compound.parts.push_back({Eigen::Isometry3d::Identity(), ConvexMesh{hull}});
-  }
-  return compound;
+  const std::string form = fmt::format("{} {} {} {}", scale.x(), scale.y(), scale.z(), concavity);
+  return *models::ReadOnce<Compound>(file, form, [&] {
+    const internal::DecompositionEntry entry(cache, file, scale, concavity);
+    auto parts = entry.Read(file.string());
+    if (parts.empty()) {
+      parts = DecomposeMesh(LoadMesh(file, scale), file.string(), concavity);
+      entry.Write(parts);
+    }
+    Compound compound;
+    for (const auto& hull : parts) {
+      compound.parts.push_back({Eigen::Isometry3d::Identity(), ConvexMesh{hull}});
+    }
+    return compound;
+  });
 }
 
 }  // namespace oca::geometry

@@ -34,7 +34,8 @@ std::filesystem::path DecompositionCache();
 
 /// The parts of a mesh file as a compound. They are kept in `cache` under a hash of the file's
 /// content, the scale and the concavity, and taken from there the next time; several processes may
-/// do so at once. An empty folder, or one that cannot be written, only costs time.
+/// do so at once. An empty folder, or one that cannot be written, only costs time. A FileCache in
+/// use keeps them too.
 /// throws ModelError as LoadMesh and DecomposeMesh do
 Compound LoadDecomposition(const std::filesystem::path& file,
                            const Eigen::Vector3d& scale = Eigen::Vector3d::Ones(),

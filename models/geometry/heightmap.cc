@@ -7,6 +7,7 @@
 
 #include "oca/models/csv_table.h"
 #include "oca/models/error.h"
+#include "oca/models/file_cache.h"
 #include "oca/models/geometry/point_cloud.h"
 #include "oca/models/table_text.h"
 
@@ -119,8 +120,10 @@ Compound LoadHeightmap(const fs::path& file, double cell, double scale) {
   if (kind != ".csv" && kind != ".pgm") {
     models::internal::RefuseText(file, 0, "extension", "'" + kind + "'", ".pgm or .csv");
   }
-  const Grid grid =
-      kind == ".csv" ? ReadCsv(file) : ReadPgm(file, models::internal::ReadWhole(file));
+  const auto read = models::ReadOnce<Grid>(file, "heightmap", [&] {
+    return kind == ".csv" ? ReadCsv(file) : ReadPgm(file, models::internal::ReadWhole(file));
+  });
+  const Grid& grid = *read;
   if (grid.values.empty())
     models::internal::RefuseText(file, 0, "holds no height", "none", "at least one");
   const std::size_t rows = grid.values.size() / grid.width;

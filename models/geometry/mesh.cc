@@ -212,8 +212,4 @@ TriangleMesh LoadMesh(const fs::path& file, const Vector3d& scale) {
   return mesh;
 }
 
-std::shared_ptr<const ConvexHull> LoadConvexHull(const fs::path& file, const Vector3d& scale) {
-  return MakeConvexHull(LoadMesh(file, scale).vertices, file.string());
-}
-
 }  // namespace oca::geometry

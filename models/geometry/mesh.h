@@ -4,10 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <filesystem>
-#include <memory>
 #include <vector>
-
-#include "oca/models/geometry/convex_hull.h"
 
 namespace oca::geometry {
 
@@ -26,10 +23,5 @@ struct TriangleMesh {
 ///        that is no such mesh; no triangle; a vertex or the scale not finite; zero scale
 TriangleMesh LoadMesh(const std::filesystem::path& file,
                       const Eigen::Vector3d& scale = Eigen::Vector3d::Ones());
-
-/// Convex hull of all triangles of a file; it contains every vertex of the mesh.
-/// throws ModelError as LoadMesh and MakeConvexHull do
-std::shared_ptr<const ConvexHull> LoadConvexHull(
-    const std::filesystem::path& file, const Eigen::Vector3d& scale = Eigen::Vector3d::Ones());
 
 }  // namespace oca::geometry

@@ -10,6 +10,8 @@
 #include <map>
 #include <utility>
 
+#include "oca/models/file_cache.h"
+
 namespace oca::geometry {
 namespace {
 
@@ -80,6 +82,15 @@ std::string DescribeHullExcess(const TriangleMesh& mesh, const ConvexHull& hull)
   if (!(added > kTolerated * *volume)) return "";
   return fmt::format("counts as its convex hull, which adds {:.3g} m^3 ({:.3g} %)", added,
                      100.0 * added / *volume);
+}
+
+MeshHull LoadMeshHull(const std::filesystem::path& file, const Eigen::Vector3d& scale) {
+  const std::string form = fmt::format("{} {} {}", scale.x(), scale.y(), scale.z());
+  return *models::ReadOnce<MeshHull>(file, form, [&]() -> MeshHull {
+    const TriangleMesh mesh = LoadMesh(file, scale);
+    const auto hull = MakeConvexHull(mesh.vertices, file.string());
+    return {hull, DescribeHullExcess(mesh, *hull)};
+  });
 }
 
 }  // namespace oca::geometry

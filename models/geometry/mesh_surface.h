@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
+#include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,5 +26,16 @@ std::optional<double> EnclosedVolume(const TriangleMesh& mesh);
 /// adds 0.0123 m^3 (35 %)"; empty if that is less than 1 %. The volume that an open surface would
 /// have is not known, and the text says that.
 std::string DescribeHullExcess(const TriangleMesh& mesh, const ConvexHull& hull);
+
+/// A mesh file as its convex hull, which contains every vertex of the mesh.
+struct MeshHull {
+  std::shared_ptr<const ConvexHull> hull;
+  std::string excess;  ///< as DescribeHullExcess says it
+};
+
+/// Reads one, or finds it as it was read (models::FileCache).
+/// throws ModelError as LoadMesh and MakeConvexHull do
+MeshHull LoadMeshHull(const std::filesystem::path& file,
+                      const Eigen::Vector3d& scale = Eigen::Vector3d::Ones());
 
 }  // namespace oca::geometry

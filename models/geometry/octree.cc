@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "oca/models/file_cache.h"
 #include "oca/models/table_text.h"
 
 namespace oca::geometry {
@@ -161,10 +162,12 @@ Compound LoadOctree(const fs::path& file) {
   if (kind != ".bt" && kind != ".ot") {
     models::internal::RefuseText(file, 0, "extension", "'" + kind + "'", ".bt or .ot");
   }
-  const std::string text = models::internal::ReadWhole(file);
-  std::string_view rest = text;
-  const Head head = ReadHead(file, kind == ".bt", rest);
-  return Reader(file, head, rest).Read();
+  return *models::ReadOnce<Compound>(file, "octree", [&] {
+    const std::string text = models::internal::ReadWhole(file);
+    std::string_view rest = text;
+    const Head head = ReadHead(file, kind == ".bt", rest);
+    return Reader(file, head, rest).Read();
+  });
 }
 
 }  // namespace oca::geometry

@@ -11,6 +11,7 @@
 
 #include "oca/models/csv_table.h"
 #include "oca/models/error.h"
+#include "oca/models/file_cache.h"
 #include "oca/models/table_text.h"
 
 namespace oca::geometry {
@@ -288,9 +289,7 @@ std::vector<Vector3d> ReadTable(const fs::path& file) {
   return points;
 }
 
-}  // namespace
-
-std::vector<Vector3d> LoadPointCloud(const fs::path& file) {
+std::vector<Vector3d> ReadCloud(const fs::path& file) {
   const std::string kind = file.extension().string();
   std::vector<Vector3d> points;
   if (kind == ".csv" || kind == ".xyz") {
@@ -306,6 +305,12 @@ std::vector<Vector3d> LoadPointCloud(const fs::path& file) {
   if (points.empty())
     models::internal::RefuseText(file, 0, "holds no point", "none", "at least one");
   return points;
+}
+
+}  // namespace
+
+std::vector<Vector3d> LoadPointCloud(const fs::path& file) {
+  return *models::ReadOnce<std::vector<Vector3d>>(file, "cloud", [&] { return ReadCloud(file); });
 }
 
 Compound MakeCloud(std::span<const Vector3d> points, double radius) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "oca/models/error.h"
+#include "oca/models/file_cache.h"
 #include "oca/models/opened_files.h"
 
 namespace oca::robot {
@@ -34,12 +35,11 @@ std::vector<std::filesystem::path> Candidates(const std::string& name,
   return candidates;
 }
 
-}  // namespace
-
-std::filesystem::path FindMesh(const std::string& name, const std::filesystem::path& directory,
-                               const LoadOptions& options, const std::string& where) {
+/// The first of them that is a file.
+std::filesystem::path FirstFile(const std::vector<std::filesystem::path>& candidates,
+                                const std::string& name, const std::string& where) {
   std::string tried;
-  for (const auto& candidate : Candidates(name, directory, options)) {
+  for (const std::filesystem::path& candidate : candidates) {
     std::error_code error;
     if (std::filesystem::is_regular_file(candidate, error)) {
       models::NoteOpened(candidate);  // whoever asks will read or show it
@@ -49,6 +49,17 @@ std::filesystem::path FindMesh(const std::string& name, const std::filesystem::p
   }
   throw models::ModelError(fmt::format("{}: missing mesh file; got '{}'; expected a file at {}",
                                        where, name, tried.empty() ? "a known package" : tried));
+}
+
+}  // namespace
+
+std::filesystem::path FindMesh(const std::string& name, const std::filesystem::path& directory,
+                               const LoadOptions& options, const std::string& where) {
+  const std::vector<std::filesystem::path> candidates = Candidates(name, directory, options);
+  std::string places;
+  for (const std::filesystem::path& candidate : candidates) places += candidate.native() + '\n';
+  return *models::ReadOnce<std::filesystem::path>(
+      name, places, [&] { return FirstFile(candidates, name, where); });
 }
 
 }  // namespace oca::robot

@@ -74,6 +74,13 @@ RobotModel::RobotModel(models::Name name, std::vector<Link> links, std::vector<J
                         disabled_pairs_.end());
 }
 
+RobotModel RobotModel::At(const Eigen::Isometry3d& X_WB) const {
+  CheckPose(X_WB, fmt::format("robot '{}' base", name_.text()));
+  RobotModel placed = *this;
+  placed.X_WB_ = X_WB;
+  return placed;
+}
+
 void RobotModel::CheckTree() const {
   const std::string where = fmt::format("robot '{}'", name_.text());
   if (links_.empty()) throw models::ModelError(where + ": links; got none; expected at least one");

@@ -116,6 +116,9 @@ class RobotModel {
              const Eigen::Isometry3d& X_WB = Eigen::Isometry3d::Identity(),
              std::vector<std::pair<int, int>> disabled_pairs = {});
 
+  /// The same robot with its root link elsewhere. throws ModelError for what is no pose
+  RobotModel At(const Eigen::Isometry3d& X_WB) const;
+
   models::Name name() const { return name_; }
   const std::vector<Link>& links() const { return links_; }
   const std::vector<Joint>& joints() const { return joints_; }

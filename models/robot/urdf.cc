@@ -185,11 +185,8 @@ class UrdfReader {
       try {
         const Eigen::Vector3d scale = ToVector(mesh.scale);
         if (options_.decompose_meshes) return geometry::LoadDecomposition(file, scale);
-        const geometry::TriangleMesh triangles = geometry::LoadMesh(file, scale);
-        const auto hull = geometry::MakeConvexHull(triangles.vertices, file.string());
-        const std::string excess =
-            options_.warn ? geometry::DescribeHullExcess(triangles, *hull) : "";
-        if (!excess.empty()) {
+        const auto [hull, excess] = geometry::LoadMeshHull(file, scale);
+        if (options_.warn && !excess.empty()) {
           options_.warn(fmt::format("link '{}': {} mesh '{}' {}{}", link, kind, mesh.filename,
                                     excess, options_.hull_advice));
         }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "oca/models/error.h"
+#include "oca/models/file_cache.h"
 #include "oca/models/opened_files.h"
 
 namespace oca::robot {
@@ -130,11 +131,7 @@ class XmlScanner {
   std::vector<std::string_view> open_;
 };
 
-}  // namespace
-
-void XmlDeleter::operator()(TiXmlDocument* document) const { delete document; }
-
-std::string ReadXmlFile(const std::filesystem::path& file) {
+std::string ReadText(const std::filesystem::path& file) {
   models::NoteOpened(file);
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) {
@@ -154,6 +151,14 @@ std::string ReadXmlFile(const std::filesystem::path& file) {
                              ": file; got one that cannot be read; expected a readable file");
   }
   return text;
+}
+
+}  // namespace
+
+void XmlDeleter::operator()(TiXmlDocument* document) const { delete document; }
+
+std::string ReadXmlFile(const std::filesystem::path& file) {
+  return *models::ReadOnce<std::string>(file, "XML", [&] { return ReadText(file); });
 }
 
 XmlDocument ParseXml(const std::string& text, const std::string& where) {

@@ -2,6 +2,7 @@
 #include "oca/systems/commands/key_points.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -14,6 +15,7 @@
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/csv_table.h"
 #include "oca/models/error.h"
+#include "oca/models/file_cache.h"
 #include "oca/models/robot/joint_limits.h"
 
 namespace oca::systems {
@@ -147,6 +149,27 @@ void CheckPoints(const std::vector<KeyPoint>& points, const std::string& list) {
   }
 }
 
+std::vector<KeyPoint> ReadKeyPointTable(const std::string& path,
+                                        const std::vector<std::string>& joints) {
+  models::CsvTable table(path);
+  const Columns columns = FindColumns(table, joints);
+  std::vector<KeyPoint> points;
+  while (table.NextRow()) {
+    if (columns.positions.empty()) {
+      throw ConfigError(fmt::format("{}: wrong length; got 1 value; expected a time and positions",
+                                    table.where()));
+    }
+    KeyPoint& point = points.emplace_back();
+    point.time = table.Number(columns.time);
+    point.position = VectorAt(table, columns.positions);
+    if (!columns.velocities.empty()) point.velocity = VectorAt(table, columns.velocities);
+    if (!columns.accelerations.empty()) {
+      point.acceleration = VectorAt(table, columns.accelerations);
+    }
+  }
+  return points;
+}
+
 }  // namespace
 
 void KeyPoint::Describe(Fields<KeyPoint>& fields) {
@@ -159,23 +182,9 @@ void KeyPoint::Describe(Fields<KeyPoint>& fields) {
 std::vector<KeyPoint> ReadKeyPoints(const std::string& path,
                                     const std::vector<std::string>& joints) {
   try {
-    models::CsvTable table(path);
-    const Columns columns = FindColumns(table, joints);
-    std::vector<KeyPoint> points;
-    while (table.NextRow()) {
-      if (columns.positions.empty()) {
-        throw ConfigError(fmt::format(
-            "{}: wrong length; got 1 value; expected a time and positions", table.where()));
-      }
-      KeyPoint& point = points.emplace_back();
-      point.time = table.Number(columns.time);
-      point.position = VectorAt(table, columns.positions);
-      if (!columns.velocities.empty()) point.velocity = VectorAt(table, columns.velocities);
-      if (!columns.accelerations.empty()) {
-        point.acceleration = VectorAt(table, columns.accelerations);
-      }
-    }
-    return points;
+    return *models::ReadOnce<std::vector<KeyPoint>>(
+        path, fmt::format("{}", fmt::join(joints, "\n")),
+        [&] { return ReadKeyPointTable(path, joints); });
   } catch (const models::ModelError& error) {
     throw ConfigError(error.what());
   }

@@ -4,33 +4,42 @@
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/csv_table.h"
 #include "oca/models/error.h"
+#include "oca/models/file_cache.h"
 #include "oca/systems/sensing/obstacle_motion.h"
 
 namespace oca::systems {
+namespace {
+
+std::vector<WaypointParams> ReadTable(const std::string& file) {
+  models::CsvTable table(file);
+  std::vector<std::size_t> columns = table.Columns({"time", "x", "y", "z"});
+  if (columns.empty()) {
+    throw ConfigError(fmt::format(
+        "{}: names of columns; got none; expected time,x,y,z or time,x,y,z,roll,pitch,yaw",
+        table.where()));
+  }
+  const bool rotates = table.Has("roll") || table.Has("pitch") || table.Has("yaw");
+  if (rotates) {
+    const auto more = table.Columns({"roll", "pitch", "yaw"});
+    columns.insert(columns.end(), more.begin(), more.end());
+  }
+  const auto vector_at = [&](std::size_t i) -> Eigen::Vector3d {
+    return {table.Number(columns[i]), table.Number(columns[i + 1]), table.Number(columns[i + 2])};
+  };
+  std::vector<WaypointParams> waypoints;
+  while (table.NextRow()) {
+    waypoints.push_back({table.Number(columns[0]), vector_at(1), {}});
+    if (rotates) waypoints.back().rpy = vector_at(4);
+  }
+  return waypoints;
+}
+
+}  // namespace
 
 std::vector<WaypointParams> ReadWaypoints(const std::string& file) {
   try {
-    models::CsvTable table(file);
-    std::vector<std::size_t> columns = table.Columns({"time", "x", "y", "z"});
-    if (columns.empty()) {
-      throw ConfigError(fmt::format(
-          "{}: names of columns; got none; expected time,x,y,z or time,x,y,z,roll,pitch,yaw",
-          table.where()));
-    }
-    const bool rotates = table.Has("roll") || table.Has("pitch") || table.Has("yaw");
-    if (rotates) {
-      const auto more = table.Columns({"roll", "pitch", "yaw"});
-      columns.insert(columns.end(), more.begin(), more.end());
-    }
-    const auto vector_at = [&](std::size_t i) -> Eigen::Vector3d {
-      return {table.Number(columns[i]), table.Number(columns[i + 1]), table.Number(columns[i + 2])};
-    };
-    std::vector<WaypointParams> waypoints;
-    while (table.NextRow()) {
-      waypoints.push_back({table.Number(columns[0]), vector_at(1), {}});
-      if (rotates) waypoints.back().rpy = vector_at(4);
-    }
-    return waypoints;
+    return *models::ReadOnce<std::vector<WaypointParams>>(file, "waypoints",
+                                                          [&] { return ReadTable(file); });
   } catch (const models::ModelError& error) {
     throw ConfigError(error.what());
   }

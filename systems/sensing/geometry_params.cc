@@ -8,6 +8,7 @@
 
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/error.h"
+#include "oca/models/file_cache.h"
 #include "oca/models/geometry/decomposition.h"
 #include "oca/models/geometry/mesh_surface.h"
 #include "oca/models/geometry/octree.h"
@@ -66,10 +67,8 @@ void CheckSizes(const SolidParams& shape, bool parts, const std::string& where) 
 using Warnings = std::vector<std::string>*;
 
 geometry::Shape MakeHull(const std::string& file, const std::string& where, Warnings warnings) {
-  const geometry::TriangleMesh mesh = geometry::LoadMesh(file);
-  const auto hull = geometry::MakeConvexHull(mesh.vertices, file);
-  const std::string excess = warnings != nullptr ? geometry::DescribeHullExcess(mesh, *hull) : "";
-  if (!excess.empty()) {
+  const auto [hull, excess] = geometry::LoadMeshHull(file);
+  if (warnings != nullptr && !excess.empty()) {
     warnings->push_back(
         fmt::format("{}: mesh '{}' {}; collision: decomposition splits it", where, file, excess));
   }
@@ -120,7 +119,7 @@ geometry::Shape MakeCompound(const ShapeParams& shape, const std::string& where,
   return compound;
 }
 
-geometry::Shape MakeShape(const ShapeParams& shape, const std::string& where, Warnings warnings) {
+void CheckShape(const ShapeParams& shape, const std::string& where) {
   CheckSizes(shape, !shape.parts.empty(), where);
   const bool grid = kSizes[static_cast<int>(shape.type)].grid;
   CheckPresence(shape.cell.has_value(), grid, "cell", shape.type, where);
@@ -130,6 +129,9 @@ geometry::Shape MakeShape(const ShapeParams& shape, const std::string& where, Wa
         fmt::format("{}.collision: got a value; expected none of {}, only a mesh has it", where,
                     OneOf(shape.type)));
   }
+}
+
+geometry::Shape MakeShape(const ShapeParams& shape, const std::string& where, Warnings warnings) {
   switch (shape.type) {
     case ShapeType::kCloud:
       return geometry::MakeCloud(geometry::LoadPointCloud(*shape.file), *shape.radius);
@@ -146,6 +148,24 @@ geometry::Shape MakeShape(const ShapeParams& shape, const std::string& where, Wa
     return geometry::LoadDecomposition(*shape.file);
   }
   return MakeSolid(shape, where, warnings);
+}
+
+using ColliderPtr = std::shared_ptr<const geometry::Collider>;
+
+ColliderPtr MakeShapeCollider(const ShapeParams& shape, const std::string& where,
+                              Warnings warnings) {
+  CheckShape(shape, where);
+  const auto make = [&]() -> ColliderPtr {
+    return geometry::MakeCollider(MakeShape(shape, where, warnings), where);
+  };
+  const bool hull =
+      shape.type == ShapeType::kMesh && shape.collision != CollisionMeshes::kDecomposition;
+  if (!shape.file || hull) return make();
+  // Many parts; what is said of them names the file alone.
+  const std::string form =
+      fmt::format("{} {} {} {}", static_cast<int>(shape.type), shape.radius.value_or(0.0),
+                  shape.cell.value_or(0.0), shape.scale.value_or(0.0));
+  return *models::MakeOnce<ColliderPtr>(*shape.file, form, make);
 }
 
 // The fields that a part and a whole have in common.
@@ -270,8 +290,7 @@ std::shared_ptr<const ObstacleBody> MakeObstacleBody(const std::string& id,
                                                      std::vector<std::string>* warnings) {
   try {
     return std::make_shared<const ObstacleBody>(ObstacleBody{
-        models::Name(id), geometry::MakeCollider(MakeShape(shape, where, warnings), where),
-        shape.file.value_or("")});
+        models::Name(id), MakeShapeCollider(shape, where, warnings), shape.file.value_or("")});
   } catch (const models::ModelError& error) {
     const std::string what = error.what();
     throw ConfigError(what.starts_with(where) ? what : where + ": " + what);

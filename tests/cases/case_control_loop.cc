@@ -61,8 +61,8 @@ const char* Say(const Status& status) { return status.ok() ? "ok" : status.messa
 int RunObstacle(const std::string& kind) {
   const std::vector<std::string> part{"kinematics", "distance",   "field",  "wrenches",
                                       "mapping",    "relaxation", "limiter"};
-  const auto avoidance = oca::loading::LoadPart(
-      File(), part, {{"parameters.max_distance", "2"}, {"parameters.sensing_distance", "2"}});
+  const auto avoidance = oca::loading::Blueprint(File()).Build(
+      {{"parameters.max_distance", "2"}, {"parameters.sensing_distance", "2"}}, {.part = part});
   const auto q = avoidance.diagram->GetInput<Vector>("plant_position");
   const auto obstacles = avoidance.diagram->GetInput<ObstacleSet>("obstacles_obstacles");
   const auto near =
@@ -84,12 +84,13 @@ int RunObstacle(const std::string& kind) {
 int RunJoint(const std::string& method, double radians) {
   const std::vector<oca::files::Override> overrides{{"parameters.avoidance", method}};
   std::vector<std::string> part;
-  for (const auto& block : oca::loading::LoadDiagram(File(), overrides).systems) {
+  const oca::loading::Blueprint blueprint(File());
+  for (const auto& block : blueprint.Build(overrides).systems) {
     const bool outside = block.type == "IntegratorPlant" || block.type == "ObstacleSource" ||
                          block.type == "MotionMetrics" || block.type == "TipError";
     if (!outside) part.push_back(block.name);
   }
-  const auto loaded = oca::loading::LoadPart(File(), part, overrides);
+  const auto loaded = blueprint.Build(overrides, {.part = part});
   const auto q = loaded.diagram->GetInput<Vector>("plant_position");
   const auto obstacles = loaded.diagram->GetInput<ObstacleSet>("obstacles_obstacles");
   ControlLoop loop(*loaded.diagram, oca::Period(1, 100));

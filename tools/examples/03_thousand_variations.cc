@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Many variations of a file, a thread a core:  03_thousand_variations [FILE [RUNS]]
-// Each has a diagram and a Context of its own; nothing is shared. `simulator sweep` does the same
-// with statistics, shards and results on disk.
+// YAML, URDF and meshes are read once. Each run has a diagram and a Context of its own; what they
+// share never changes. `simulator sweep` does the same with statistics, shards and results on disk.
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
@@ -13,15 +13,15 @@
 #include "oca/diagrams/runs/run.h"
 
 int main(int argc, char** argv) {
-  const std::string file = argc > 1 ? argv[1] : "diagrams/scenarios/random_static.yaml";
+  const oca::loading::Blueprint file(argc > 1 ? argv[1]
+                                              : "diagrams/scenarios/random_static.yaml");
   const int runs = argc > 2 ? std::atoi(argv[2]) : 1000;
 
   std::atomic<int> next{0}, met{0}, unmet{0}, failed{0};
   const auto work = [&] {
     for (int seed = next++; seed < runs; seed = next++) {
       try {
-        const auto loaded =
-            oca::loading::LoadDiagram(file, {{"simulator.seed", std::to_string(seed)}});
+        const auto loaded = file.Build({{"simulator.seed", std::to_string(seed)}});
         ++(oca::runs::Run(loaded, {}).ExpectationsMet() ? met : unmet);
       } catch (const std::exception& error) {
         std::fprintf(stderr, "seed %d: %s\n", seed, error.what());

@@ -2,7 +2,6 @@
 // The avoidance of a file, tick by tick, without a simulator:  06_control_loop [FILE]
 #include <cstdio>
 #include <exception>
-#include <string>
 
 #include "oca/diagrams/loading/loader.h"
 #include "oca/framework/dataflow/control_loop.h"
@@ -13,9 +12,9 @@ using oca::systems::ObstacleSet;
 int main(int argc, char** argv) {
   try {
     // All but what stands for something outside: we take the place of the joints and the camera.
-    const std::string file = argc > 1 ? argv[1] : "diagrams/first.yaml";
-    const auto whole = oca::loading::LoadDiagram(file);
-    const auto part = oca::loading::LoadPart(file, oca::loading::InsideOf(*whole.diagram));
+    const oca::loading::Blueprint file(argc > 1 ? argv[1] : "diagrams/first.yaml");
+    const auto whole = file.Build();
+    const auto part = file.Build({}, {.part = oca::loading::InsideOf(*whole.diagram)});
     const auto measured = part.diagram->GetInput<oca::Vector>("plant_position");
     const auto seen = part.diagram->GetInput<ObstacleSet>("obstacles_obstacles");
     const auto command = part.diagram->GetOutput<oca::Vector>("servo_command");  // rad/s

@@ -20,11 +20,11 @@ struct Robot {
 };
 
 int main(int argc, char** argv) try {
-  const std::string file = argc > 1 ? argv[1] : "diagrams/first.yaml";
+  const oca::loading::Blueprint file(argc > 1 ? argv[1] : "diagrams/first.yaml");
   const long ticks = std::lround(1000.0 * (argc > 2 ? std::atof(argv[2]) : 8.0));
   const std::vector<oca::files::Override> faster{{"parameters.rate", "1000"}};
-  const auto whole = oca::loading::LoadDiagram(file, faster);
-  const auto part = oca::loading::LoadPart(file, oca::loading::InsideOf(*whole.diagram), faster);
+  const auto whole = file.Build(faster);
+  const auto part = file.Build(faster, {.part = oca::loading::InsideOf(*whole.diagram)});
   const auto joints = part.diagram->GetInput<oca::Vector>("plant_position");
   const auto camera = part.diagram->GetInput<ObstacleSet>("obstacles_obstacles");
   const auto command = part.diagram->GetOutput<oca::Vector>("servo_command");

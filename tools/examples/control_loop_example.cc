@@ -104,14 +104,14 @@ class Guard {
 
 /// Exit status: 0 if every tick went well.
 int Run(const Arguments& arguments) {
-  // Load once: the whole file says where the joints and obstacles are, the part is what we run.
-  const auto whole = oca::loading::LoadDiagram(arguments.file, arguments.overrides);
+  // Read once: the whole file says where the joints and obstacles are, the part is what we run.
+  const oca::loading::Blueprint blueprint(arguments.file);
+  const auto whole = blueprint.Build(arguments.overrides);
   const oca::Diagram& all = *whole.diagram;
   const auto& plant = TheOne<Plant>(whole, "joints");
   const auto& camera = TheOne<HoldsObstacles>(whole, "obstacles");
   const auto& judge = TheOne<Judges>(whole, "judges");
-  const auto part =
-      oca::loading::LoadPart(arguments.file, oca::loading::InsideOf(all), arguments.overrides);
+  const auto part = blueprint.Build(arguments.overrides, {.part = oca::loading::InsideOf(all)});
   const oca::Diagram& diagram = *part.diagram;
   const auto measured = diagram.GetInput<Vector>(NameOf(all, plant.position));
   const auto obstacles = diagram.GetInput<ObstacleSet>(NameOf(all, camera.obstacles));

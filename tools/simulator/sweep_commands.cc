@@ -152,7 +152,8 @@ int SweepCommand(const SweepArguments& arguments, const files::Catalogue& catalo
       arguments.shard.empty() ? ShardOfSurroundings() : Shard::Parse(arguments.shard);
   const fs::path folder(arguments.folder);
   models::OpenedFiles opened;
-  for (const std::string& warning : Inspect(campaign, catalogue)) Tell("{}\n", warning);
+  const loading::Blueprint blueprint(campaign.file, catalogue);
+  for (const std::string& warning : Inspect(campaign, blueprint)) Tell("{}\n", warning);
   std::vector<OutputFile> outputs{{"-o", folder}, {"-o", folder / "results.db"}};
   for (const char* const end : {".jsonl", ".jsonl.part", ".timings.jsonl"}) {
     outputs.push_back({"-o", folder / (shard.Stem() + end)});
@@ -168,13 +169,12 @@ int SweepCommand(const SweepArguments& arguments, const files::Catalogue& catalo
   CatchInterrupts();
   sweep::SweepOptions options;
   options.jobs = arguments.jobs;
-  options.catalogue = catalogue;
   options.timeout = arguments.timeout;
   options.interrupted = Interrupted;
   std::optional<SweepBar> bar(std::in_place, WantsBar(arguments.no_progress));
   options.progress = [&bar](std::int64_t done, std::int64_t all) { bar->Show(done, all); };
   const auto start = std::chrono::steady_clock::now();
-  const bool finished = RunSweep(campaign, shard, options, file);
+  const bool finished = RunSweep(campaign, blueprint, shard, options, file);
   bar.reset();
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   const std::int64_t ran = std::ssize(file.results().rows) - before;

@@ -177,8 +177,10 @@ TEST_F(ForeignFileTest, PartsAndMovableDiagramsTakeItToo) {
                                   "  source: {type: Constant, value: 3}\n"
                                   "  foreign: {type: Foreign}\n"
                                   "connections: [source.value -> foreign.in]\n");
-  EXPECT_EQ(loading::LoadMovable(file, {}, Mine()).systems.size(), 2u);
-  const loading::LoadedDiagram part = loading::LoadPart(file, {"foreign"}, {}, Mine());
+  const loading::Blueprint blueprint(file, Mine());
+  EXPECT_EQ(blueprint.Build({}, {.movable = true}).systems.size(), 2u);
+  const loading::LoadedDiagram part =
+      blueprint.Build({}, {.part = std::vector<std::string>{"foreign"}});
   EXPECT_EQ(part.diagram->inputs().front().name, "source_value");
 }
 

@@ -25,7 +25,7 @@ const std::vector<files::Override> kFast{{"parameters.rate", "1000"}};
 
 struct Part {
   explicit Part(const std::vector<files::Override>& overrides)
-      : loaded(loading::LoadPart(kStaticTest, kAvoidance, overrides)),
+      : loaded(loading::Blueprint(kStaticTest).Build(overrides, {.part = kAvoidance})),
         q(loaded.diagram->GetInput<Vector>("plant_position")),
         obstacles(loaded.diagram->GetInput<ObstacleSet>("obstacles_obstacles")),
         delta(loaded.diagram->GetOutput<Vector>("limiter_limited_delta")) {}
@@ -122,7 +122,7 @@ TEST(EmbeddingTest, ABrokenSensorIsRefusedByNameAndTheDeltaStays) {
   EXPECT_TRUE(loop.Tick().ok());
 }
 
-TEST(LoadPartTest, ExportsWhatCrossesItsBorderAndNothingElse) {
+TEST(BuildPartTest, ExportsWhatCrossesItsBorderAndNothingElse) {
   const Part part({});
   std::vector<std::string> inputs, systems;
   for (const auto& input : part.loaded.diagram->inputs()) inputs.push_back(input.name);
@@ -137,7 +137,7 @@ std::string ProblemOf(const std::string& text, const std::vector<std::string>& s
   const test::TemporaryFolder folder;
   folder.Write("part.yaml", text);
   try {
-    loading::LoadPart(folder.path() / "part.yaml", systems);
+    loading::Blueprint(folder.path() / "part.yaml").Build({}, {.part = systems});
   } catch (const ConfigError& error) {
     return error.what();
   }
@@ -152,20 +152,20 @@ systems:
 connections: [a.value -> sum.in0, a_b.value -> sum.in1]
 )";
 
-TEST(LoadPartTest, RefusesSystemsThatTheFileDoesNotHave) {
+TEST(BuildPartTest, RefusesSystemsThatTheFileDoesNotHave) {
   EXPECT_EQ(ProblemOf(kChain, {"sum"}), "");
   EXPECT_THAT(ProblemOf(kChain, {"sun"}), HasSubstr("part: no system 'sun'; did you mean 'sum'"));
   EXPECT_THAT(ProblemOf(kChain, {}), HasSubstr("got no system"));
 }
 
-TEST(LoadPartTest, StillChecksWhatIsOutside) {
+TEST(BuildPartTest, StillChecksWhatIsOutside) {
   EXPECT_THAT(ProblemOf(std::string(kChain) + "nonsense: 1\n", {"sum"}), HasSubstr("unknown key"));
   std::string bad = kChain;
   bad.replace(bad.find("a.value ->"), 10, "a.valeu ->");
   EXPECT_THAT(ProblemOf(bad, {"sum"}), HasSubstr("valeu"));
 }
 
-TEST(LoadPartTest, RefusesAConnectionFromOutsideOfAnotherType) {
+TEST(BuildPartTest, RefusesAConnectionFromOutsideOfAnotherType) {
   EXPECT_THAT(ProblemOf(R"(
 systems:
   obstacles: {type: ObstacleSource, period: 0.01}

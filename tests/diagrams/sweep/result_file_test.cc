@@ -112,7 +112,7 @@ TEST_F(SweepTest, RefusesTheFolderOfAnotherCampaignAndADamagedFile) {
 
 TEST_F(SweepTest, RefusesToWriteWhereAnotherProcessDoes) {
   Campaign inspected = campaign_;
-  Inspect(inspected);
+  Inspect(inspected, loading::Blueprint(campaign_.file));
   const ResultFile first(Folder("out"), inspected, {});
   EXPECT_THAT([&] { ResultFile(Folder("out"), inspected, {}); },
               testing::ThrowsMessage<ConfigError>(HasSubstr("another process writes it")));

@@ -48,9 +48,10 @@ inline std::string Text(const std::filesystem::path& file) {
 inline std::string RunShard(const Campaign& campaign, const std::filesystem::path& folder,
                             const Shard& shard = {}, const SweepOptions& options = {}) {
   Campaign inspected = campaign;
-  Inspect(inspected);
+  const loading::Blueprint blueprint(campaign.file);
+  Inspect(inspected, blueprint);
   ResultFile file(folder, inspected, shard);
-  RunSweep(inspected, shard, options, file);
+  RunSweep(inspected, blueprint, shard, options, file);
   return Text(folder / (shard.Stem() + ".jsonl"));
 }
 

@@ -11,6 +11,7 @@
 #include "oca/models/error.h"
 #include "oca/models/geometry/collider.h"
 #include "oca/models/geometry/distance.h"
+#include "oca/models/geometry/mesh_surface.h"
 #include "oca/models/robot/urdf.h"
 #include "tests/temporary_folder.h"
 
@@ -76,7 +77,7 @@ TEST_F(DecompositionTest, KeepsTheNookThatAHullFills) {
   EXPECT_LE(parts.parts.size(), 6u);
   const Vector3d nook(0.5, 0.5, 0.25);  // 0.3 m from either board
   EXPECT_NEAR(DistanceTo(parts, nook), 0.29, 0.02);
-  const Collider hull(ConvexMesh{LoadConvexHull(mesh_)}, "hull"), probe(Sphere{0.01}, "probe");
+  const Collider hull(ConvexMesh{LoadMeshHull(mesh_).hull}, "hull"), probe(Sphere{0.01}, "probe");
   EXPECT_LT(Distance(probe, Isometry3d(Eigen::Translation3d(nook)), hull, Isometry3d::Identity())
                 .distance,
             0.01);

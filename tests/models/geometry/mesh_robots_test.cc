@@ -6,6 +6,7 @@
 
 #include "oca/models/geometry/distance.h"
 #include "oca/models/geometry/mesh.h"
+#include "oca/models/geometry/mesh_surface.h"
 
 namespace oca::geometry {
 namespace mesh_robots_test {
@@ -67,7 +68,7 @@ TEST_F(MeshRobotsTest, EveryHullContainsEveryVertexOfItsMesh) {
     if (extension != ".stl" && extension != ".dae" && extension != ".obj") continue;
     ++meshes;
     const TriangleMesh mesh = LoadMesh(entry.path());
-    const auto hull = LoadConvexHull(entry.path());
+    const auto hull = LoadMeshHull(entry.path()).hull;
     EXPECT_EQ(hull->triangles.size(), 2 * hull->vertices.size() - 4);
     const auto body = MakeCollider(ConvexMesh{hull}, "link");
     const auto dot = MakeCollider(Sphere{1e-6}, "dot");
@@ -85,7 +86,7 @@ TEST_F(MeshRobotsTest, EveryHullContainsEveryVertexOfItsMesh) {
 
 // Pinned as first loaded: whoever changes the hull of a known link shall notice.
 TEST_F(MeshRobotsTest, HullOfAKnownLinkStaysAsItIs) {
-  const auto hull = LoadConvexHull(kRobots / "kuka_lwr/meshes_arm/arm_segment_a.stl");
+  const auto hull = LoadMeshHull(kRobots / "kuka_lwr/meshes_arm/arm_segment_a.stl").hull;
   EXPECT_EQ(hull->vertices.size(), 253u);
   EXPECT_NEAR(hull->volume, 0.003240, 1e-6);
 }

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "oca/models/error.h"
+#include "oca/models/geometry/mesh_surface.h"
 #include "tests/models/geometry/mesh_files.h"
 #include "tests/temporary_folder.h"
 
@@ -50,7 +51,7 @@ void ExpectTetrahedron(const TriangleMesh& mesh, const Vector3d& high) {
 
 std::string RefusalOf(const std::filesystem::path& file, const Vector3d& scale = Vector3d::Ones()) {
   try {
-    LoadConvexHull(file, scale);
+    LoadMeshHull(file, scale);
   } catch (const models::ModelError& error) {
     EXPECT_THAT(error.what(), AllOf(HasSubstr(file.string() + ": "), HasSubstr("; got "),
                                     HasSubstr("; expected ")));
@@ -128,14 +129,14 @@ TEST(MeshTest, ScaleStretchesEachAxisAndAMirrorKeepsTheOutside) {
   ExpectTetrahedron(LoadMesh(file, Vector3d(2, 1, 0.5)), Vector3d(2, 2, 1.5));
   for (const Vector3d& scale : {Vector3d(-1, 1, 1), Vector3d(-1, -1, 1), Vector3d(-1, -1, -1)}) {
     EXPECT_NEAR(Volume(LoadMesh(file, scale)), 1.0, 1e-6);
-    EXPECT_NEAR(LoadConvexHull(file, scale)->volume, 1.0, 1e-6);
+    EXPECT_NEAR(LoadMeshHull(file, scale).hull->volume, 1.0, 1e-6);
   }
 }
 
 TEST(MeshTest, HullIsNamedAfterTheFileAndContainsTheMesh) {
   const test::TemporaryFolder folder;
   const auto file = folder.Write("a.stl", BinaryStl(Tetrahedron()));
-  const auto hull = LoadConvexHull(file);
+  const auto hull = LoadMeshHull(file).hull;
   EXPECT_EQ(hull->name, file.string());
   EXPECT_EQ(hull->vertices.size(), 4u);
 }

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/diagrams/loading/loaded_diagram.h"
+
+#include <algorithm>
+
+#include "oca/systems/signals/roles.h"
+
+namespace oca::loading {
+
+const LoadedDiagram::Block& LoadedDiagram::BlockOf(const System& system) const {
+  const std::string path = diagram->PathOf(system);
+  return *std::find_if(systems.begin(), systems.end(),
+                       [&](const Block& block) { return block.name == path; });
+}
+
+std::string ExportedName(std::string port) {
+  std::replace(port.begin(), port.end(), '.', '_');
+  return port;
+}
+
+std::vector<std::string> InsideOf(const Diagram& whole) {
+  std::vector<std::string> inside;
+  for (const auto& [path, system] : whole.systems()) {
+    if (system->role<systems::Boundary>() == nullptr) inside.push_back(path);
+  }
+  return inside;
+}
+
+}  // namespace oca::loading

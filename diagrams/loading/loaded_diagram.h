@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "oca/diagrams/files/catalogue.h"
+#include "oca/diagrams/files/diagram_file.h"
+#include "oca/diagrams/files/document.h"
+#include "oca/diagrams/files/output_sections.h"
+#include "oca/diagrams/sampling/scenario.h"
+#include "oca/framework/dataflow/diagram.h"
+#include "oca/systems/signals/model_set.h"
+
+namespace oca::loading {
+
+/// Everything a diagram file says, ready to run.
+struct LoadedDiagram {
+  struct Block {
+    std::string name;
+    std::string type;
+    Value params;  ///< as given, with ${...} worked out and paths of files resolved
+    files::Catalogue::Row row;
+  };
+
+  std::string file;
+  std::vector<std::filesystem::path> sources;     ///< diagram files that were read, first its own
+  std::vector<std::filesystem::path> candidates;  ///< as DocumentSources has them
+  std::vector<std::filesystem::path> opened;      ///< all files that it was made from
+  std::vector<files::Override> overrides;         ///< that it was loaded with
+  Value document;                     ///< includes merged, scenario drawn, overrides applied
+  sampling::Scenario scenario;        ///< what was drawn
+  Value resolved;                     ///< the same without parameters, ${...} worked out
+  std::vector<std::string> warnings;  ///< a line each, with its place
+  std::string name;
+  std::string description;
+  files::SimulatorParams simulator;
+  systems::ModelSet models;
+  std::vector<Block> systems;
+  std::unique_ptr<Diagram> diagram;
+  std::vector<files::RecordedSignal> record;
+  Period scene_period{1, 60};  ///< of the scene in a record
+  std::vector<files::Expectation> expectations;
+  /// Outputs of the systems that judge (systems::Judges), with the names of those.
+  files::NamedOutputs metrics;
+
+  /// The block that a system of the diagram is.
+  const Block& BlockOf(const System& system) const;
+};
+
+/// The name under which a part exports a port: `plant_position` for `plant.position`.
+std::string ExportedName(std::string port);
+
+/// The systems that stand for nothing outside (systems::Boundary), by path: the part that a robot's
+/// own loop runs.
+std::vector<std::string> InsideOf(const Diagram& whole);
+
+}  // namespace oca::loading

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "oca/diagrams/files/catalogue.h"
+#include "oca/diagrams/files/document.h"
+#include "oca/diagrams/sampling/scenario.h"
+#include "oca/framework/dataflow/value.h"
+
+namespace oca::loading {
+
+/// A diagram file as text that means one diagram.
+struct ResolvedDocument {
+  Value document;               ///< includes merged, scenario drawn, overrides applied
+  Value root;                   ///< the same without parameters, ${...} worked out
+  sampling::Scenario scenario;  ///< what was drawn
+  files::DocumentSources sources;
+  std::vector<std::string> warnings;  ///< of parameters that nothing uses, a line each
+};
+
+/// Reads the file and those it includes, draws its scenario, applies `overrides` and works out all
+/// ${...}. What is wrong with an expression or a key is added to `problems`.
+/// throws ConfigError with all problems if there are any before that
+ResolvedDocument ReadResolved(const std::filesystem::path& file,
+                              const std::vector<files::Override>& overrides,
+                              const files::Catalogue& catalogue, Problems& problems);
+
+}  // namespace oca::loading

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What it saves to read a file once:  11_read_once [FILE [TIMES]]
+// Loads the file, and builds it from one Blueprint, TIMES times each with another parameter.
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "oca/diagrams/loading/loader.h"
+
+using Overrides = std::vector<oca::files::Override>;
+
+/// ms a diagram, of `times` that `make` makes.
+template <class Make>
+double Milliseconds(int times, const Make& make) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  for (int i = 0; i < times; ++i) {
+    // Meshes instead of capsules, and every time another kept distance.
+    const std::string margin = std::to_string(0.2 + 1e-4 * i);
+    make(Overrides{{"parameters.arm_meshes", "true"}, {"parameters.max_distance", margin}});
+  }
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count() / times;
+}
+
+int main(int argc, char** argv) try {
+  const std::string file = argc > 1 ? argv[1] : "diagrams/static_test.yaml";
+  const int times = argc > 2 ? std::atoi(argv[2]) : 1000;
+  const double load = Milliseconds(
+      times, [&](const Overrides& overrides) { oca::loading::LoadDiagram(file, overrides); });
+  const oca::loading::Blueprint blueprint(file);
+  const double build =
+      Milliseconds(times, [&](const Overrides& overrides) { blueprint.Build(overrides); });
+  std::printf("%d loads: %.3f ms each; %d builds: %.3f ms each, 1/%.1f\n", times, load, times,
+              build, load / build);
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 2;
+}
