@@ -3,9 +3,11 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "oca/framework/dataflow/signal.h"
@@ -37,7 +39,28 @@ struct MotionMetricsValue {
   std::optional<double> stuck_time;              ///< longest standstill off the goal, s; 0: none
   models::Name stuck_link;                       ///< nearest then; empty if nothing was near
   models::Name stuck_obstacle;
+
+  bool operator==(const MotionMetricsValue&) const = default;
 };
+
+/// A metric by its name: a number, a pair [link, obstacle], or nothing.
+struct Metric {
+  using Value = std::variant<std::monostate, double, std::array<models::Name, 2>>;
+  std::string_view name;
+  Value value{};
+  /// The number; none if it is something else.
+  std::optional<double> number() const;
+};
+/// All of them, in the order of the JSON.
+std::vector<Metric> MetricsIn(const MotionMetricsValue& value);
+/// The metric of a name as a number; none if it has none, or there is no such metric.
+std::optional<double> NumberIn(const MotionMetricsValue& value, std::string_view name);
+/// Sets a metric. Returns false if there is none of that name that is such a value.
+bool SetMetric(MotionMetricsValue& value, const Metric& metric);
+/// The metrics of two judges as one: the nearest approach with its pair and time, the earliest
+/// contact, and of everything else the largest; what both must have (time_to_goal,
+/// certified_min_distance) only if both do.
+MotionMetricsValue WorstOf(const MotionMetricsValue& one, const MotionMetricsValue& other);
 
 /// What the signals were at one instant; those that do not exist are empty.
 struct MotionSample {
