@@ -32,6 +32,8 @@ struct MotionMetricsValue {
   std::optional<double> stuck_time;              ///< longest standstill off the goal, s; 0: none
   models::Name stuck_link;                       ///< nearest then; empty if nothing was near
   models::Name stuck_obstacle;
+
+  bool operator==(const MotionMetricsValue&) const = default;
 };
 
 /// What was measured at one instant; what does not exist is empty.
