@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "oca/models/robot/kinematics.h"
+#include "oca/systems/fields/force_per_proximity.h"
 #include "oca/systems/sensing/model_links.h"
 #include "oca/systems/signals/roles.h"
 
@@ -120,32 +121,26 @@ void VortexField::CalcAxes(const ProximitySet& set, const LinkPoses& poses, Vect
 
 void VortexField::CalcForces(const ProximitySet& set, const Axes& about,
                              LinkForceSet& result) const {
-  result.forces.clear();
-  result.forces.reserve(set.proximities.capacity());  // so no later tick allocates
-  for (const Proximity& proximity : set.proximities) {
-    const int link = LinkNumber(*model_, proximity.link, "proximities");
-    result.forces.push_back({proximity.link, proximity.obstacle,
-                             Force(proximity, about.axes.col(link)), proximity.point_on_link});
-  }
+  ForcePerProximity(set, result, [&](const Proximity& proximity) {
+    return Force(proximity, about.axes.col(LinkNumber(*model_, proximity.link, "proximities")));
+  });
 }
 
 void VortexField::CalcSlopes(const ProximitySet& set, const Axes& about,
                              ContactSlopes& result) const {
-  result.slopes.clear();
-  result.slopes.reserve(set.proximities.capacity());
-  for (const Proximity& proximity : set.proximities) {
-    if (proximity.distance > params_.max_distance) continue;
+  SlopePerProximity(set, result, [&](const Proximity& proximity) -> std::optional<ContactSlope> {
+    if (proximity.distance > params_.max_distance) return std::nullopt;
     const Eigen::Vector3d axis = about.axes.col(LinkNumber(*model_, proximity.link, "proximities"));
     const Eigen::Vector3d& n = proximity.normal;
     const Eigen::Vector3d t = axis.cross(n);
     const double phi = Angle(proximity.distance);
     const bool turning = proximity.distance > 0.0 && phi < params_.turn;
     const double dphi = turning ? 2.0 * params_.turn / params_.max_distance : 0.0;
-    result.slopes.push_back(SlopeAt(
+    return SlopeAt(
         proximity,
         field_.Slope(proximity.distance) * (std::cos(phi) * n + std::sin(phi) * t) -
-            field_.Magnitude(proximity.distance) * dphi * (std::cos(phi) * t - std::sin(phi) * n)));
-  }
+            field_.Magnitude(proximity.distance) * dphi * (std::cos(phi) * t - std::sin(phi) * n));
+  });
 }
 
 void VortexField::Update(const Axes& about, MutableVectorView next) const {

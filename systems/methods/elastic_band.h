@@ -108,7 +108,8 @@ class ElasticBand final : public System {
   void Follow(double time, const Trajectory* request, VectorView measured,
               BandMemory& memory) const;
 
-  bool AsForeseen(double time, const ObstacleSet& set, const BandMemory& memory) const;
+  /// For how long what was seen at the last plan is foreseen to go on, s.
+  double Since(double time, const BandMemory& memory) const;
   void CalcClear(double time, const RequestAhead& request, const ObstacleSet& set,
                  VectorView measured, VectorView planned, const BandMemory& memory,
                  ClearMotion& motion) const;

@@ -8,7 +8,6 @@
 #include "oca/models/robot/motion_limits.h"
 #include "oca/models/robot/robot_model.h"
 #include "oca/models/robot/saturated_task.h"
-#include "oca/systems/basics/require.h"
 #include "oca/systems/methods/velocity_methods.h"
 #include "oca/systems/sensing/model_links.h"
 #include "oca/systems/signals/roles.h"
@@ -18,12 +17,6 @@ namespace {
 
 // An entry of a row that is as good as none, m/rad.
 constexpr double kNoLever = 1e-9;
-
-FlaccoDeLuca::Params Checked(const FlaccoDeLuca::Params& params) {
-  Validated(params);
-  RequireAtLeast("damping_threshold", params.damping_threshold, params.most_damping);
-  return params;
-}
 
 }  // namespace
 
@@ -35,8 +28,7 @@ struct FlaccoDeLuca::Motion {
 };
 
 void FlaccoDeLuca::Params::Describe(Fields<Params>& fields) {
-  fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
-  fields.Add("tip", &Params::tip, "", "link that is repulsed; may be left out if one is last");
+  AddModelAndTip(fields, "link that is repulsed; may be left out if one is last");
   fields.Add("repulsion", &Params::repulsion, "",
              "which links are repulsed: tip, as published, or all");
   fields.Add("repulsion_speed", &Params::repulsion_speed, "m/s", "of a repulsed point near contact")
@@ -50,16 +42,11 @@ void FlaccoDeLuca::Params::Describe(Fields<Params>& fields) {
       .Add("max_joint_velocity", &Params::max_joint_velocity, "rad/s",
            "bound on every joint's speed, beside the model's limits")
       .Above(0.0);
-  fields.Add("most_damping", &Params::most_damping, "m/rad", "damping of a singular direction")
-      .Above(0.0);
-  fields
-      .Add("damping_threshold", &Params::damping_threshold, "m/rad",
-           "singular value below which there is damping; at least most_damping")
-      .Above(0.0);
+  AddDamping(fields);
 }
 
 FlaccoDeLuca::FlaccoDeLuca(const Params& params, const ModelSet& models)
-    : params_(Checked(params)),
+    : params_(WithDamping(params)),
       model_(FilteredModel(models, params.model)),
       tip_(TipNumber(*model_, params.tip)),
       damping_{params.most_damping, params.damping_threshold},

@@ -22,9 +22,8 @@ constexpr double kClose = 0.05;
 constexpr double kContact = 0.01;
 
 TaskPriority::Params Checked(const TaskPriority::Params& params) {
-  Validated(params);
+  WithDamping(params);
   RequireAbove("swap_distance", params.swap_distance, params.contact_distance);
-  RequireAtLeast("damping_threshold", params.damping_threshold, params.most_damping);
   return params;
 }
 
@@ -38,8 +37,7 @@ struct TaskPriority::Rows {
 };
 
 void TaskPriority::Params::Describe(Fields<Params>& fields) {
-  fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
-  fields.Add("tip", &Params::tip, "", "link whose motion is kept; may be left out if one is last");
+  AddModelAndTip(fields, "link whose motion is kept; may be left out if one is last");
   fields.Add("tip_task", &Params::tip_task, "", "what of it is kept: position or pose");
   fields.Add("safe_distance", &Params::safe_distance, "m", "distance that is aimed at").AtLeast(0);
   fields
@@ -60,12 +58,7 @@ void TaskPriority::Params::Describe(Fields<Params>& fields) {
       .Above(0.0);
   fields.Add("contact_distance", &Params::contact_distance, "m", "where they have swapped")
       .AtLeast(0.0);
-  fields.Add("most_damping", &Params::most_damping, "m/rad", "damping of a singular direction")
-      .Above(0.0);
-  fields
-      .Add("damping_threshold", &Params::damping_threshold, "m/rad",
-           "singular value below which there is damping; at least most_damping")
-      .Above(0.0);
+  AddDamping(fields);
 }
 
 TaskPriority::TaskPriority(const Params& params, const ModelSet& models)

@@ -8,13 +8,42 @@
 #include <string>
 #include <vector>
 
+#include "oca/framework/dataflow/params.h"
 #include "oca/models/robot/filtered_inverse.h"
+#include "oca/systems/basics/require.h"
 #include "oca/systems/signals/model_set.h"
 #include "oca/systems/signals/signals.h"
 
 namespace oca::systems {
 
 // What methods that choose joint velocities share.
+
+/// Describes the parameters model and tip, `tip_meaning` being that of the latter.
+template <class P>
+void AddModelAndTip(Fields<P>& fields, const char* tip_meaning) {
+  fields.Add("model", &P::model, "", "name of the robot; may be left out if there is but one");
+  fields.Add("tip", &P::tip, "", tip_meaning);
+}
+
+/// Describes the parameters most_damping and damping_threshold.
+template <class P>
+void AddDamping(Fields<P>& fields) {
+  fields.Add("most_damping", &P::most_damping, "m/rad", "damping of a singular direction")
+      .Above(0.0);
+  fields
+      .Add("damping_threshold", &P::damping_threshold, "m/rad",
+           "singular value below which there is damping; at least most_damping")
+      .Above(0.0);
+}
+
+/// The parameters. throws ConfigError if one is out of its bounds or most_damping exceeds
+/// damping_threshold
+template <class P>
+P WithDamping(const P& params) {
+  Validated(params);
+  RequireAtLeast("damping_threshold", params.damping_threshold, params.most_damping);
+  return params;
+}
 
 /// The joint velocity that a method chose, how much say avoidance had, and the memory that it was
 /// computed in.

@@ -82,6 +82,8 @@ class BulletDistance final : public System {
     std::shared_ptr<const robot::RobotModel> model;
     std::vector<Neighbour> links;
   };
+  /// An empty name stands for the only model there is.
+  static std::string NameOfModel(const ModelSet& models, const std::string& name);
   static std::vector<Neighbour> MakeNeighbours(const std::string& name,
                                                const robot::RobotModel& model);
   static std::vector<Other> MakeOthers(const Params& params, const ModelSet& models);

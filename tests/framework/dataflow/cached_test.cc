@@ -221,11 +221,11 @@ TEST(CachedInDiagramTest, EachOfANestedDiagramHasItsOwn) {
   for (const int i : {0, 1}) {
     DiagramBuilder nested;
     inner[i] = &nested.Add<Squares>("squares");
-    nested.ExportInput("in", inner[i]->in, 2);
+    nested.ExportInput("in", inner[i]->in);
     nested.ExportInput("idle", inner[i]->idle);
     nested.ExportOutput("sum", inner[i]->sum);
     const System& part = builder.AddSystem("part_" + std::to_string(i), nested.Build());
-    builder.ExportInput("in_" + std::to_string(i), part.FindInput("in"));
+    builder.ExportInput("in_" + std::to_string(i), part.FindInput("in"), 2);
     builder.ExportInput("idle", part.FindInput("idle"));
   }
   const auto diagram = builder.Build();
