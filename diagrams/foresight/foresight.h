@@ -35,11 +35,11 @@ namespace oca::foresight {
 /// share the context from which they tell where they are.
 class Foresight {
  public:
-  /// `model` may be empty if only one robot is judged; `models` are those of the diagram, which must
-  /// outlive this.
-  /// throws ConfigError `port: what; ...` for what nobody can know beforehand (obstacles that depend
-  ///        on the run, as a sensor's; a request without a source that knows it), for ports of the
-  ///        judge that nothing drives, and unless there is just one judge
+  /// `model` may be empty if only one robot is judged; `models` are those of the diagram, which
+  /// must outlive this.
+  /// throws ConfigError `port: what; ...` for what nobody can know beforehand (obstacles that
+  ///        depend on the run, as a sensor's; a request without a source that knows it), for ports
+  ///        of the judge that nothing drives, and unless there is just one judge
   Foresight(const Diagram& diagram, const systems::ModelSet& models, const std::string& model,
             double duration);
 
@@ -51,7 +51,7 @@ class Foresight {
   /// What that looks at: systems and models by name.
   const std::vector<std::string>& sees() const { return sees_; }
 
-  const systems::Trajectory& request() const { return *request_; }
+  const motion::Trajectory& request() const { return *request_; }
   const Eigen::VectorXd& start() const { return start_; }
   double duration() const { return duration_; }
   /// The obstacles, then the solids of other models' links, named MODEL/LINK.
@@ -84,7 +84,7 @@ class Foresight {
   std::string judge_;
   std::string distance_;  ///< the block that measures distances for it
   const systems::MeasuresDistances* distances_{nullptr};
-  std::shared_ptr<const systems::Trajectory> request_;
+  std::shared_ptr<const motion::Trajectory> request_;
   Eigen::VectorXd start_;
   std::vector<planning::BandBody> bodies_;
   std::vector<std::pair<int, int>> ignored_;

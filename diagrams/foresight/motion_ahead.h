@@ -8,14 +8,14 @@
 
 #include "oca/framework/dataflow/diagram.h"
 #include "oca/framework/dataflow/period.h"
-#include "oca/systems/commands/trajectory.h"
+#include "oca/models/motion/trajectory.h"
 
 namespace oca::foresight {
 
 /// A motion that is known before it is made, and the system that knows it.
 struct MotionAhead {
-  std::shared_ptr<const systems::Trajectory> motion;  ///< rad or m; never null
-  Period period;                                      ///< of its samples; 0: none
+  std::shared_ptr<const motion::Trajectory> motion;  ///< rad or m; never null
+  Period period;                                     ///< of its samples; 0: none
   const System* source;
 };
 
@@ -40,8 +40,8 @@ struct PositionsAhead {
 /// of the next tick.
 enum class Samples { kBetween, kShown };
 
-/// A Vector output at every time, if time alone moves it; else what MotionAheadOf says is requested.
-/// `diagram` must outlive the answer. One answer a thread.
+/// A Vector output at every time, if time alone moves it; else what MotionAheadOf says is
+/// requested. `diagram` must outlive the answer. One answer a thread.
 /// throws ConfigError as MotionAheadOf; WiringError if the output is no Vector
 PositionsAhead PositionsAheadOf(const Diagram& diagram, const OutputHandle& output, Samples samples,
                                 const std::string& where);

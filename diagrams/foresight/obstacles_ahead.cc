@@ -31,7 +31,7 @@ struct Seen {
 std::vector<Seen> LookAtAll(ObstaclesAhead& ahead, long steps) {
   std::vector<Seen> seen;
   for (long k = 0; k < steps; ++k) {
-    const auto& obstacles = ahead.At(TimeOfStep(k));
+    const auto& obstacles = ahead.At(TimeOfStep(k)).obstacles;
     for (std::size_t place = 0; place < obstacles.size(); ++place) {
       const Obstacle& obstacle = obstacles[place];
       const auto same = [&](const Seen& entry) { return entry.body == obstacle.body; };
@@ -88,18 +88,9 @@ std::shared_ptr<ObstaclesAhead> ObstaclesAhead::Of(const Diagram& diagram,
   return std::make_shared<ObstaclesAhead>(own, always.at(0).role->obstacles, where);
 }
 
-const std::vector<Obstacle>& ObstaclesAhead::At(double time) {
+const systems::ObstacleSet& ObstaclesAhead::At(double time) {
   context_.SetTime(time);
-  return output_.Eval(context_).obstacles;
-}
-
-std::vector<robot::PlacedBody> PlacedBodies(const std::vector<Obstacle>& obstacles) {
-  std::vector<robot::PlacedBody> bodies;
-  bodies.reserve(obstacles.size());
-  for (const Obstacle& obstacle : obstacles) {
-    bodies.push_back({obstacle.body->collider, obstacle.X_WO});
-  }
-  return bodies;
+  return output_.Eval(context_);
 }
 
 std::vector<planning::BandBody> BodiesInTime(const std::shared_ptr<ObstaclesAhead>& obstacles,
@@ -110,7 +101,7 @@ std::vector<planning::BandBody> BodiesInTime(const std::shared_ptr<ObstaclesAhea
     const bool stands = !entry.moves && entry.times == steps;
     const auto pose = [obstacles, body = entry.body, place = entry.place, X = entry.X_WO,
                        stands](double time) {
-      return stands ? X : PoseOf(obstacles->At(time), *body, place);
+      return stands ? X : PoseOf(obstacles->At(time).obstacles, *body, place);
     };
     bodies.push_back({entry.body->id, entry.body->collider, pose, stands});
   }

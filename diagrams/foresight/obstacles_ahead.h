@@ -8,7 +8,6 @@
 #include "oca/framework/dataflow/context.h"
 #include "oca/framework/dataflow/diagram.h"
 #include "oca/models/planning/band_optimizer.h"
-#include "oca/models/robot/clearance.h"
 #include "oca/systems/signals/signals.h"
 
 namespace oca::foresight {
@@ -18,8 +17,8 @@ namespace oca::foresight {
 class ObstaclesAhead {
  public:
   /// `diagram` holds the output and, if it was made for it, belongs to it; else it must outlive it.
-  /// throws ConfigError, which begins with `where`, if the output depends on the run; WiringError if
-  ///        it is no ObstacleSet
+  /// throws ConfigError, which begins with `where`, if the output depends on the run; WiringError
+  ///        if it is no ObstacleSet
   ObstaclesAhead(std::shared_ptr<const Diagram> diagram, const OutputHandle& output,
                  const std::string& where);
 
@@ -29,16 +28,13 @@ class ObstaclesAhead {
                                             const std::string& where);
 
   /// Those that are there at a time; valid until the next look.
-  const std::vector<systems::Obstacle>& At(double time);
+  const systems::ObstacleSet& At(double time);
 
  private:
   const std::shared_ptr<const Diagram> diagram_;
   const Output<systems::ObstacleSet> output_;
   Context context_;
 };
-
-/// The solids of obstacles, in their order.
-std::vector<robot::PlacedBody> PlacedBodies(const std::vector<systems::Obstacle>& obstacles);
 
 /// All that is there at any time from 0 to `duration` (s), looked for every millisecond, in the
 /// order in which it is first seen. What comes later or goes earlier is far below while it is not

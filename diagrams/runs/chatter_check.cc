@@ -89,7 +89,8 @@ std::optional<Loop> LoopOf(const Diagram& diagram, const System& mapping, const 
 }
 
 /// A copy of what a loop computes its delta from, with the positions of the arm to be set: those
-/// requested, which foresight knows, and the delta. Obstacles are as the loop's own sensing has them.
+/// requested, which foresight knows, and the delta. Obstacles are as the loop's own sensing has
+/// them.
 class Probe {
  public:
   Probe(const loading::LoadedDiagram& loaded, const Loop& loop) : loop_(loop) {

@@ -11,6 +11,7 @@
 #include "oca/diagrams/foresight/tree_source.h"
 #include "oca/models/planning/rrt_connect.h"
 #include "oca/models/robot/kinematics.h"
+#include "oca/systems/sensing/placed_bodies.h"
 
 namespace oca::sampling {
 namespace {
@@ -113,7 +114,7 @@ void TaskGeometry::SetObstacles(const Value& root, Problems& problems) {
 }
 
 void TaskGeometry::PlaceObstacles(double time) {
-  clearance_->SetBodies(foresight::PlacedBodies(obstacles_->At(time)));
+  clearance_->SetBodies(systems::PlacedBodies(obstacles_->At(time)));
 }
 
 double TaskGeometry::Distance(const Eigen::VectorXd& q, double time) {

@@ -20,10 +20,10 @@ namespace oca::systems {
 /// "stuck", "nearest", "link", "obstacle", "time", "cost", "evaluations"}; the bands themselves are
 /// neither written nor read.
 struct BandMemory {
-  planning::BandCurve held{};                   ///< up to `change`
-  planning::BandCurve next{};                   ///< from then on; empty: held goes on
-  double change{0.0};                           ///< s
-  std::shared_ptr<const Trajectory> request{};  ///< that next was made for
+  planning::BandCurve held{};                           ///< up to `change`
+  planning::BandCurve next{};                           ///< from then on; empty: held goes on
+  double change{0.0};                                   ///< s
+  std::shared_ptr<const motion::Trajectory> request{};  ///< that next was made for
   std::vector<Obstacle> seen{};
   double seen_at{0.0};     ///< s
   double sure_from{0.0};   ///< s; from then on the bands were made for what is seen

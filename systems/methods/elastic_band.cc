@@ -45,7 +45,7 @@ ElasticBand::Params Checked(const ElasticBand::Params& params) {
   return params;
 }
 
-void RequireSize(const Trajectory& request, Eigen::Index size) {
+void RequireSize(const motion::Trajectory& request, Eigen::Index size) {
   if (request.size() == size) return;
   throw ConfigError(fmt::format("ahead: length; got {} joints; expected {}", request.size(), size));
 }
@@ -217,7 +217,7 @@ std::vector<planning::BandBody> ElasticBand::MakeBodies(double time, const Obsta
   return bodies;
 }
 
-bool ElasticBand::Astray(double time, const Trajectory* request, VectorView measured,
+bool ElasticBand::Astray(double time, const motion::Trajectory* request, VectorView measured,
                          BandMemory& memory) const {
   memory.planned.resize(measured.size());
   request->Evaluate(time, 0, memory.planned);
@@ -238,7 +238,7 @@ bool ElasticBand::Kept(double time, const RequestAhead& request, const ObstacleS
          !Astray(time, request.trajectory.get(), measured, memory);
 }
 
-void ElasticBand::Follow(double time, const Trajectory* request, VectorView measured,
+void ElasticBand::Follow(double time, const motion::Trajectory* request, VectorView measured,
                          BandMemory& memory) const {
   if (memory.resting.size() != measured.size() ||
       (measured - memory.resting).cwiseAbs().maxCoeff() > params_.stuck_motion ||
@@ -260,7 +260,7 @@ void ElasticBand::Report(double time, const BandMemory& memory, Log& log) const 
                         params_.stuck_time, pair));
 }
 
-planning::BandTask ElasticBand::MakeTask(double time, const Trajectory* request,
+planning::BandTask ElasticBand::MakeTask(double time, const motion::Trajectory* request,
                                          const std::vector<planning::BandBody>& bodies,
                                          VectorView measured, OptionalVector rate,
                                          BandMemory& memory) const {

@@ -97,15 +97,15 @@ class ElasticBand final : public System {
  private:
   using OptionalVector = std::optional<VectorView>;
   static planning::BandPlannerSettings SettingsOf(const Params& params);
-  planning::BandTask MakeTask(double time, const Trajectory* request,
+  planning::BandTask MakeTask(double time, const motion::Trajectory* request,
                               const std::vector<planning::BandBody>& bodies, VectorView measured,
                               OptionalVector rate, BandMemory& memory) const;
   std::vector<planning::BandBody> MakeBodies(double time, const ObstacleSet& set) const;
   bool Kept(double time, const RequestAhead& request, const ObstacleSet& set, VectorView measured,
             BandMemory& memory) const;
-  bool Astray(double time, const Trajectory* request, VectorView measured,
+  bool Astray(double time, const motion::Trajectory* request, VectorView measured,
               BandMemory& memory) const;
-  void Follow(double time, const Trajectory* request, VectorView measured,
+  void Follow(double time, const motion::Trajectory* request, VectorView measured,
               BandMemory& memory) const;
 
   /// For how long what was seen at the last plan is foreseen to go on, s.

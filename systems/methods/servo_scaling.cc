@@ -70,8 +70,8 @@ double ServoScaling::Law(double distance, bool own) const {
   return distance > 0.0 ? std::exp(kFallOff * (distance / slow - 1.0)) : 0.0;
 }
 
-const Trajectory* ServoScaling::Known(const RequestAhead& request) const {
-  const Trajectory* known = request.trajectory.get();
+const motion::Trajectory* ServoScaling::Known(const RequestAhead& request) const {
+  const motion::Trajectory* known = request.trajectory.get();
   if (known == nullptr || known->size() == model_->num_positions()) return known;
   throw ConfigError(fmt::format("ahead: length; got {} joints; expected {}", known->size(),
                                 model_->num_positions()));
@@ -83,7 +83,7 @@ void ServoScaling::CalcSlowed(const ProximitySet& set, const LinkPoses& poses,
                               const RequestAhead& request, VectorView s, Slowed& result) const {
   const auto X_WL = PosesInOrder(*model_, poses, result.reordered);
   robot::JointVector rate = robot::JointVector::Zero(model_->num_positions());
-  const Trajectory* known = Known(request);
+  const motion::Trajectory* known = Known(request);
   if (known != nullptr) known->Evaluate(s[0], 1, rate);
   double least = known != nullptr ? 1.0 : 0.0;
   for (const Proximity& proximity : set.proximities) {
@@ -105,7 +105,7 @@ void ServoScaling::CalcScale(const Slowed& result, MutableVectorView out) const 
 
 void ServoScaling::CalcDelta(const RequestAhead& request, VectorView now, VectorView s,
                              MutableVectorView out) const {
-  const Trajectory* known = Known(request);
+  const motion::Trajectory* known = Known(request);
   if (known == nullptr) {
     out.setZero();
     return;

@@ -70,7 +70,7 @@ class ServoScaling final : public System {
   const std::shared_ptr<const robot::RobotModel> model_;
   const DiscreteState<Vector> s_;
 
-  const Trajectory* Known(const RequestAhead& request) const;
+  const motion::Trajectory* Known(const RequestAhead& request) const;
   void Start(double time, MutableVectorView s) const;
   struct Slowed;
   void CalcSlowed(const ProximitySet& set, const LinkPoses& poses, const RequestAhead& request,

@@ -52,18 +52,16 @@ struct Scene {
   std::unique_ptr<Diagram> diagram;
 };
 
-double X(const std::vector<systems::Obstacle>& obstacles) {
-  return obstacles.at(1).X_WO.translation().x();
-}
+double X(const systems::ObstacleSet& set) { return set.obstacles.at(1).X_WO.translation().x(); }
 
 TEST(ObstaclesAheadTest, AreWhereTheOutputHasThemInAnyOrderOfTimes) {
   Scene scene;
   scene.Build();
   ObstaclesAhead ahead(scene.Shared(), scene.source.obstacles, "here");
   EXPECT_DOUBLE_EQ(X(ahead.At(0.25)), 0.2);  // the last sample
-  EXPECT_EQ(ahead.At(0.25).size(), 3u);
+  EXPECT_EQ(ahead.At(0.25).obstacles.size(), 3u);
   EXPECT_DOUBLE_EQ(X(ahead.At(0.1)), 0.1);
-  EXPECT_EQ(ahead.At(0.1).size(), 2u);
+  EXPECT_EQ(ahead.At(0.1).obstacles.size(), 2u);
 }
 
 TEST(ObstaclesAheadTest, OfASourceThatSamplesAreThereBetweenItsSamplesToo) {
@@ -94,19 +92,6 @@ TEST(ObstaclesAheadTest, OfASensorAreRefusedForTheyDependOnTheRun) {
     FAIL() << "was accepted";
   } catch (const ConfigError& error) {
     EXPECT_THAT(error.what(), HasSubstr("distance.obstacles: driver; got 'sensor', which depends"));
-  }
-}
-
-TEST(ObstaclesAheadTest, BecomePlacedBodiesInTheirOrder) {
-  Scene scene;
-  scene.Build();
-  ObstaclesAhead ahead(scene.Shared(), scene.source.obstacles, "here");
-  const auto& obstacles = ahead.At(0.2);
-  const auto bodies = PlacedBodies(obstacles);
-  ASSERT_EQ(bodies.size(), 3u);
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    EXPECT_EQ(bodies[i].collider, obstacles[i].body->collider);
-    EXPECT_EQ(bodies[i].X_WO.matrix(), obstacles[i].X_WO.matrix());
   }
 }
 

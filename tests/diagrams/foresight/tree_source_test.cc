@@ -23,7 +23,10 @@ systems:
     type: ObstacleSource
     period: 0.1
     obstacles:
-      - {id: ball, shape: {type: sphere, radius: 0.1}, pose: {xyz: [0, 0, 0]}, motion: {type: linear, velocity: [1, 0, 0]}}
+      - id: ball
+        shape: {type: sphere, radius: 0.1}
+        pose: {xyz: [0, 0, 0]}
+        motion: {type: linear, velocity: [1, 0, 0]}
   gain: {type: Gain, gain: 2}
   wrong: {type: SplineGenerator, key_points: []}
   no_type: {gain: 2}
@@ -54,7 +57,7 @@ TEST(TreeSourceTest, IsAFunctionOfTimeThoughTheFileSamplesIt) {
   ASSERT_NE(obstacles.source, nullptr) << obstacles.Problem();
   const std::shared_ptr<const Diagram> shared(std::shared_ptr<void>(), obstacles.source.get());
   ObstaclesAhead ahead(shared, shared->FindOutput("obstacles.obstacles"), "here");
-  EXPECT_DOUBLE_EQ(ahead.At(0.25).at(0).X_WO.translation().x(), 0.25);
+  EXPECT_DOUBLE_EQ(ahead.At(0.25).obstacles.at(0).X_WO.translation().x(), 0.25);
 }
 
 TEST(TreeSourceTest, IsNoneForWhatIsNotThereOrNotToBeMadeAlone) {

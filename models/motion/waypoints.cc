@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "oca/models/motion/waypoints.h"
+
 #include <fmt/format.h>
 
-#include "oca/framework/dataflow/error.h"
 #include "oca/models/csv_table.h"
 #include "oca/models/error.h"
 #include "oca/models/file_cache.h"
-#include "oca/systems/sensing/obstacle_motion.h"
 
-namespace oca::systems {
+namespace oca::motion {
 namespace {
 
-std::vector<WaypointParams> ReadTable(const std::string& file) {
+std::vector<Waypoint> ReadWaypointTable(const std::string& file) {
   models::CsvTable table(file);
   std::vector<std::size_t> columns = table.Columns({"time", "x", "y", "z"});
   if (columns.empty()) {
-    throw ConfigError(fmt::format(
+    throw models::ModelError(fmt::format(
         "{}: names of columns; got none; expected time,x,y,z or time,x,y,z,roll,pitch,yaw",
         table.where()));
   }
@@ -26,7 +26,7 @@ std::vector<WaypointParams> ReadTable(const std::string& file) {
   const auto vector_at = [&](std::size_t i) -> Eigen::Vector3d {
     return {table.Number(columns[i]), table.Number(columns[i + 1]), table.Number(columns[i + 2])};
   };
-  std::vector<WaypointParams> waypoints;
+  std::vector<Waypoint> waypoints;
   while (table.NextRow()) {
     waypoints.push_back({table.Number(columns[0]), vector_at(1), {}});
     if (rotates) waypoints.back().rpy = vector_at(4);
@@ -36,13 +36,9 @@ std::vector<WaypointParams> ReadTable(const std::string& file) {
 
 }  // namespace
 
-std::vector<WaypointParams> ReadWaypoints(const std::string& file) {
-  try {
-    return *models::ReadOnce<std::vector<WaypointParams>>(file, "waypoints",
-                                                          [&] { return ReadTable(file); });
-  } catch (const models::ModelError& error) {
-    throw ConfigError(error.what());
-  }
+std::vector<Waypoint> ReadWaypoints(const std::string& file) {
+  return *models::ReadOnce<std::vector<Waypoint>>(file, "waypoints",
+                                                  [&] { return ReadWaypointTable(file); });
 }
 
-}  // namespace oca::systems
+}  // namespace oca::motion

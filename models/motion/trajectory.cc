@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "oca/systems/commands/trajectory.h"
+#include "oca/models/motion/trajectory.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace oca::systems {
+namespace oca::motion {
 namespace {
 
 using Eigen::MatrixXd;
@@ -158,4 +158,4 @@ Eigen::VectorXd Trajectory::Evaluate(double time, int derivative) const {
   return out;
 }
 
-}  // namespace oca::systems
+}  // namespace oca::motion

@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "oca/systems/commands/key_points.h"
+#include "oca/models/motion/key_points.h"
 
-namespace oca::systems {
+namespace oca::motion {
 
 /// A vector-valued piecewise polynomial through key points, with its derivatives.
 ///
@@ -24,7 +24,7 @@ class Trajectory {
  public:
   enum class Ends { kClamped, kNatural };
 
-  // The points must be as KeyPointsFrom returns them: at least one, times increasing.
+  // The points must be as CheckKeyPoints accepts them: at least one, times increasing.
 
   /// Straight lines; velocities and accelerations of the points are not used.
   static Trajectory Linear(const std::vector<KeyPoint>& points);
@@ -54,4 +54,4 @@ class Trajectory {
   Eigen::VectorXd last_;
 };
 
-}  // namespace oca::systems
+}  // namespace oca::motion

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "oca/systems/commands/trajectory.h"
+#include "oca/models/motion/trajectory.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace oca::systems {
+namespace oca::motion {
 namespace trajectory_test {
 
 using Eigen::Vector2d;
@@ -167,4 +167,4 @@ TEST(TrajectoryTest, LinesTakeTheRateOfTheLaterSegmentAtAKnot) {
 }
 
 }  // namespace trajectory_test
-}  // namespace oca::systems
+}  // namespace oca::motion

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "oca/systems/sensing/rotation.h"
+#include "oca/models/geometry/rotation.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "oca/framework/dataflow/error.h"
+#include "oca/models/error.h"
 
-namespace oca::systems {
+namespace oca::geometry {
 namespace {
 
 // Four numbers rounded to three digits are off by 0.0005 each, so their length by 0.001.
@@ -15,7 +15,7 @@ constexpr double kLengthRounding = 1e-3;
 
 void CheckLength(double length, const std::string& where, const char* expected) {
   if (std::fabs(length - 1.0) <= kLengthRounding) return;
-  throw ConfigError(fmt::format("{}: length; got {}; expected {}", where, length, expected));
+  throw models::ModelError(fmt::format("{}: length; got {}; expected {}", where, length, expected));
 }
 
 }  // namespace
@@ -37,4 +37,4 @@ Eigen::Vector3d CheckedUnitVector(const Eigen::Vector3d& vector, const std::stri
   return vector.normalized();
 }
 
-}  // namespace oca::systems
+}  // namespace oca::geometry
