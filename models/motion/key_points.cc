@@ -147,7 +147,7 @@ std::vector<KeyPoint> ReadKeyPointTable(const std::string& path,
 std::vector<KeyPoint> ReadKeyPoints(const std::string& path,
                                     const std::vector<std::string>& joints) {
   return *models::ReadOnce<std::vector<KeyPoint>>(
-      path, fmt::format("key points {}", fmt::join(joints, " ")),
+      path, fmt::format("key points\n{}", fmt::join(joints, "\n")),
       [&] { return ReadKeyPointTable(path, joints); });
 }
 

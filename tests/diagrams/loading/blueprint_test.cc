@@ -183,9 +183,11 @@ systems:
       - id: cut
         shape: {type: mesh, file: package://mine/angle.obj, collision: decomposition}
         pose: {xyz: [3, 0, 0]}
-      - {id: ground, shape: {type: heightmap, file: ground.csv, cell: 0.5, scale: 1}}
+      - id: ground
+        shape: {type: heightmap, file: ground.csv, cell: 0.5, scale: 1}
+        pose: {xyz: [0, 0, -3]}
       - {id: dots, shape: {type: cloud, file: dots.xyz, radius: 0.1}, pose: {xyz: [9, 0, 0]}}
-      - {id: mover, shape: {type: sphere, radius: 0.1}, motion: {type: waypoints, file: way.csv}}
+      - {id: mover, shape: {type: sphere, radius: 0.1}, motion: {type: csv, file: way.csv}}
   spline: {type: SplineGenerator, file: points.csv, period: 0.01}
 )");
     folder_.Write("files/part_a.yaml",
@@ -226,9 +228,9 @@ TEST_F(OwnFilesTest, ABuildReadsNothingThatWasRead) {
   EXPECT_EQ(Everything(blueprint.Build(limited)), fresh[2]);
   EXPECT_EQ(Everything(blueprint.Build(thicker)), fresh[3]);
   EXPECT_THAT(RefusalOf([&] {
-                blueprint.Build({{"parameters.kind", "b"}});
+                blueprint.Build({{"parameters.kind", "c"}});
               }),
-              HasSubstr("part_b.yaml"));
+              HasSubstr("part_c.yaml: error: cannot be read"));
   EXPECT_THAT(RefusalOf([&] { LoadDiagram(file(), other); }), HasSubstr("cannot be read"));
 }
 
@@ -316,7 +318,8 @@ TEST(BlueprintTest, BuildsPartsAndMovableDiagrams) {
   EXPECT_LT(part.systems.size(), whole.systems.size());
   EXPECT_NO_THROW(part.diagram->GetInput<Vector>("plant_position"));
   EXPECT_THAT(part.record, IsEmpty());
-  const auto& inputs = blueprint.Build({}, {.movable = true}).diagram->exported_inputs();
+  const LoadedDiagram movable = blueprint.Build({}, {.movable = true});
+  const auto& inputs = movable.diagram->exported_inputs();
   ASSERT_EQ(inputs.size(), 1u);
   EXPECT_EQ(inputs.front().name, "obstacles_offsets");
   EXPECT_THAT(whole.diagram->exported_inputs(), IsEmpty());
