@@ -20,7 +20,7 @@ std::optional<double> ValueOf(const files::Expectation& expectation,
                               const loading::LoadedDiagram& loaded, const Context& context) {
   if (expectation.metric) {
     const auto metrics = WorstOf(JudgementsOf(loaded, context));
-    return metrics ? NumberIn(*metrics, expectation.member) : std::nullopt;
+    return metrics ? systems::NumberIn(*metrics, expectation.member) : std::nullopt;
   }
   if (expectation.member.empty()) {
     return EvalVector(expectation.output, context)[static_cast<std::size_t>(expectation.index)];
@@ -28,7 +28,7 @@ std::optional<double> ValueOf(const files::Expectation& expectation,
   const SignalType& type = TypeOfPort(expectation.output);
   const void* const value = EvalObject(expectation.output, context);
   if (&type == &TypeOf<MotionMetricsValue>()) {
-    return NumberIn(*static_cast<const MotionMetricsValue*>(value), expectation.member);
+    return systems::NumberIn(*static_cast<const MotionMetricsValue*>(value), expectation.member);
   }
   return NumberIn(type, value, expectation.member);
 }
