@@ -6,13 +6,13 @@
 
 #include <algorithm>
 #include <charconv>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "oca/diagrams/files/section.h"
 #include "oca/framework/dataflow/dynamic_port.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/nearest.h"
+#include "oca/framework/dataflow/signal_shape.h"
 #include "oca/models/file_cache.h"
 
 namespace oca::files {
@@ -67,13 +67,10 @@ void ReadSignal(const Value::Entry& entry, const NamedOutputs& outputs,
   }
 }
 
-/// The members of a signal type's JSON object, from a value made by default.
+/// The members of a signal type's JSON object.
 std::vector<std::string> ReadMembers(const SignalType& type) {
   std::vector<std::string> names;
-  const auto json = nlohmann::ordered_json::parse(DefaultJson(type));
-  if (json.is_object()) {
-    for (const auto& item : json.items()) names.push_back(item.key());
-  }
+  for (const auto& [name, shape] : ShapeOf(type).members) names.push_back(name);
   return names;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "oca/diagrams/files/section.h"
+#include "oca/diagrams/foresight/tree_source.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/systems/signals/roles.h"
 
@@ -95,7 +96,7 @@ void SystemSection::Make(const Value::Entry& entry, const Value& type, const std
   for (const Value::Entry& field : *entry.value.map()) {
     if (field.key != "type") rest.push_back(field);
   }
-  TellObstacles(rest);
+  foresight::TellGoal(Entries(), catalogue_, rest);
   const files::Catalogue::Row& row = catalogue_.Find(*type.string());
   Value params = models_.ResolveFiles(Value(std::move(rest), entry.value.location()));
   // A model that did not load has been reported; its users would only repeat it.
@@ -120,32 +121,6 @@ void SystemSection::KeepWarnings(const System& system, const std::string& where,
       warnings_.push_back(fmt::format("{}: warning: {}: {}", location.ToString(), where, line));
     }
   }
-}
-
-/// A goal with a clearance is kept from the obstacles of the file, unless it names others.
-void SystemSection::TellObstacles(Value::Map& params) const {
-  for (Value::Entry& field : params) {
-    const bool goal = field.key == "goal" && field.value.Find("clearance") != nullptr;
-    if (!goal || field.value.Find("around") != nullptr) continue;
-    Value::List sources;
-    for (const Value::Entry& system : Entries()) {
-      const Value* const type = system.value.Find("type");
-      if (type == nullptr || type->string() == nullptr) continue;
-      if (!SaysObstacles(*type->string())) continue;
-      Value::Map source = *system.value.map();
-      std::erase_if(source, [](const Value::Entry& entry) { return entry.key == "type"; });
-      sources.emplace_back(std::move(source), system.value.location());
-    }
-    field.value.map()->push_back({"around", field.location, {std::move(sources), field.location}});
-  }
-}
-
-/// Whether a system of a type says by its parameters where obstacles are.
-bool SystemSection::SaysObstacles(const std::string& type) const {
-  const auto& rows = catalogue_.rows();
-  return std::any_of(rows.begin(), rows.end(), [&](const files::Catalogue::Row& row) {
-    return row->type == type && row->says_obstacles;
-  });
 }
 
 }  // namespace oca::loading

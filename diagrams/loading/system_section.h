@@ -51,8 +51,6 @@ class SystemSection {
   const Value* TypeOf(const Value::Entry& entry, const std::string& where);
   void Make(const Value::Entry& entry, const Value& type, const std::string& where);
   void KeepWarnings(const System& system, const std::string& where, const Location& location);
-  void TellObstacles(Value::Map& params) const;
-  bool SaysObstacles(const std::string& type) const;
 
   const Value& root_;
   const Part& part_;
