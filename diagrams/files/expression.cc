@@ -172,11 +172,13 @@ std::vector<std::string> Expressions::Unused(const std::set<std::string>& known)
 Value Expressions::Resolve(const Value& value) {
   if (const Value::List* const list = value.list()) {
     Value::List result;
+    result.reserve(list->size());
     for (const Value& item : *list) result.push_back(Resolve(item));
     return Value(std::move(result), value.location());
   }
   if (const Value::Map* const map = value.map()) {
     Value::Map result;
+    result.reserve(map->size());
     for (const Value::Entry& entry : *map) {
       result.push_back({entry.key, entry.location, Resolve(entry.value)});
     }

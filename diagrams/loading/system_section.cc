@@ -92,12 +92,13 @@ const Value* SystemSection::TypeOf(const Value::Entry& entry, const std::string&
 
 void SystemSection::Make(const Value::Entry& entry, const Value& type, const std::string& where) {
   Value::Map rest;
+  rest.reserve(entry.value.map()->size());
   for (const Value::Entry& field : *entry.value.map()) {
     if (field.key != "type") rest.push_back(field);
   }
   foresight::TellGoal(Entries(), catalogue_, rest);
   const files::Catalogue::Row& row = catalogue_.Find(*type.string());
-  const Value params = models_.ResolveFiles(Value(std::move(rest), entry.value.location()));
+  Value params = models_.ResolveFiles(Value(std::move(rest), entry.value.location()));
   // A model that did not load has been reported; its users would only repeat it.
   if (models_.failed() && row->needs_models) return;
   auto system = row->Make(params, where, models_.models(), problems_);
@@ -110,7 +111,7 @@ void SystemSection::Make(const Value::Entry& entry, const Value& type, const std
   }
   made.system = nullptr;  // until the builder has taken it
   made.system = &builder_.AddSystem(entry.key, std::move(system));
-  blocks_.push_back({entry.key, row->type, params, row});
+  blocks_.push_back({entry.key, row->type, std::move(params), row});
 }
 
 void SystemSection::KeepWarnings(const System& system, const std::string& where,
