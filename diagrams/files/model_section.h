@@ -24,10 +24,10 @@ class ModelSection {
   const std::vector<std::string>& warnings() const { return warnings_; }
   /// `value` with the texts of all keys named `file` made paths from where the program runs; they
   /// are written relative to the file they stand in, or as package://NAME/PATH.
-  Value ResolveFiles(Value value);
+  Value ResolveFiles(const Value& value);
 
  private:
-  void ResolveFilesIn(Value& value);
+  Value ResolveName(const Value& name);
   void ReadPackages(const Value& root);
   void ReadModel(const Value::Entry& entry);
   std::filesystem::path Resolve(const std::string& name, const Location& location) const;
