@@ -1,77 +1,117 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oca/framework/dataflow/value.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
-#include <memory>
-#include <string>
-#include <thread>
-#include <utility>
-#include <vector>
+#include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/nearest.h"
 
 namespace oca {
 namespace value_test {
 
-Location At(int line) { return {std::make_shared<const std::string>("file"), line, 1}; }
+const auto kFile = std::make_shared<const std::string>("arm.yaml");
 
-Value Tree() {
-  Value::Map inner{{"gain", At(2), Value(1.5, At(2))}, {"name", At(3), Value("arm", At(3))}};
-  Value::Map outer{{"field", At(1), Value(std::move(inner), At(1))},
-                   {"list", At(4), Value(Value::List{Value(1.0, At(4))}, At(4))}};
-  return Value(std::move(outer), At(1));
+TEST(LocationTest, ReadsAsFileLineColumn) {
+  EXPECT_EQ((Location{kFile, 3, 14}.ToString()), "arm.yaml:3:14");
+  EXPECT_EQ((Location{std::make_shared<const std::string>("-s"), 0, 0}.ToString()), "-s");
+  EXPECT_EQ(Location().ToString(), "parameters");
 }
 
-double GainOf(const Value& tree) {
-  double gain = 0.0;
-  tree.Find("field")->Find("gain")->number(gain);
-  return gain;
+TEST(ValueTest, KnowsItsKindAndNoOther) {
+  const Value nothing;
+  const Value boolean(true, {});
+  const Value integer(std::int64_t{7}, {});
+  const Value real(2.5, {});
+  const Value text(std::string("seven"), {});
+  EXPECT_TRUE(nothing.null());
+  EXPECT_TRUE(*boolean.boolean());
+  EXPECT_EQ(*integer.integer(), 7);
+  EXPECT_EQ(*text.string(), "seven");
+  EXPECT_EQ(real.integer(), nullptr);
+  EXPECT_EQ(boolean.integer(), nullptr);
+  EXPECT_EQ(integer.boolean(), nullptr);
+  EXPECT_EQ(text.list(), nullptr);
+  EXPECT_EQ(nothing.map(), nullptr);
+  EXPECT_FALSE(integer.null());
 }
 
-TEST(ValueTest, ACopySharesUntilItChanges) {
-  const Value tree = Tree();
-  Value copy = tree;
-  EXPECT_TRUE(copy.Shares(tree));
-  Value::Map& fields = *(*copy.map())[0].value.map();
-  fields[0].value = Value(2.5, At(9));
-  EXPECT_FALSE(copy.Shares(tree));
-  EXPECT_EQ(GainOf(tree), 1.5);
-  EXPECT_EQ(GainOf(copy), 2.5);
-  EXPECT_TRUE(copy.Find("list")->Shares(*tree.Find("list")));  // nobody touched it
+TEST(ValueTest, IntegersAreNumbersAndTextsAreNot) {
+  double number = -1.0;
+  EXPECT_TRUE(Value(std::int64_t{7}, {}).number(number));
+  EXPECT_EQ(number, 7.0);
+  EXPECT_TRUE(Value(2.5, {}).number(number));
+  EXPECT_EQ(number, 2.5);
+  EXPECT_FALSE(Value(std::string("7"), {}).number(number));
+  EXPECT_FALSE(Value(true, {}).number(number));
+  EXPECT_FALSE(Value().number(number));
+  EXPECT_EQ(number, 2.5);
 }
 
-TEST(ValueTest, OneOwnerChangesInPlace) {
-  Value tree = Tree();
-  const Value::Map* const before = std::as_const(tree).map();
-  EXPECT_EQ(tree.map(), before);
+TEST(ValueTest, FindsTheEntriesOfAMap) {
+  const Value map(Value::Map{{"a", {}, Value(1.0, {})}, {"b", {}, Value(2.0, {})}}, {});
+  double number = 0.0;
+  ASSERT_NE(map.Find("b"), nullptr);
+  EXPECT_TRUE(map.Find("b")->number(number));
+  EXPECT_EQ(number, 2.0);
+  EXPECT_EQ(map.Find("c"), nullptr);
+  EXPECT_EQ(Value(1.0, {}).Find("a"), nullptr);
 }
 
-TEST(ValueTest, EqualIsNotShared) {
-  EXPECT_FALSE(Tree().Shares(Tree()));
-  EXPECT_FALSE(Value(1.0, At(1)).Shares(Value(1.0, At(1))));
+TEST(ValueTest, ShowsItselfForMessages) {
+  EXPECT_EQ(Value().Show(), "nothing");
+  EXPECT_EQ(Value(false, {}).Show(), "false");
+  EXPECT_EQ(Value(std::int64_t{-7}, {}).Show(), "-7");
+  EXPECT_EQ(Value(0.1, {}).Show(), "0.1");
+  EXPECT_EQ(Value(std::string("text"), {}).Show(), "'text'");
+  EXPECT_EQ(Value(Value::List{}, {}).Show(), "a list");
+  EXPECT_EQ(Value(Value::Map{}, {}).Show(), "a map");
+  EXPECT_EQ(Value(std::string(60, 'a'), {}).Show(), "'" + std::string(60, 'a') + "'");
+  EXPECT_EQ(Value(std::string(61, 'a'), {}).Show(), "'" + std::string(60, 'a') + "...'");
 }
 
-TEST(ValueTest, StandsElsewhereWithTheSameContent) {
-  const Value tree = Tree();
-  const Value moved = tree.At(At(7));
-  EXPECT_EQ(moved.location().line, 7);
-  EXPECT_EQ(tree.location().line, 1);
-  EXPECT_TRUE(moved.Shares(tree));
-}
-
-TEST(ValueTest, ThreadsChangeCopiesOfOneTree) {
-  const Value tree = Tree();
-  std::vector<std::thread> threads;
-  std::vector<Value> copies(4, tree);
-  for (std::size_t t = 0; t < copies.size(); ++t) {
-    threads.emplace_back([&copy = copies[t], t] {
-      for (int i = 0; i < 200; ++i) {
-        (*(*copy.map())[0].value.map())[0].value = Value(static_cast<double>(t), At(1));
-      }
-    });
+TEST(ProblemsTest, AreThrownTogetherOneALine) {
+  Problems problems;
+  EXPECT_NO_THROW(problems.Throw());
+  EXPECT_TRUE(problems.empty());
+  problems.Add({kFile, 1, 2}, "first");
+  problems.Add({kFile, 3, 4}, "second");
+  EXPECT_FALSE(problems.empty());
+  try {
+    problems.Throw();
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(), "arm.yaml:1:2: error: first\narm.yaml:3:4: error: second");
   }
-  for (std::thread& thread : threads) thread.join();
-  for (std::size_t t = 0; t < copies.size(); ++t) EXPECT_EQ(GainOf(copies[t]), t);
-  EXPECT_EQ(GainOf(tree), 1.5);
+}
+
+TEST(DidYouMeanTest, SuggestsTheNearestName) {
+  const std::vector<std::string> names{"gain", "max_distance", "min_distance", "period"};
+  EXPECT_EQ(DidYouMean("gian", names), "; did you mean 'gain'?");
+  EXPECT_EQ(DidYouMean("max_distanse", names), "; did you mean 'max_distance'?");
+  EXPECT_EQ(DidYouMean("perod", names), "; did you mean 'period'?");
+  EXPECT_EQ(DidYouMean("", names), "");
+  EXPECT_EQ(DidYouMean("completely_else", names), "");
+  EXPECT_EQ(DidYouMean("gain", {}), "");
+}
+
+TEST(DidYouMeanTest, AllowsTwoEditsOrAThirdOfTheWordAndNoMore) {
+  const std::vector<std::string> names{"abcdefghi"};
+  EXPECT_NE(DidYouMean("abcdefxyz", names), "");  // 3 of 9
+  EXPECT_EQ(DidYouMean("abcdewxyz", names), "");  // 4 of 9
+  const std::vector<std::string> brief{"abc"};
+  EXPECT_NE(DidYouMean("axy", brief), "");  // 2 of 3
+  EXPECT_EQ(DidYouMean("xyz", brief), "");  // nothing in common
+  EXPECT_EQ(DidYouMean("xy", brief), "");
+}
+
+TEST(DidYouMeanTest, CountsATranspositionOnce) {
+  const std::vector<std::string> names{"ba__", "ab"};
+  EXPECT_EQ(DidYouMean("ba", names), "; did you mean 'ab'?");
+}
+
+TEST(DidYouMeanTest, DoesNotTryHugeWords) {
+  const std::vector<std::string> names{std::string(201, 'a')};
+  EXPECT_EQ(DidYouMean(std::string(201, 'a'), names), "");
 }
 
 }  // namespace value_test
