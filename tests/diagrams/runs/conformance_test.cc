@@ -328,8 +328,7 @@ TEST_P(ConformanceTest, NoOutputThatReadsAnInputHasAValueBeforeItIsFixed) {
     for (const InputHandle& input : diagram->UpstreamOf(port, Through::kInstant).exported) {
       if (diagram->inputs()[input.index].optional) continue;
       std::string text;
-      EXPECT_THROW(EvalJson(port, context, text), SimulationError)
-          << output.name << " is " << text;
+      EXPECT_THROW(EvalJson(port, context, text), SimulationError) << output.name << " is " << text;
     }
   }
 }

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "oca/framework/simulation/integration_method.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 
+#include "oca/framework/simulation/integration_method.h"
 #include "oca/framework/simulation/simulator.h"
 #include "tests/framework/dataflow/blocks.h"
 #include "tests/framework/simulation/integrator_kinds.h"
