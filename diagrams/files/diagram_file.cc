@@ -3,18 +3,6 @@
 
 namespace oca::files {
 
-void SimulatorParams::Describe(Fields<SimulatorParams>& fields) {
-  fields.Add("duration", &SimulatorParams::duration, "s", "how long to run")
-      .AtLeast(0.0)
-      .AtMost(1e7);
-  fields.Include(&SimulatorParams::integration);
-  fields
-      .Add("realtime_factor", &SimulatorParams::realtime_factor, "",
-           "simulated seconds to a second of the wall clock; 0 runs as fast as possible")
-      .AtLeast(0.0);
-  fields.Add("seed", &SimulatorParams::seed, "", "of everything random in the run").AtLeast(0.0);
-}
-
 void AttachedParams::Describe(Fields<AttachedParams>& fields) {
   fields.Add("id", &AttachedParams::id, "", "its name, as a link of the robot").Required();
   fields.Add("link", &AttachedParams::link, "", "link that carries it").Required();
@@ -45,16 +33,6 @@ void ModelParams::Describe(Fields<ModelParams>& fields) {
       .Above(0.0);
   fields.Add("attached", &ModelParams::attached, "",
              "tools and grasped objects: they move with a link of the robot and collide");
-}
-
-void ExpectParams::Describe(Fields<ExpectParams>& fields) {
-  fields.Add("at_least", &ExpectParams::at_least, "", "lower bound");
-  fields.Add("at_most", &ExpectParams::at_most, "", "upper bound");
-  fields.Add("equal", &ExpectParams::equal, "", "value, give or take `within`");
-  fields.Add("within", &ExpectParams::within, "", "distance from `equal` that is allowed")
-      .AtLeast(0.0);
-  fields.Add("at", &ExpectParams::at, "s", "when to look; the end of the run if left out")
-      .AtLeast(0.0);
 }
 
 const std::vector<Section>& Sections() {

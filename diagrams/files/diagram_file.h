@@ -8,21 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "oca/framework/dataflow/integrator_options.h"
 #include "oca/framework/dataflow/params.h"
 #include "oca/models/robot/urdf.h"
 #include "oca/systems/sensing/geometry_params.h"
 
 namespace oca::files {
-
-/// Section `simulator`.
-struct SimulatorParams {
-  double duration{10.0};
-  IntegratorOptions integration{};
-  int seed{0};
-  double realtime_factor{0.0};
-  static void Describe(Fields<SimulatorParams>& fields);
-};
 
 /// An entry of `attached` of a model: a tool or a grasped object.
 struct AttachedParams {
@@ -45,16 +35,6 @@ struct ModelParams {
   std::optional<PerComponent> jerk_limits{};
   std::vector<AttachedParams> attached{};
   static void Describe(Fields<ModelParams>& fields);
-};
-
-/// An entry of `expect`: a bound on a metric or a signal.
-struct ExpectParams {
-  std::optional<double> at_least{};
-  std::optional<double> at_most{};
-  std::optional<double> equal{};
-  double within{0.0};
-  std::optional<double> at{};
-  static void Describe(Fields<ExpectParams>& fields);
 };
 
 /// Keys of a diagram file with their meaning; their order is that of the schema.

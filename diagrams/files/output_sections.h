@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "oca/diagrams/files/diagram_file.h"
+#include "oca/diagrams/files/run_params.h"
 #include "oca/framework/dataflow/diagram.h"
 #include "oca/framework/dataflow/period.h"
 #include "oca/framework/dataflow/value.h"

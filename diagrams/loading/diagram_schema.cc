@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "oca/diagrams/files/diagram_file.h"
+#include "oca/diagrams/files/run_params.h"
 #include "oca/diagrams/loading/schema_tree.h"
 #include "oca/diagrams/sampling/scenario.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "oca/diagrams/files/catalogue.h"
-#include "oca/diagrams/files/diagram_file.h"
+#include "oca/diagrams/files/run_params.h"
 #include "oca/diagrams/files/document.h"
 #include "oca/diagrams/files/output_sections.h"
 #include "oca/diagrams/sampling/scenario.h"

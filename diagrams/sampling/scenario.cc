@@ -8,8 +8,8 @@
 #include <optional>
 #include <utility>
 
-#include "oca/diagrams/files/diagram_file.h"
 #include "oca/diagrams/files/expression.h"
+#include "oca/diagrams/files/run_params.h"
 #include "oca/diagrams/sampling/acceptance.h"
 #include "oca/diagrams/sampling/distribution.h"
 #include "oca/diagrams/sampling/random_obstacles.h"

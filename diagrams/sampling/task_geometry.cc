@@ -6,11 +6,12 @@
 #include <algorithm>
 #include <utility>
 
-#include "oca/diagrams/files/diagram_file.h"
 #include "oca/diagrams/files/model_section.h"
+#include "oca/diagrams/files/run_params.h"
 #include "oca/diagrams/foresight/tree_source.h"
 #include "oca/models/planning/rrt_connect.h"
 #include "oca/models/robot/kinematics.h"
+#include "oca/systems/sensing/geometry_params.h"
 #include "oca/systems/sensing/placed_bodies.h"
 
 namespace oca::sampling {
