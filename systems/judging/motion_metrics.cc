@@ -4,6 +4,14 @@
 #include "oca/systems/sensing/model_links.h"
 #include "oca/systems/signals/roles.h"
 
+namespace oca {
+
+Fault Signal<robot::MotionTally>::Check(const robot::MotionTally& value, Look /*look*/) {
+  return Fault::UnlessFinite(value.finite());
+}
+
+}  // namespace oca
+
 namespace oca::systems {
 
 void MotionMetrics::Params::Describe(Fields<Params>& fields) {

@@ -7,10 +7,21 @@
 
 #include "oca/framework/dataflow/params.h"
 #include "oca/framework/dataflow/system.h"
+#include "oca/models/robot/motion_tally.h"
 #include "oca/models/robot/travel_bound.h"
 #include "oca/systems/signals/model_set.h"
 #include "oca/systems/signals/motion_metrics_value.h"
 #include "oca/systems/signals/signals.h"
+
+namespace oca {
+
+template <>
+struct Signal<robot::MotionTally> {
+  static constexpr const char* kName = "MotionTally";
+  static Fault Check(const robot::MotionTally& value, Look look);
+};
+
+}  // namespace oca
 
 namespace oca::systems {
 

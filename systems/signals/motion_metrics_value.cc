@@ -146,8 +146,4 @@ void Signal<MotionMetricsValue>::WriteJson(const MotionMetricsValue& value, std:
   out += json.dump();
 }
 
-Fault Signal<robot::MotionTally>::Check(const robot::MotionTally& value, Look /*look*/) {
-  return Fault::UnlessFinite(value.finite());
-}
-
 }  // namespace oca

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "oca/framework/dataflow/signal.h"
-#include "oca/models/robot/motion_tally.h"
+#include "oca/models/robot/motion_metrics.h"
 
 namespace oca::systems {
 
@@ -45,11 +45,6 @@ struct Signal<systems::MotionMetricsValue> {
   static constexpr const char* kName = "MotionMetrics";
   static Fault Check(const systems::MotionMetricsValue& value, Look look);
   static void WriteJson(const systems::MotionMetricsValue& value, std::string& out);
-};
-template <>
-struct Signal<robot::MotionTally> {
-  static constexpr const char* kName = "MotionTally";
-  static Fault Check(const robot::MotionTally& value, Look look);
 };
 
 }  // namespace oca
