@@ -15,6 +15,9 @@
 
 namespace oca::files {
 
+/// The type of a system that is a diagram file itself, which this one uses.
+inline constexpr const char* kDiagramType = "Diagram";
+
 /// Section `simulator`.
 struct SimulatorParams {
   double duration{10.0};
@@ -57,11 +60,16 @@ struct ExpectParams {
   static void Describe(Fields<ExpectParams>& fields);
 };
 
-/// Keys of a diagram file with their meaning; their order is that of the schema.
+/// A key with its meaning.
 struct Section {
   const char* key;
   const char* meaning;
 };
+/// The keys of a diagram file; their order is that of the schema.
 const std::vector<Section>& Sections();
+
+/// What a system of type kDiagramType is, and its keys beside `type`.
+inline constexpr const char* kDiagramSummary = "is a diagram file that this one uses";
+const std::vector<Section>& DiagramKeys();
 
 }  // namespace oca::files

@@ -205,9 +205,10 @@ class Runner {
       ExpectationResult& result = result_.expectations[i];
       if (result.at != time || result.value) continue;
       const files::Expectation& expectation = loaded_.expectations[i];
-      result.value = expectation.metric
-                         ? MemberOf(MetricsOf(loaded_, simulator_.context()), expectation.member)
-                         : ValueOf(expectation, simulator_.context());
+      result.value = expectation.judges.empty()
+                         ? ValueOf(expectation, simulator_.context())
+                         : MemberOf(MetricsOf(expectation.judges, simulator_.context()),
+                                    expectation.member);
       result.ok = result.value && Holds(expectation.bound, *result.value);
     }
   }
@@ -243,9 +244,13 @@ bool RunResult::ExpectationsMet() const {
 }
 
 std::string MetricsOf(const loading::LoadedDiagram& loaded, const Context& context) {
+  return MetricsOf(loaded.metrics, context);
+}
+
+std::string MetricsOf(const files::NamedOutputs& judges, const Context& context) {
   ordered_json all = ordered_json::object();
   try {
-    for (const auto& [name, output] : loaded.metrics) {
+    for (const auto& [name, output] : judges) {
       std::string text;
       EvalJson(output, context, text);
       const auto metrics = ordered_json::parse(text);

@@ -65,6 +65,8 @@ struct RunResult {
 /// largest of everything else. A JSON object; `{}` without a MotionMetrics, or if it cannot be
 /// computed.
 std::string MetricsOf(const loading::LoadedDiagram& loaded, const Context& context);
+/// The same of some of them.
+std::string MetricsOf(const files::NamedOutputs& judges, const Context& context);
 
 /// Runs a loaded diagram from time 0. A contact that no expectation allows is an expectation that
 /// was not met: `min_distance > 0` joins the others. A calculation that fails ends the run with

@@ -22,9 +22,16 @@ constexpr std::size_t kMostMoving = 8;
 template <std::size_t>
 using PosesOfOne = LinkPoses;  // as many as there are indices
 
-// An empty name stands for the only model there is.
-std::string NameOfModel(const ModelSet& models, const std::string& name) {
-  return name.empty() && models.all().size() == 1 ? models.all().begin()->first : name;
+// `others: ["*"]`
+bool LooksAtAll(const BulletDistance::Params& params) {
+  return params.others.size() == 1 && params.others.front() == "*";
+}
+
+// Of an entry of `ignore`: the model's full name before the link's; an obstacle's id as it is.
+std::string FullLinkName(const ModelSet& models, const std::string& name) {
+  const std::size_t slash = name.find('/');
+  if (slash == std::string::npos) return name;
+  return models.FullName(name.substr(0, slash)) + name.substr(slash);
 }
 
 bool Moves(const robot::RobotModel& model) { return model.num_positions() > 0; }
@@ -75,11 +82,12 @@ void BulletDistance::Params::Describe(Fields<Params>& fields) {
   fields.Add("self_collision", &Params::self_collision, "",
              "whether links of the robot itself count as obstacles, but for adjacent ones and "
              "those disabled in the SRDF");
-  fields.Add("others", &Params::others, "", "models whose links count as obstacles");
+  fields.Add("others", &Params::others, "",
+             "models whose links count as obstacles; [\"*\"]: all others of the diagram");
 }
 
 BulletDistance::BulletDistance(const Params& params, const ModelSet& models)
-    : name_(NameOfModel(models, Validated(params).model)),
+    : name_(models.FullName(Validated(params).model)),
       model_(MovableModel(models, params.model)),
       max_distance_(params.max_distance),
       self_collision_(params.self_collision),
@@ -105,13 +113,20 @@ void BulletDistance::DeclareRoles(const Params& params, const ModelSet& models) 
                              .obstacles = obstacles,
                              .model = name_,
                              .own_links = self_collision_};
-  for (const std::string& name : link_forces_ ? params.others : std::vector<std::string>()) {
+  const auto add = [&](const std::string& name) {
     std::size_t i = 0;
     while (others_[i].name != name) ++i;
     const bool moves = i < links_of_others.size();
     measures.others.push_back({name, moves ? InputHandle(links_of_others[i]) : InputHandle{}});
+  };
+  if (link_forces_ && LooksAtAll(params)) {
+    for (const Other& other : others_) add(other.name);
+  } else if (link_forces_) {
+    for (const std::string& name : params.others) add(models.FullName(name));
   }
-  for (const auto& pair : params.ignore) measures.ignored.emplace_back(pair[0], pair[1]);
+  for (const auto& pair : params.ignore) {
+    measures.ignored.emplace_back(pair[0], FullLinkName(models, pair[1]));
+  }
   DeclareRole(std::move(measures));
   DeclareRole(BlindSpots{.spots =
                              [params, models](const std::string& own_name) {
@@ -139,11 +154,12 @@ std::vector<BulletDistance::Neighbour> BulletDistance::MakeNeighbours(
 
 std::vector<BulletDistance::Other> BulletDistance::MakeOthers(const Params& params,
                                                               const ModelSet& models) {
+  const std::string own = models.FullName(params.model);
+  ModelSet::Models all = models.all();
+  all.erase(own);
   if (params.calculate_link_forces && params.others.empty()) {
     std::vector<std::string> names;
-    for (const auto& entry : models.all()) {
-      if (entry.first != NameOfModel(models, params.model)) names.push_back(entry.first);
-    }
+    for (const auto& entry : all) names.push_back(entry.first);
     throw ConfigError(fmt::format(
         "calculate_link_forces: got true without `others`; expected the models whose links push{}",
         names.empty()
@@ -151,15 +167,24 @@ std::vector<BulletDistance::Other> BulletDistance::MakeOthers(const Params& para
             : fmt::format(", of: {}", fmt::join(names, ", "))));
   }
   std::vector<Other> others;
-  for (const std::string& name : params.others) {
-    const auto model = models.Get(name);
-    const bool again = std::any_of(others.begin(), others.end(),
-                                   [&](const Other& other) { return other.name == name; });
-    if (name.empty() || again || name == NameOfModel(models, params.model)) {
-      throw ConfigError(
-          fmt::format("others: got '{}'; expected each other model once by its name", name));
-    }
+  const auto add = [&others](const std::string& name,
+                             const std::shared_ptr<const robot::RobotModel>& model) {
     others.push_back({name, model, MakeNeighbours(name, *model)});
+  };
+  if (LooksAtAll(params)) {
+    for (const auto& [name, model] : all) add(name, model);
+  } else {
+    for (const std::string& given : params.others) {
+      const auto model = models.Get(given);
+      const std::string name = models.FullName(given);
+      const bool again = std::any_of(others.begin(), others.end(),
+                                     [&](const Other& other) { return other.name == name; });
+      if (given.empty() || again || name == own) {
+        throw ConfigError(
+            fmt::format("others: got '{}'; expected each other model once by its name", given));
+      }
+      add(name, model);
+    }
   }
   std::stable_partition(others.begin(), others.end(),
                         [](const Other& other) { return Moves(*other.model); });
@@ -187,8 +212,8 @@ std::vector<std::pair<models::Name, models::Name>> BulletDistance::MakeIgnored(
     } catch (const std::runtime_error& error) {
       throw ConfigError(fmt::format("ignore[{}]: {}", i, error.what()));
     }
-    ignored.emplace_back(pair[0], pair[1]);
-    if (slash == std::string::npos || model != name_) continue;
+    ignored.emplace_back(pair[0], FullLinkName(models, pair[1]));
+    if (slash == std::string::npos || models.FullName(model) != name_) continue;
     ignored.emplace_back(pair[1].substr(slash + 1), name_ + "/" + pair[0]);
   }
   return ignored;
@@ -201,7 +226,9 @@ std::vector<Input<LinkPoses>> BulletDistance::DeclareOtherLinks() {
   }
   std::vector<Input<LinkPoses>> inputs;
   for (std::size_t i = 0; i < moving_others_; ++i) {
-    inputs.push_back(DeclareInput<LinkPoses>("links_" + others_[i].name));
+    std::string port = "links_" + others_[i].name;
+    std::replace(port.begin(), port.end(), '.', '_');
+    inputs.push_back(DeclareInput<LinkPoses>(port));
   }
   return inputs;
 }

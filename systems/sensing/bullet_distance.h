@@ -42,7 +42,8 @@ namespace oca::systems {
 ///
 /// in    links         LinkPoses    of `model`
 /// in    obstacles     ObstacleSet
-/// in    links_<name>  LinkPoses    for each of `others` that has movable joints; with velocities
+/// in    links_<name>  LinkPoses    for each of `others` that has movable joints; with velocities;
+///                                  by its full name, `_` for a dot
 /// out   proximities   ProximitySet
 /// out   scene         ObstacleScene  the obstacles, arranged for searches
 /// out   near          NearObstacles  of each movable link that has solids, in the model's order
