@@ -18,41 +18,16 @@
 namespace oca::models {
 namespace {
 
+using internal::IsBlank;
+using internal::LooksLikeNumber;
+using internal::Lower;
+using internal::Shown;
 using internal::ToNumber;
-
-constexpr std::string_view kBlanks = " \t";
+using internal::Trimmed;
 
 bool IsControl(char c) {
   const auto byte = static_cast<unsigned char>(c);
   return (byte < 0x20 && c != '\t' && c != '\r' && c != '\n') || byte == 0x7f;
-}
-
-bool IsBlank(char c) { return c == ' ' || c == '\t'; }
-
-std::string_view Trimmed(std::string_view text) {
-  const auto begin = text.find_first_not_of(kBlanks);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
-}
-
-std::string Lower(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return lower;
-}
-
-/// The beginning of a cell, printable.
-std::string Shown(std::string_view cell) {
-  std::string shown(cell.substr(0, 40));
-  std::replace_if(
-      shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return shown;
-}
-
-/// Whether a cell was meant for a number, be it with a decimal comma.
-bool LooksLikeNumber(std::string cell) {
-  std::replace(cell.begin(), cell.end(), ',', '.');
-  return ToNumber(cell).has_value();
 }
 
 /// A line without what stands in quotes, a letter for each.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <filesystem>
 #include <utility>
 
 #include "oca/models/opened_files.h"
@@ -45,11 +46,10 @@ std::shared_ptr<FileCache::Entry> FileCache::EntryOf(Keep keep, const std::strin
   return forms.front().entry;
 }
 
-std::shared_ptr<const void> FileCache::Get(Keep keep, const std::filesystem::path& file,
-                                           std::type_index type, const std::string& form,
-                                           const Read& read) {
+std::shared_ptr<const void> FileCache::Get(Keep keep, const std::string& file, std::type_index type,
+                                           const std::string& form, const Read& read) {
   if (cache_in_use == nullptr) return read();
-  const std::shared_ptr<Entry> entry = cache_in_use->EntryOf(keep, file.native(), type, form);
+  const std::shared_ptr<Entry> entry = cache_in_use->EntryOf(keep, file, type, form);
   if (!entry->done) {
     const std::lock_guard lock(entry->reading);
     if (!entry->done) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -48,11 +47,11 @@ class FileCache {
 
  private:
   template <class T>
-  friend std::shared_ptr<const T> ReadOnce(const std::filesystem::path& file,
-                                           const std::string& form, const std::function<T()>& read);
+  friend std::shared_ptr<const T> ReadOnce(const std::string& file, const std::string& form,
+                                           const std::function<T()>& read);
   template <class T>
-  friend std::shared_ptr<const T> MakeOnce(const std::filesystem::path& file,
-                                           const std::string& form, const std::function<T()>& make);
+  friend std::shared_ptr<const T> MakeOnce(const std::string& file, const std::string& form,
+                                           const std::function<T()>& make);
   enum class Keep { kAlways, kRecent };
   using Read = std::function<std::shared_ptr<const void>()>;
   struct Entry;
@@ -68,9 +67,8 @@ class FileCache {
   };
 
   /// From the cache in use; of `read` itself if there is none.
-  static std::shared_ptr<const void> Get(Keep keep, const std::filesystem::path& file,
-                                         std::type_index type, const std::string& form,
-                                         const Read& read);
+  static std::shared_ptr<const void> Get(Keep keep, const std::string& file, std::type_index type,
+                                         const std::string& form, const Read& read);
   std::shared_ptr<Entry> EntryOf(Keep keep, const std::string& file, std::type_index type,
                                  const std::string& form);
 
@@ -78,11 +76,11 @@ class FileCache {
   std::unordered_map<std::string, File> files_;
 };
 
-/// What `read` reads of a file, or read of it before if this thread uses a FileCache. `form` tells
+/// What `read` reads of a file, which goes by a text of its own, its path as a rule, or read of it before if this thread uses a FileCache. `form` tells
 /// it from all else of type T that is read of the file. OpenedFiles hears of the files either way.
 /// throws what `read` throws
 template <class T>
-std::shared_ptr<const T> ReadOnce(const std::filesystem::path& file, const std::string& form,
+std::shared_ptr<const T> ReadOnce(const std::string& file, const std::string& form,
                                   const std::function<T()>& read) {
   return std::static_pointer_cast<const T>(
       FileCache::Get(FileCache::Keep::kAlways, file, typeid(T), form,
@@ -91,7 +89,7 @@ std::shared_ptr<const T> ReadOnce(const std::filesystem::path& file, const std::
 
 /// The same of what `make` makes of a file and of parameters, which `form` holds all of.
 template <class T>
-std::shared_ptr<const T> MakeOnce(const std::filesystem::path& file, const std::string& form,
+std::shared_ptr<const T> MakeOnce(const std::string& file, const std::string& form,
                                   const std::function<T()>& make) {
   return std::static_pointer_cast<const T>(
       FileCache::Get(FileCache::Keep::kRecent, file, typeid(T), form,

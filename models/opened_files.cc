@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include "oca/models/error.h"
@@ -22,7 +23,12 @@ bool Below(const fs::path& file, const fs::path& folder) {
 
 }  // namespace
 
-fs::path PlainPath(const fs::path& file) { return fs::absolute(file).lexically_normal(); }
+fs::path PlainPath(const fs::path& file) {
+  const std::string& name = file.native();
+  const bool plain = name.starts_with('/') && name.find("//") == std::string::npos &&
+                     name.find("/.") == std::string::npos;  // as most are: saves their parsing
+  return plain ? file : fs::absolute(file).lexically_normal();
+}
 
 bool LiesBelow(const fs::path& file, const fs::path& folder) {
   fs::path root = PlainPath(folder);

@@ -18,6 +18,21 @@ std::string ReadWhole(const std::filesystem::path& file);
 /// The same of a file that we wrote ourselves, which nobody notes.
 std::string ReadOwn(const std::filesystem::path& file);
 
+/// Whether it keeps cells apart: a blank or a tab.
+bool IsBlank(char c);
+
+/// Without the blanks and tabs around it.
+std::string_view Trimmed(std::string_view text);
+
+/// With small letters; ASCII alone.
+std::string Lower(std::string_view text);
+
+/// The beginning of a cell, printable.
+std::string Shown(std::string_view cell);
+
+/// Whether a cell was meant for a number, be it with a decimal comma.
+bool LooksLikeNumber(std::string cell);
+
 /// Cuts `text` at tabs and blanks.
 std::vector<std::string_view> Words(std::string_view text);
 

@@ -4,8 +4,8 @@
 # and three random scenarios with every method, by both, and compares all signals bit for bit, what
 # is said of the motion too. For changes that must not change behaviour.
 # Usage: tools/compare_traces.sh OLD_SIMULATOR NEW_SIMULATOR [TABLE]
-#   TABLE  of signals by their names in the old build, a line each: `OLD NEW` (renamed), `OLD -`
-#          (removed); `*` in OLD stands for any system
+#   TABLE  of signals, a line each: `OLD NEW` (renamed), `OLD -` (removed), `- NEW` (added); `*`
+#          stands for any system, but in NEW of one that is renamed
 # Prints each difference; exit status 1 if there is any.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -42,6 +42,13 @@ for case in "${cases[@]}"; do
   trace "$new" "$work/new" "${words[@]}"
   wait
   awk '{ print $1, $2 }' "$table" | while read -r from to; do
+    if [ "$from" = - ]; then
+      for path in "$work/new/"*.*; do
+        name=$(basename "${path%.*}")
+        if [[ $name == $to ]]; then rm "$path"; fi
+      done
+      continue
+    fi
     for path in "$work/old/"*.*; do
       name=$(basename "${path%.*}")
       [[ $name == $from ]] || continue

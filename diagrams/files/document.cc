@@ -71,7 +71,7 @@ Texts TextsOf(const std::vector<Override>& overrides) {
   for (const Override& change : overrides) {
     if (!change.path.starts_with(kParameters)) continue;
     Problems ignored;  // Apply reports them
-    const Value value = ReadYaml(change.value, "-s " + change.path, ignored);
+    const Value value = change.Read(ignored);
     if (value.string() == nullptr) continue;
     const std::string name = change.path.substr(kParameters.size());
     std::erase_if(texts, [&](const auto& text) { return text.first == name; });  // the last counts

@@ -2,16 +2,17 @@
 #include "oca/diagrams/files/expression.h"
 
 #include <fmt/format.h>
-#include <muParser.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <numbers>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
 #include <vector>
 
+#include "oca/diagrams/files/arithmetic.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/nearest.h"
 
@@ -27,16 +28,6 @@ std::string Trim(const std::string& text) {
   const auto first = text.find_first_not_of(" \t");
   if (first == std::string::npos) return "";
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
-bool IsName(const std::string& text) {
-  if (text.empty() || (std::isalpha(static_cast<unsigned char>(text[0])) == 0 && text[0] != '_')) {
-    return false;
-  }
-  for (const unsigned char c : text) {
-    if (std::isalnum(c) == 0 && c != '_') return false;
-  }
-  return true;
 }
 
 bool IsQuoted(const std::string& text) {
@@ -84,15 +75,6 @@ bool IsLogical(const std::string& expression) {
     }
   }
   return false;
-}
-
-double Not(double x) { return x == 0.0 ? 1.0 : 0.0; }
-
-/// Names that an expression would not take for a parameter.
-bool IsReserved(const std::string& name) {
-  static const mu::Parser parser;
-  return name == "pi" || name == "deg" || name == "true" || name == "false" ||
-         parser.GetFunDef().contains(name);
 }
 
 /// Values in a tree; a text counts for every 16 characters.
@@ -190,11 +172,13 @@ std::vector<std::string> Expressions::Unused(const std::set<std::string>& known)
 Value Expressions::Resolve(const Value& value) {
   if (const Value::List* const list = value.list()) {
     Value::List result;
+    result.reserve(list->size());
     for (const Value& item : *list) result.push_back(Resolve(item));
     return Value(std::move(result), value.location());
   }
   if (const Value::Map* const map = value.map()) {
     Value::Map result;
+    result.reserve(map->size());
     for (const Value::Entry& entry : *map) {
       result.push_back({entry.key, entry.location, Resolve(entry.value)});
     }
@@ -306,62 +290,51 @@ void Expressions::SayNotFinite(const std::string& expression, const std::set<std
 }
 
 Value Expressions::Arithmetic(const std::string& expression, const Location& location) {
-  try {
-    mu::Parser parser;
-    parser.DefineConst("pi", std::numbers::pi);
-    parser.DefineConst("deg", std::numbers::pi / 180.0);
-    parser.DefineInfixOprt("!", Not);
-    parser.SetExpr(expression);
-    // A parser that meets an unknown name says so; a known one is defined when it is met.
-    std::set<std::string> names;
-    for (std::size_t i = 0; i < expression.size();) {
-      std::size_t end = i;
-      while (end < expression.size() &&
-             (std::isalnum(static_cast<unsigned char>(expression[end])) != 0 ||
-              expression[end] == '_')) {
-        ++end;
-      }
-      if (const std::string word = expression.substr(i, end - i); IsName(word)) names.insert(word);
-      i = std::max(end, i + 1);
-    }
-    for (const std::string& name : names) {
-      if (!written_.contains(name)) continue;
-      const Value* const value = Use(name, location);
-      if (value == nullptr) return Value({}, location);
-      double number = 0.0;
-      if (value->boolean() != nullptr) number = *value->boolean() ? 1.0 : 0.0;
-      if (value->boolean() == nullptr && !value->number(number)) {
-        SayOnce(location, fmt::format("${{{}}}: '{}' is {}; expected a number", expression, name,
-                                      value->Show()));
-        return Value({}, location);
-      }
-      parser.DefineConst(name, number);
-    }
-    if (names.contains("true")) parser.DefineConst("true", 1.0);
-    if (names.contains("false")) parser.DefineConst("false", 0.0);
-    const double result = parser.Eval();
-    if (const int count = parser.GetNumResults(); count != 1) {
-      problems_.Add(location, fmt::format("${{{}}}: got {} values; expected one (with a decimal "
-                                          "point, not a comma)",
-                                          expression, count));
+  const std::set<std::string> names = NamesIn(expression);
+  std::map<std::string, double> numbers;
+  for (const std::string& name : names) {
+    if (!written_.contains(name)) continue;
+    const Value* const value = Use(name, location);
+    if (value == nullptr) return Value({}, location);
+    double number = 0.0;
+    if (value->boolean() != nullptr) number = *value->boolean() ? 1.0 : 0.0;
+    if (value->boolean() == nullptr && !value->number(number)) {
+      SayOnce(location, fmt::format("${{{}}}: '{}' is {}; expected a number", expression, name,
+                                    value->Show()));
       return Value({}, location);
     }
-    if (!std::isfinite(result)) {
+    numbers[name] = number;
+  }
+  if (names.contains("true")) numbers["true"] = 1.0;
+  if (names.contains("false")) numbers["false"] = 0.0;
+  try {
+    const ArithmeticResult result = Calculate(expression, numbers);
+    if (result.count != 1) {
+      problems_.Add(location, fmt::format("${{{}}}: got {} values; expected one (with a decimal "
+                                          "point, not a comma)",
+                                          expression, result.count));
+      return Value({}, location);
+    }
+    if (!std::isfinite(result.number)) {
       SayNotFinite(expression, names, location);
       return Value({}, location);
     }
-    if (IsLogical(expression)) return Value(result != 0.0, location);
-    return Value(result, location);
-  } catch (const mu::Parser::exception_type& error) {
-    std::vector<std::string> names{"pi", "deg"};
-    for (const auto& entry : written_) names.push_back(entry.first);
-    const bool unknown = error.GetCode() == mu::ecUNASSIGNABLE_TOKEN;
-    problems_.Add(location, unknown
-                                ? fmt::format("${{{}}}: unknown parameter '{}'{}", expression,
-                                              error.GetToken(), DidYouMean(error.GetToken(), names))
-                                : fmt::format("${{{}}}: {}", expression, error.GetMsg()));
+    if (IsLogical(expression)) return Value(result.number != 0.0, location);
+    return Value(result.number, location);
+  } catch (const ArithmeticError& error) {
+    SayMistake(expression, error, location);
     return Value({}, location);
   }
+}
+
+void Expressions::SayMistake(const std::string& expression, const ArithmeticError& error,
+                             const Location& location) {
+  std::vector<std::string> names{"pi", "deg"};
+  for (const auto& entry : written_) names.push_back(entry.first);
+  problems_.Add(location, error.unknown.empty()
+                              ? fmt::format("${{{}}}: {}", expression, error.what())
+                              : fmt::format("${{{}}}: unknown parameter '{}'{}", expression,
+                                            error.unknown, DidYouMean(error.unknown, names)));
 }
 
 }  // namespace oca::files

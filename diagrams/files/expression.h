@@ -11,6 +11,8 @@
 
 namespace oca::files {
 
+class ArithmeticError;
+
 /// Replaces `${...}` in every text of a tree.
 ///
 /// A text that is wholly `${name}` takes the parameter's type and value; `${arithmetic}` becomes a
@@ -43,6 +45,8 @@ class Expressions {
   Value Arithmetic(const std::string& expression, const Location& location);
   /// What a parameter is to blame for is told once, however many systems use it.
   void SayOnce(const Location& location, const std::string& what);
+  void SayMistake(const std::string& expression, const ArithmeticError& error,
+                  const Location& location);
   void SayNotFinite(const std::string& expression, const std::set<std::string>& names,
                     const Location& location);
   const Value* Parameter(const std::string& name, const Location& location);

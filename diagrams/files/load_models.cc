@@ -2,6 +2,7 @@
 #include "oca/diagrams/files/load_models.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -74,9 +75,15 @@ Read ReadModel(const std::string& where, const ModelParams& params, const Packag
 /// Tells what ReadModel makes from what else it makes of the same URDF.
 std::string FormOf(const std::string& where, const ModelParams& params,
                    const PackageMap& packages) {
-  ModelParams placed_nowhere = params;
-  placed_nowhere.base_pose = {};
-  std::string form = where + "\n" + JsonOfFields(FieldsOf<ModelParams>(), &placed_nowhere).dump();
+  std::string form =
+      fmt::format("{}\n{}\n{} {}", where, params.srdf, static_cast<int>(params.collision),
+                  static_cast<int>(params.visual_as_collision));
+  for (const auto* const limits : {&params.acceleration_limits, &params.jerk_limits}) {
+    form += limits->has_value() ? fmt::format("\n{}", fmt::join((*limits)->values(), " ")) : "\n";
+  }
+  for (const AttachedParams& object : params.attached) {
+    form += "\n" + JsonOfFields(FieldsOf<AttachedParams>(), &object).dump();
+  }
   for (const auto& [name, folder] : packages) {
     form += fmt::format("\n{} {}", name, folder.native());
   }
@@ -96,8 +103,9 @@ std::shared_ptr<const robot::RobotModel> LoadModel(const std::string& where,
   if (warn) {
     for (const std::string& line : read->lines) warn(line);
   }
-  const std::string pose = JsonOfFields(FieldsOf<systems::PoseParams>(), &params.base_pose).dump();
-  return *models::MakeOnce<ModelPtr>(params.urdf, form + "\n" + pose, [&]() -> ModelPtr {
+  const std::string pose =
+      fmt::format("\nbase {}", fmt::join(X_WB.data(), X_WB.data() + X_WB.matrix().size(), " "));
+  return *models::MakeOnce<ModelPtr>(params.urdf, form + pose, [&]() -> ModelPtr {
     return std::make_shared<const robot::RobotModel>(read->model->At(X_WB));
   });
 }

@@ -130,26 +130,27 @@ void ModelSection::Take(const Value::Entry& given, const Value* own, const Model
   }
 }
 
-Value ModelSection::ResolveFiles(const Value& value) {
+Value ModelSection::ResolveFiles(Value value) {
+  ResolveFilesIn(value);
+  return value;
+}
+
+void ModelSection::ResolveFilesIn(Value& value) {
   if (value.list() != nullptr) {
-    Value::List list;
-    for (const Value& item : *value.list()) list.push_back(ResolveFiles(item));
-    return Value(std::move(list), value.location());
+    for (Value& item : *value.list()) ResolveFilesIn(item);
   }
-  if (value.map() == nullptr) return value;
-  Value::Map map;
-  for (const Value::Entry& entry : *value.map()) {
-    Value inner = ResolveFiles(entry.value);
-    if (entry.key == "file" && inner.string() != nullptr) {
-      try {
-        inner = Value(Resolve(*inner.string(), inner.location()).string(), inner.location());
-      } catch (const ConfigError& error) {
-        problems_.Add(inner.location(), error.what());
-      }
+  if (value.map() == nullptr) return;
+  for (Value::Entry& entry : *value.map()) {
+    ResolveFilesIn(entry.value);
+    const std::string* const name = entry.key == "file" ? entry.value.string() : nullptr;
+    if (name == nullptr) continue;
+    try {
+      const Location location = entry.value.location();
+      entry.value = Value(Resolve(*name, location).string(), location);
+    } catch (const ConfigError& error) {
+      problems_.Add(entry.value.location(), error.what());
     }
-    map.push_back({entry.key, entry.location, std::move(inner)});
   }
-  return Value(std::move(map), value.location());
 }
 
 }  // namespace oca::files

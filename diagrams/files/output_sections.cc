@@ -6,13 +6,14 @@
 
 #include <algorithm>
 #include <charconv>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "oca/diagrams/files/section.h"
 #include "oca/framework/dataflow/dynamic_port.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/nearest.h"
+#include "oca/framework/dataflow/signal_shape.h"
+#include "oca/models/file_cache.h"
 
 namespace oca::files {
 namespace {
@@ -68,14 +69,18 @@ void ReadSignal(const Value::Entry& entry, const NamedOutputs& outputs, const Na
   }
 }
 
-/// The members of a signal type's JSON object, from a value made by default.
-std::vector<std::string> MembersOf(const SignalType& type) {
+/// The members of a signal type's JSON object.
+std::vector<std::string> ReadMembers(const SignalType& type) {
   std::vector<std::string> names;
-  const auto json = nlohmann::ordered_json::parse(DefaultJson(type));
-  if (json.is_object()) {
-    for (const auto& item : json.items()) names.push_back(item.key());
-  }
+  for (const auto& [name, shape] : ShapeOf(type).members) names.push_back(name);
   return names;
+}
+
+/// The same, looked at once while a cache is in use.
+std::vector<std::string> MembersOf(const SignalType& type) {
+  const std::string key = fmt::format("signal {}", fmt::ptr(&type));
+  return *models::ReadOnce<std::vector<std::string>>(key, "members",
+                                                     [&] { return ReadMembers(type); });
 }
 
 /// Reads one entry of `expect`.

@@ -5,11 +5,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <memory>
 #include <utility>
 
 #include "oca/diagrams/files/diagram_file.h"
+#include "oca/diagrams/files/plain_scalar.h"
 #include "oca/diagrams/files/yaml_reader.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/nearest.h"
@@ -115,6 +117,18 @@ class Path {
   std::size_t depth_{0};
 };
 
+/// A number or a word without a character that means more to YAML.
+bool IsPlain(const std::string& text) {
+  const auto plain = [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '.' || c == '+' || c == '-' || c == '_';
+  };
+  const bool sign = text.starts_with('-') || text.starts_with('+');
+  const std::size_t first = sign ? 1 : 0;
+  return text.size() > first && std::isalnum(static_cast<unsigned char>(text[first])) != 0 &&
+         std::all_of(text.begin(), text.end(), plain) && text != "null" && text != "Null" &&
+         text != "NULL";
+}
+
 void Apply(const Override& change, Value& root, Problems& problems) {
   const std::string name = "-s " + (change.given_as.empty() ? change.path : change.given_as);
   const Location location{std::make_shared<const std::string>(name), 0, 0};
@@ -123,7 +137,7 @@ void Apply(const Override& change, Value& root, Problems& problems) {
     return;
   }
   Problems syntax;
-  Value value = ReadYaml(change.value, name, syntax);
+  Value value = change.Read(syntax);
   if (syntax.empty() && value.null()) {
     syntax.Add(location, fmt::format("got '{}'; expected a YAML value", change.value));
   }
@@ -133,6 +147,16 @@ void Apply(const Override& change, Value& root, Problems& problems) {
 }
 
 }  // namespace
+
+Value Override::Read(Problems& problems) const {
+  const std::string name = "-s " + path;
+  if (!IsPlain(value)) return ReadYaml(value, name, problems);
+  std::string problem;
+  Value::Data data = ReadPlainScalar(value, problem);
+  const Location location{std::make_shared<const std::string>(name), 1, 1};
+  if (!problem.empty()) problems.Add(location, problem);
+  return Value(std::move(data), location);
+}
 
 Override Override::Parse(const std::string& text) {
   const std::size_t equals = text.find('=');

@@ -10,7 +10,7 @@
 #include "oca/diagrams/files/document.h"
 #include "oca/diagrams/live/live_parameters.h"
 #include "oca/diagrams/live/live_server.h"
-#include "oca/diagrams/loading/loader.h"
+#include "oca/diagrams/runs/run.h"
 #include "oca/framework/dataflow/log.h"
 
 namespace oca::live {
@@ -21,10 +21,9 @@ struct LiveRunOptions {
   std::vector<files::Override> overrides{};
   std::optional<double> duration{};  ///< s; without one the run goes on until it is interrupted
   double realtime_factor{1.0};       ///< simulated seconds a second
-  std::string version{};             ///< of the program
   Log* log{nullptr};
-  /// Receive the run too, as one: files that keep it. Must outlive it; End is the caller's.
-  std::vector<record::RecordSink*> sinks{};
+  /// What is made of the run besides, as one, whatever is changed. Must outlive it.
+  std::vector<runs::RunOutput*> outputs{};
   /// Asked after every step.
   std::function<bool()> interrupted{};
   /// Told why a change was refused.
@@ -34,16 +33,16 @@ struct LiveRunOptions {
 };
 
 struct LiveRunResult {
-  double duration;  ///< s, that was simulated
-  int changes;      ///< of parameters and places, that took effect
-  std::string failure{};
+  runs::RunResult run;  ///< without expectations: nobody knows when it ends
+  int changes{0};       ///< of parameters and places, that took effect
 };
 
-/// Runs a diagram in step with the wall clock for whoever looks at `server`. An obstacle that is
-/// moved is so at the next tick, by the input `offsets` of its source. A change of a parameter
-/// builds the diagram anew, of files as they were read first, on a thread of its own, and the run
-/// goes on with it from the state it has at the next tick after that. One that the diagram refuses is undone, and all clients are
-/// told why. throws ConfigError if the file cannot be loaded.
+/// Runs a diagram in step with the wall clock for whoever looks at `server`: runs::Run, with a hook
+/// for what clients change. An obstacle that is moved is so at the next tick, by the input `offsets`
+/// of its source. A change of a parameter makes the diagram anew, on a thread of its own, and the run
+/// goes on with it from the state it has at the next tick after that. One that the diagram refuses is
+/// undone, and all clients are told why. throws ConfigError if the file cannot be loaded, and as
+/// runs::Run does.
 LiveRunResult RunLive(const LiveRunOptions& options, LiveServer& server);
 
 }  // namespace oca::live

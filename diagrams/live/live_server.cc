@@ -112,15 +112,17 @@ void LiveServer::Server::Begin(const std::vector<record::RecordChannel>& channel
   });
 }
 
-void LiveServer::Server::Write(int channel, std::uint64_t time, std::string_view json) {
+void LiveServer::Server::Write(int channel, const record::RecordSample& sample) {
   if (client_count_ == 0 && !keep_[static_cast<std::size_t>(channel)]) return;
+  const std::string_view json = sample.json();
   if (posts_ >= kPostsInFlight || posted_bytes_ + json.size() > kBytesInFlight) {
     ++dropped_;
     return;
   }
   ++posts_;
   posted_bytes_ += json.size();
-  auto message = std::make_shared<const Message>(Message{channel, time, std::string(json)});
+  auto message =
+      std::make_shared<const Message>(Message{channel, sample.time(), std::string(json)});
   const bool keep = keep_[static_cast<std::size_t>(channel)];
   asio::post(io_, [this, keep, message = std::move(message)] {
     --posts_;
@@ -224,8 +226,8 @@ std::string LiveServer::url() const { return server_->url(); }
 void LiveServer::Begin(const std::vector<record::RecordChannel>& channels) {
   server_->Begin(channels);
 }
-void LiveServer::Write(int channel, std::uint64_t time, std::string_view json) {
-  server_->Write(channel, time, json);
+void LiveServer::Write(int channel, const record::RecordSample& sample) {
+  server_->Write(channel, sample);
 }
 void LiveServer::AddMetadata(const record::McapMetadata& metadata) {
   server_->AddMetadata(metadata);

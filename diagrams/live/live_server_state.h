@@ -64,7 +64,7 @@ class LiveServer::Server {
   int port() const { return acceptor_.local_endpoint().port(); }
   std::string url() const;
   void Begin(const std::vector<record::RecordChannel>& channels);
-  void Write(int channel, std::uint64_t time, std::string_view json);
+  void Write(int channel, const record::RecordSample& sample);
   void AddMetadata(const record::McapMetadata& metadata);
   void ShowMetadata();
   void SetParameters(std::vector<LiveParameter> parameters);

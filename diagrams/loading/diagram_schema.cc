@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "oca/diagrams/files/diagram_file.h"
+#include "oca/diagrams/loading/schema_tree.h"
 #include "oca/diagrams/sampling/scenario.h"
 
 namespace oca::loading {
@@ -129,7 +130,7 @@ ordered_json WholeFileSchema(const files::Catalogue& catalogue) {
 
 }  // namespace
 
-std::string DiagramSchema(const files::Catalogue& catalogue) {
+ordered_json DiagramSchemaTree(const files::Catalogue& catalogue) {
   ordered_json sections;
   const ordered_json text{{"type", "string"}};
   sections["name"] = text;
@@ -159,14 +160,17 @@ std::string DiagramSchema(const files::Catalogue& catalogue) {
   for (const files::Section& section : files::Sections())
     sections[section.key]["description"] = section.meaning;
   const ordered_json whole{{"required", {"name"}}, {"not", {{"required", {"include"}}}}};
-  const ordered_json schema{{"$schema", "http://json-schema.org/draft-07/schema#"},
-                            {"title", "OCA diagram"},
-                            {"type", "object"},
-                            {"additionalProperties", false},
-                            {"properties", sections},
-                            {"if", whole},
-                            {"then", WholeFileSchema(catalogue)}};
-  return schema.dump(2);
+  return {{"$schema", "http://json-schema.org/draft-07/schema#"},
+          {"title", "OCA diagram"},
+          {"type", "object"},
+          {"additionalProperties", false},
+          {"properties", sections},
+          {"if", whole},
+          {"then", WholeFileSchema(catalogue)}};
+}
+
+std::string DiagramSchema(const files::Catalogue& catalogue) {
+  return DiagramSchemaTree(catalogue).dump(2);
 }
 
 }  // namespace oca::loading

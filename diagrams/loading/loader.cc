@@ -3,7 +3,8 @@
 
 namespace oca::loading {
 
-LoadedDiagram LoadDiagram(const std::filesystem::path& file, const std::vector<files::Override>& overrides,
+LoadedDiagram LoadDiagram(const std::filesystem::path& file,
+                          const std::vector<files::Override>& overrides,
                           const files::Catalogue& catalogue) {
   return Blueprint(file, catalogue).Build(overrides);
 }

@@ -101,6 +101,7 @@ void Resolve(const GivenParameters* given, ResolvedDocument& read, Problems& pro
   files::Expressions expressions(parameters == nullptr ? Value() : *parameters, problems);
   for (const std::string& name : read.sources.choosing) expressions.MarkUsed(name);
   Value::Map resolved;
+  resolved.reserve(read.document.map()->size());
   for (const Value::Entry& entry : *read.document.map()) {
     if (entry.key == "parameters") continue;
     resolved.push_back({entry.key, entry.location, expressions.Resolve(entry.value)});

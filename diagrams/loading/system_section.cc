@@ -8,6 +8,7 @@
 
 #include "oca/diagrams/files/diagram_file.h"
 #include "oca/diagrams/files/section.h"
+#include "oca/diagrams/foresight/tree_source.h"
 #include "oca/diagrams/loading/assembly.h"
 #include "oca/diagrams/loading/used_file.h"
 #include "oca/framework/dataflow/error.h"
@@ -107,13 +108,15 @@ const Value* SystemSection::TypeOf(const Value::Entry& entry, const std::string&
 
 void SystemSection::Make(const Value::Entry& entry, const Value& type, const std::string& where) {
   Value::Map rest;
+  rest.reserve(entry.value.map()->size());
   for (const Value::Entry& field : *entry.value.map()) {
     if (field.key != "type") rest.push_back(field);
   }
-  TellObstacles(rest);
+  Value::Map systems = sources_.outer_systems;
+  systems.insert(systems.end(), Entries().begin(), Entries().end());
+  foresight::TellGoal(systems, construction_.catalogue, rest);
   const files::Catalogue::Row& row = construction_.catalogue.Find(*type.string());
-  const Value params =
-      sources_.models.ResolveFiles(Value(std::move(rest), entry.value.location()));
+  Value params = sources_.models.ResolveFiles(Value(std::move(rest), entry.value.location()));
   // A model that did not load has been reported; its users would only repeat it.
   if (sources_.models.failed() && row->needs_models) return;
   auto system = row->Make(params, where, sources_.models.models(), problems_);
@@ -129,13 +132,13 @@ void SystemSection::Make(const Value::Entry& entry, const Value& type, const std
   made.system = nullptr;  // until the builder has taken it
   made.system = &builder_.AddSystem(entry.key, std::move(system));
   built_.push_back({entry.key, made.system});
-  blocks_.push_back({path, row->type, params, row, models_});
+  blocks_.push_back({path, row->type, std::move(params), row, models_});
 }
 
 /// Reads another file as a system of this one.
 void SystemSection::Use(const Value::Entry& entry) {
   SystemSources inner = sources_;
-  inner.obstacles = Obstacles();
+  inner.outer_systems.insert(inner.outer_systems.end(), Entries().begin(), Entries().end());
   auto used = std::make_unique<UsedFile>(entry, level_, inner, construction_, problems_);
   if (!used->read()) return;
   SystemSection& systems = used->assembly().systems();
@@ -159,37 +162,6 @@ void SystemSection::KeepWarnings(const System& system, const std::string& where,
           level_.path, fmt::format("{}: warning: {}: {}", location.ToString(), where, line));
     }
   }
-}
-
-/// A goal with a clearance is kept from the obstacles of the file and of those that use it, unless
-/// it names others.
-void SystemSection::TellObstacles(Value::Map& params) const {
-  for (Value::Entry& field : params) {
-    const bool goal = field.key == "goal" && field.value.Find("clearance") != nullptr;
-    if (!goal || field.value.Find("around") != nullptr) continue;
-    field.value.map()->push_back({"around", field.location, {Obstacles(), field.location}});
-  }
-}
-
-Value::List SystemSection::Obstacles() const {
-  Value::List obstacles = sources_.obstacles;
-  for (const Value::Entry& system : Entries()) {
-    const Value* const type = system.value.Find("type");
-    if (type == nullptr || type->string() == nullptr) continue;
-    if (!SaysObstacles(*type->string())) continue;
-    Value::Map source = *system.value.map();
-    std::erase_if(source, [](const Value::Entry& entry) { return entry.key == "type"; });
-    obstacles.emplace_back(std::move(source), system.value.location());
-  }
-  return obstacles;
-}
-
-/// Whether a system of a type says by its parameters where obstacles are.
-bool SystemSection::SaysObstacles(const std::string& type) const {
-  const auto& rows = construction_.catalogue.rows();
-  return std::any_of(rows.begin(), rows.end(), [&](const files::Catalogue::Row& row) {
-    return row->type == type && row->says_obstacles;
-  });
 }
 
 }  // namespace oca::loading

@@ -24,8 +24,8 @@ struct SystemSources {
   files::ModelSection& models;
   /// Of the files that it uses, by the names of the systems that they are.
   const std::map<std::string, std::vector<files::Override>>& inner_overrides;
-  /// Systems that say where obstacles are, of the files that use this one.
-  Value::List obstacles{};
+  /// Sections `systems` of the files that use this one.
+  Value::Map outer_systems{};
 };
 
 /// Section `systems` of a diagram file: makes all of them, and adds those of the part to the
@@ -77,11 +77,6 @@ class SystemSection {
   void Make(const Value::Entry& entry, const Value& type, const std::string& where);
   void Use(const Value::Entry& entry);
   void KeepWarnings(const System& system, const std::string& where, const Location& location);
-  void Warn(const std::string& line);
-  void TellObstacles(Value::Map& params) const;
-  /// The parameters of all that say where obstacles are.
-  Value::List Obstacles() const;
-  bool SaysObstacles(const std::string& type) const;
   /// What the first name of a path leads to, and the rest of it.
   std::pair<const Made*, std::string> Follow(const std::string& path) const;
 

@@ -80,7 +80,7 @@ UsedFile::UsedFile(const Value::Entry& entry, const Level& outer, const SystemSo
     }
     WarnOfUnusedModels(given->models);
     sources_ = std::make_unique<SystemSources>(
-        SystemSources{*models_, document_.inner_overrides, sources.obstacles});
+        SystemSources{*models_, document_.inner_overrides, sources.outer_systems});
     assembly_ = std::make_unique<Assembly>(document_.root, level_, *sources_, construction_,
                                            builder_, own_);
     for (const auto& [name, inputs] : assembly_->connections().inputs()) {

@@ -18,8 +18,9 @@ using runs::SignalTable;
 
 /// Names and numbers of a vector's message, without names but numbered ones; false if it is another
 /// signal's.
-bool Numbers(const ordered_json& json, std::vector<std::string>& joints,
+bool Numbers(std::string_view message, std::vector<std::string>& joints,
              std::vector<double>& numbers) {
+  const ordered_json json = ordered_json::parse(message);
   joints.clear();
   numbers.clear();
   const bool listed =
@@ -35,10 +36,10 @@ bool Numbers(const ordered_json& json, std::vector<std::string>& joints,
   return true;
 }
 
-bool IsVector(std::string_view data) {
+bool IsVector(std::string_view message) {
   std::vector<std::string> joints;
   std::vector<double> numbers;
-  return Numbers(ordered_json::parse(data), joints, numbers);
+  return Numbers(message, joints, numbers);
 }
 
 }  // namespace
@@ -67,7 +68,7 @@ int ExportCsv(const McapFile& record, const fs::path& folder) {
     std::vector<std::string> joints;
     std::vector<double> numbers;
     std::optional<std::vector<std::string>> columns;
-    if (Numbers(ordered_json::parse(messages.front()->data), joints, numbers)) {
+    if (Numbers(messages.front()->data, joints, numbers)) {
       columns = SignalTable::Columns(signal.substr(signal.find('.') + 1),
                                      static_cast<int>(numbers.size()), joints);
     }
@@ -75,7 +76,7 @@ int ExportCsv(const McapFile& record, const fs::path& folder) {
     for (const McapMessage* const message : messages) {
       const auto time = static_cast<std::int64_t>(message->log_time - start);
       if (columns) {
-        Numbers(ordered_json::parse(message->data), joints, numbers);
+        Numbers(message->data, joints, numbers);
         table.Write(time, numbers);
       } else {
         table.Write(time, message->data);

@@ -8,7 +8,7 @@
 
 namespace oca::record {
 
-/// Writes the signals of a record into a folder, a diagrams::SignalTable each, as the run would
+/// Writes the signals of a record into a folder, a runs::SignalTable each, as the run would
 /// have done with `--csv`. Returns how many files there are. throws ConfigError naming what cannot
 /// be written.
 int ExportCsv(const McapFile& record, const std::filesystem::path& folder);

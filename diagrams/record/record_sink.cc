@@ -1,24 +1,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oca/diagrams/record/record_sink.h"
 
-#include <map>
+#include "oca/diagrams/record/signal_json.h"
 
 namespace oca::record {
 
+std::string_view RecordSample::json() const {
+  if (json_.empty()) {
+    text_->clear();
+    AppendSignal(*text_, *format_, value_);
+    json_ = *text_;
+  }
+  return json_;
+}
+
 void McapSink::Begin(const std::vector<RecordChannel>& channels) {
-  std::map<std::string, std::uint16_t> schemas;
+  channels_.clear();
   for (const RecordChannel& channel : channels) {
-    auto& schema = schemas[channel.schema_name];
-    if (schema == 0) {
-      schema = writer_.AddSchema(channel.schema_name, "jsonschema", channel.schema);
+    auto& number = topics_[channel.topic];
+    if (number == 0) {
+      auto& schema = schemas_[channel.schema_name];
+      if (schema == 0) {
+        schema = writer_.AddSchema(channel.schema_name, "jsonschema", channel.schema);
+      }
+      number = writer_.AddChannel(channel.topic, "json", schema);
     }
-    writer_.AddChannel(channel.topic, "json", schema);
+    channels_.push_back(number);
   }
   writer_.Flush();
 }
 
-void McapSink::Write(int channel, std::uint64_t time, std::string_view json) {
-  writer_.Write(static_cast<std::uint16_t>(channel + 1), time, json);
+void McapSink::Write(int channel, const RecordSample& sample) {
+  writer_.Write(channels_[static_cast<std::size_t>(channel)], sample.time(), sample.json());
 }
 
 void McapSink::Idle() {

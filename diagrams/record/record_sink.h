@@ -4,46 +4,41 @@
 #include <chrono>
 #include <cstdint>
 #include <iosfwd>
+#include <map>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "oca/diagrams/record/mcap_writer.h"
+#include "oca/diagrams/record/record_channel.h"
 
 namespace oca::record {
 
-/// A stream of JSON messages. `schema` is a JSON Schema.
-struct RecordChannel {
-  std::string topic{};
-  std::string schema_name{};
-  std::string schema{};
-};
-
-/// Where the messages of a run go: a file, or whoever looks on. Unless told otherwise, called on
-/// the recorder's own thread, one call at a time; may take its time there.
+/// Where the samples of a run go: a file, or whoever looks on. Unless told otherwise, called on the
+/// recorder's own thread, one call at a time; may take its time there.
 class RecordSink {
  public:
   virtual ~RecordSink() = default;
-  /// Before the run, on its thread: channel number `i` is channels[i].
+  /// Before the run, on its thread: channel number `i` is channels[i]. Again when the run goes on
+  /// with another diagram, whose channels these are.
   virtual void Begin(const std::vector<RecordChannel>& channels) = 0;
-  /// `time` ns since the epoch.
-  virtual void Write(int channel, std::uint64_t time, std::string_view json) = 0;
+  virtual void Write(int channel, const RecordSample& sample) = 0;
   virtual void AddMetadata(const McapMetadata& /*metadata*/) {}
   virtual void AddAttachment(const McapAttachment& /*attachment*/) {}
   /// Many times a second, also while nothing is written.
   virtual void Idle() {}
-  /// After the last message, on the thread of the run.
+  /// After the last sample of the run, on its thread.
   virtual void End() {}
 };
 
-/// Writes an MCAP stream; what was written is flushed every second.
+/// Writes an MCAP stream of JSON messages; what was written is flushed every second. A channel whose
+/// topic it knows goes on.
 class McapSink final : public RecordSink {
  public:
   /// The stream must outlive the sink.
   McapSink(std::ostream& stream, Compression compression) : writer_(stream, compression) {}
 
   void Begin(const std::vector<RecordChannel>& channels) override;
-  void Write(int channel, std::uint64_t time, std::string_view json) override;
+  void Write(int channel, const RecordSample& sample) override;
   void AddMetadata(const McapMetadata& metadata) override { writer_.AddMetadata(metadata); }
   void AddAttachment(const McapAttachment& attachment) override {
     writer_.AddAttachment(attachment);
@@ -53,6 +48,9 @@ class McapSink final : public RecordSink {
 
  private:
   McapWriter writer_;
+  std::map<std::string, std::uint16_t> schemas_;  ///< numbers in the file, by name
+  std::map<std::string, std::uint16_t> topics_;   ///< channels of the file
+  std::vector<std::uint16_t> channels_;           ///< of the file, by those of the diagram
   std::chrono::steady_clock::time_point flushed_{std::chrono::steady_clock::now()};
 };
 

@@ -46,18 +46,4 @@ std::string NotSeenJson(const loading::LoadedDiagram& loaded) {
   return json(runs::BlindSpots(loaded)).dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
-std::string ExpectationsJson(const runs::RunResult& result) {
-  using nlohmann::ordered_json;
-  ordered_json list = ordered_json::array();
-  for (const runs::ExpectationResult& expectation : result.expectations) {
-    list.push_back(
-        {{"name", expectation.name},
-         {"value", expectation.value ? ordered_json(*expectation.value) : ordered_json()},
-         {"bound", expectation.bound},
-         {"at", expectation.at},
-         {"ok", expectation.ok}});
-  }
-  return list.dump();
-}
-
 }  // namespace oca::record

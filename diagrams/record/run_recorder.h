@@ -14,84 +14,87 @@
 #include "oca/diagrams/record/record_sink.h"
 #include "oca/diagrams/record/sample_queue.h"
 #include "oca/diagrams/record/scene.h"
-#include "oca/diagrams/record/signal_json.h"
-#include "oca/diagrams/runs/run.h"
+#include "oca/diagrams/runs/run_output.h"
+#include "oca/diagrams/runs/signal_facts.h"
 #include "oca/framework/dataflow/log.h"
 
 namespace oca::record {
 
 struct RecorderOptions {
-  std::string version{};                     ///< of the program
-  std::vector<files::Override> overrides{};  ///< as given on the command line
-  std::uint64_t start_epoch{0};              ///< ns; 0: the wall clock's
-  bool attach_files{true};                   ///< diagram and models, to run the record again
-  bool brief{false};  ///< for a picture: of proximities only names and distance
-  /// What the recorder before this one told, if it goes on with a record; else it tells what the
-  /// diagram is warned of.
-  std::optional<std::vector<std::string>> warnings{};
+  /// Told of as those of the command line; else those that the diagram was loaded with.
+  std::optional<std::vector<files::Override>> overrides{};
+  std::uint64_t start_epoch{0};  ///< ns; 0: the wall clock's
+  bool attach_files{true};       ///< diagram and models, to run the record again
+  bool brief{false};             ///< for a picture: of proximities only names and distance
 };
 
-/// Records a run into sinks: the scene, the signals of section `record` at their rates, those that
-/// plots of the run need, the log and the metrics.
+/// Records a run of one diagram into sinks: the scene, the signals of section `record` at their
+/// rates, those that plots of the run need, the log and the metrics.
 ///
-/// The thread of the run only copies values (SampleQueue); another one makes messages of them. A
+/// The thread of the run only copies values (SampleQueue); another one hands them to the sinks. A
 /// run that is paced by the wall clock never waits: what does not fit is dropped and counted.
 /// Any other run waits for room. Recording does not change a run: the scene is sampled after
 /// steps that happen anyway, and the rates of `record` are events of every run.
-class RunRecorder final : public runs::RunObserver, public Log {
+class RunRecorder {
  public:
-  /// Everything must outlive the run. `log` receives what is logged too; may be nullptr.
-  RunRecorder(const loading::LoadedDiagram& loaded, RecorderOptions options,
-              std::vector<RecordSink*> sinks, Log* log);
-  ~RunRecorder() override;
+  /// Attaches itself to the simulator, begins the sinks and the thread. Everything must outlive the
+  /// run. `told`: what a recorder before this one told the run to be warned of; without one this
+  /// one tells.
+  RunRecorder(const runs::RunStart& run, const RecorderOptions& options,
+              std::vector<RecordSink*> sinks, std::optional<std::vector<std::string>> told);
+  ~RunRecorder();
+  RunRecorder(const RunRecorder&) = delete;
+  RunRecorder& operator=(const RunRecorder&) = delete;
 
-  void Attach(Simulator& simulator, bool paced, double duration) override;
+  /// After the last step: hands on what is left and ends the sinks; without a result the run goes
+  /// on with another recorder, and the sinks do not end.
   /// throws ConfigError if writing failed on the recorder's thread.
-  void Finish(const runs::RunResult& result) override;
+  void Finish(const runs::RunResult* result);
 
-  bool enabled(LogLevel level) const override;
-  void Write(LogLevel level, double time, std::string_view text) override;
-
-  /// What the diagram is warned of from now on: what is new into the log. On the run's thread.
+  /// A line of the log. On the run's thread, as the next one.
+  void AddText(LogLevel level, double time, std::string_view text);
+  /// What the diagram is warned of from now on: what is new into the log.
   void SetWarnings(const std::vector<std::string>& warnings);
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
   /// Samples that found no room.
-  std::int64_t dropped() const { return queue_ ? queue_->dropped() : 0; }
+  std::int64_t dropped() const { return queue_->dropped(); }
 
  private:
+  /// Channels that are sampled together.
   struct SignalGroup {
     Period period;
-    std::vector<SignalFormat> formats;
     std::vector<int> channels;
   };
   using Groups = std::vector<SampleQueue::Group>;
 
-  void AddSignals(double duration, Groups& groups);
-  void AddLimits(double duration, Groups& groups);
-  void AddScene(double duration, Groups& groups);
+  void AddSignals(Groups& groups);
+  void AddLimits(Groups& groups);
+  void AddScene(Groups& groups);
   bool HasChannelOf(const OutputHandle& output) const;
   SignalFormat FormatOf(const OutputHandle& output) const;
   int AddChannel(RecordChannel channel);
   void Store(int group, const Context& context);
+  void StoreText(int level, double time, std::string_view text);
   void WaitFor(const std::function<bool()>& room);
   void SampleScene(const Context& context);
-  void BeginSinks();
+  void BeginSinks(bool tells_warnings);
   void Work();
-  void Encode(const SampleQueue::Sample& sample);
-  void Emit(int channel, double time, std::string_view json);
+  void HandOn(const SampleQueue::Sample& sample);
+  void Emit(int channel, const RecordSample& sample);
+  void EmitText(int channel, double time, std::string_view message);
   std::uint64_t TimeOf(double time) const;
   McapMetadata MainMetadata(const std::string& outcome, const runs::RunResult* result) const;
 
   const loading::LoadedDiagram& loaded_;
-  RecorderOptions options_;
+  const RecorderOptions options_;
   std::vector<std::string> warnings_;
   std::vector<RecordSink*> sinks_;
-  Log* log_;
-  Simulator* simulator_{nullptr};
-  bool paced_{false};
-  double duration_{0.0};  ///< s
-  std::unique_ptr<runs::SignalFacts> facts_;
-  std::unique_ptr<Scene> scene_;
+  Simulator& simulator_;
+  const bool paced_;
+  const double duration_;  ///< s
+  runs::SignalFacts facts_;
+  Scene scene_;
   std::unique_ptr<SampleQueue> queue_;
   std::vector<RecordChannel> channels_;
   std::vector<SignalGroup> signals_;

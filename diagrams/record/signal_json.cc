@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "oca/diagrams/record/json_text.h"
+#include "oca/framework/dataflow/signal_shape.h"
 #include "oca/systems/signals/signals.h"
 
 namespace oca::record {
@@ -20,29 +21,30 @@ ordered_json NumberSchema(const std::string& unit) {
 }
 
 /// What a value may be that looks like this one.
-ordered_json SchemaLike(const ordered_json& value) {
-  if (value.is_number()) return NumberSchema("");
-  if (value.is_string()) return {{"type", "string"}};
-  if (value.is_boolean()) return {{"type", "boolean"}};
-  if (value.is_array()) {
+ordered_json SchemaLike(const SignalShape& shape) {
+  using Kind = SignalShape::Kind;
+  if (shape.kind == Kind::kNumber) return NumberSchema("");
+  if (shape.kind == Kind::kText) return {{"type", "string"}};
+  if (shape.kind == Kind::kFlag) return {{"type", "boolean"}};
+  if (shape.kind == Kind::kList) {
     const ordered_json item{{"type", "object"}};
-    return {{"type", "array"}, {"items", value.empty() ? item : SchemaLike(value[0])}};
+    return {{"type", "array"}, {"items", shape.item.empty() ? item : SchemaLike(shape.item[0])}};
   }
   ordered_json schema = ordered_json::object();
-  if (!value.is_object()) return schema;  // null: of any kind
+  if (shape.kind != Kind::kObject) return schema;
   schema["type"] = "object";
-  for (const auto& [key, member] : value.items()) schema["properties"][key] = SchemaLike(member);
+  for (const auto& [key, member] : shape.members) schema["properties"][key] = SchemaLike(member);
   return schema;
 }
 
 ordered_json SchemaOf(const SignalFormat& format) {
   ordered_json properties = ordered_json::object();
   if (format.type != &kVectorType) {
-    const auto value = ordered_json::parse(DefaultJson(*format.type));
-    if (!value.is_object()) {
-      properties[format.port] = SchemaLike(value);
-    } else if (!value.empty()) {
-      properties = SchemaLike(value)["properties"];
+    const SignalShape shape = ShapeOf(*format.type);
+    if (shape.kind != SignalShape::Kind::kObject) {
+      properties[format.port] = SchemaLike(shape);
+    } else if (!shape.members.empty()) {
+      properties = SchemaLike(shape)["properties"];
     }
   } else if (format.joints.empty()) {
     properties["values"] = {{"type", "array"}, {"items", NumberSchema(format.unit)}};
@@ -98,10 +100,10 @@ void AppendProximities(std::string& out, const ProximitySet& set, bool brief) {
 
 }  // namespace
 
+std::string TopicOf(const SignalFormat& format) { return "/" + format.system + "/" + format.port; }
+
 RecordChannel ChannelOf(const SignalFormat& format) {
-  const std::string name = format.system + "." + format.port;
-  ordered_json schema = SchemaOf(format);
-  return {"/" + format.system + "/" + format.port, name, schema.dump()};
+  return {TopicOf(format), format.system + "." + format.port, SchemaOf(format).dump(), format};
 }
 
 void AppendSignal(std::string& out, const SignalFormat& format, const void* value) {

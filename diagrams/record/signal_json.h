@@ -2,25 +2,15 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include "oca/diagrams/record/record_sink.h"
-#include "oca/framework/dataflow/signal.h"
+#include "oca/diagrams/record/record_channel.h"
 
 namespace oca::record {
 
-/// How one output becomes messages.
-struct SignalFormat {
-  std::string system;
-  std::string port;
-  const SignalType* type;
-  int length;                       ///< of a Vector
-  std::string unit;                 ///< of a Vector; may be empty
-  std::vector<std::string> joints;  ///< one an element; empty: no joints
-  bool brief{false};                ///< of proximities only names and distance
-};
+/// `/system/port`
+std::string TopicOf(const SignalFormat& format);
 
-/// Topic `/system/port` and the JSON Schema of its messages: a Vector of joints is an object by
+/// The channel of a signal, with the JSON Schema of its messages: a Vector of joints is an object by
 /// joint name, another one {"values": [...]}; a list {"port": [...]}; anything else as it is.
 RecordChannel ChannelOf(const SignalFormat& format);
 

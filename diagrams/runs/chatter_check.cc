@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "oca/diagrams/foresight/motion_ahead.h"
 #include "oca/framework/dataflow/dynamic_port.h"
 #include "oca/framework/dataflow/port_access.h"
 #include "oca/framework/simulation/simulator.h"
@@ -87,7 +88,9 @@ std::optional<Loop> LoopOf(const Diagram& diagram, const System& mapping, const 
   return loop;
 }
 
-/// A copy of what a loop computes its delta from, with the positions of the arm to be set.
+/// A copy of what a loop computes its delta from, with the positions of the arm to be set: those
+/// requested, which foresight knows, and the delta. Obstacles are as the loop's own sensing has
+/// them.
 class Probe {
  public:
   Probe(const loading::LoadedDiagram& loaded, const Loop& loop) : loop_(loop) {
@@ -103,8 +106,11 @@ class Probe {
     if (has_velocity) builder_.ExportInput("velocity", kinematics.velocity);
     raw_ = Typed<Vector>(maps.delta);
     gain_ = Typed<Vector>(gain.FindOutput("gain"));
-    request_ = {{&CopyOf(loop.request.system), loop.request.index}};
     if (fields_.empty()) return;
+    const std::string where = loaded.diagram->PathOf(RoleOf<AddsDelta>(*loop.overlay).request);
+    request_ = foresight::PositionsAheadOf(*loaded.diagram, loop.request,
+                                           foresight::Samples::kShown, where)
+                   .at;
     diagram_ = builder_.Build();
     position_ = diagram_->GetInput<Vector>("position");
     simulator_.emplace(*diagram_);
@@ -126,8 +132,7 @@ class Probe {
   std::optional<Rest> RestAt(double time) {
     simulator_->AdvanceTo(time);
     const Context& context = simulator_->context();
-    const auto request = EvalVector(request_, context);
-    const Eigen::VectorXd q = Eigen::Map<const Eigen::VectorXd>(request.data(), delta_.size());
+    const Eigen::VectorXd q = request_(time);
     double away = 0.0;
     Rest rest;
     for (int i = 0; i < kIterations; ++i) {
@@ -146,7 +151,7 @@ class Probe {
  private:
   void Copy(const loading::LoadedDiagram& loaded) {
     const Diagram& diagram = *loaded.diagram;
-    std::vector<const System*> needed{loop_.mapping, loop_.kinematics, loop_.request.system};
+    std::vector<const System*> needed{loop_.mapping, loop_.kinematics};
     const auto drivers_of = [&](const System& system) {
       std::vector<std::pair<OutputHandle, InputHandle>> drivers;
       for (int i = 0; i < std::ssize(system.inputs()); ++i) {
@@ -211,12 +216,12 @@ class Probe {
   }
 
   const Loop loop_;
+  foresight::Positions request_;
   DiagramBuilder builder_;
   std::vector<std::pair<const System*, const System*>> copies_;  // of originals
   std::vector<Output<ContactSlopes>> fields_;
   Output<Vector> raw_;
   Output<Vector> gain_;
-  OutputHandle request_;
   std::unique_ptr<Diagram> diagram_;
   Input<Vector> position_;
   std::optional<Simulator> simulator_;

@@ -8,11 +8,10 @@
 
 #include "oca/diagrams/files/diagram_file.h"
 #include "oca/diagrams/files/model_section.h"
-#include "oca/framework/dataflow/error.h"
-#include "oca/framework/dataflow/nearest.h"
-#include "oca/framework/dataflow/port_access.h"
+#include "oca/diagrams/foresight/tree_source.h"
 #include "oca/models/planning/rrt_connect.h"
 #include "oca/models/robot/kinematics.h"
+#include "oca/systems/sensing/placed_bodies.h"
 
 namespace oca::sampling {
 namespace {
@@ -37,21 +36,6 @@ bool Same(const Value& a, const Value& b) {
   return a.boolean() == nullptr || *a.boolean() == *b.boolean();
 }
 
-/// An entry of a section; nullptr, with a problem, if there is none.
-const Value* Named(const Value& root, const char* section, const std::string& name,
-                   Problems& problems) {
-  const Value* const map = root.Find(section);
-  const Value* const found = map == nullptr ? nullptr : map->Find(name);
-  if (found != nullptr && found->map() != nullptr) return found;
-  std::vector<std::string> known;
-  if (map != nullptr && map->map() != nullptr) {
-    for (const Value::Entry& entry : *map->map()) known.push_back(entry.key);
-  }
-  problems.Add(root.location(),
-               fmt::format("sampling: no '{}' in {}{}", name, section, DidYouMean(name, known)));
-  return nullptr;
-}
-
 Value::Map Without(const Value& map, const char* key) {
   Value::Map rest;
   for (const Value::Entry& entry : *map.map()) {
@@ -72,9 +56,12 @@ TaskGeometry::TaskGeometry(const Value& root, const TaskNames& names,
   duration_ = simulator.duration;
   LoadModel(root, cache, problems);
   if (!model_) return;
-  request_ = Source(root, names.request, "position", problems);
-  if (!request_) return;
-  request_context_ = request_->MakeContext();
+  request_source_ = Source(root, names.request, problems);
+  if (!request_source_) return;
+  const std::string port = names.request + ".position";
+  request_ = foresight::PositionsAheadOf(*request_source_, request_source_->FindOutput(port),
+                                         foresight::Samples::kBetween, "systems." + port)
+                 .at;
   const Eigen::Index joints = Request(0.0).size();
   if (joints == model_->num_positions()) return;
   problems.Add(root.location(),
@@ -84,7 +71,7 @@ TaskGeometry::TaskGeometry(const Value& root, const TaskNames& names,
 }
 
 void TaskGeometry::LoadModel(const Value& root, ModelCache& cache, Problems& problems) {
-  const Value* const entry = Named(root, "models", names_.model, problems);
+  const Value* const entry = foresight::FindEntry(root, "models", names_.model, problems);
   if (entry == nullptr) return;
   Value rest(Without(*entry, "base_pose"), entry->location());
   if (!cache.model || !Same(rest, cache.entry)) {
@@ -107,68 +94,27 @@ void TaskGeometry::LoadModel(const Value& root, ModelCache& cache, Problems& pro
   clearance_.emplace(model_);
 }
 
-// A system without inputs and without samples: with `period` 0 it is a function of time.
 std::unique_ptr<Diagram> TaskGeometry::Source(const Value& root, const std::string& name,
-                                              const char* output, Problems& problems) const {
-  const Value* const entry = Named(root, "systems", name, problems);
-  if (entry == nullptr) return nullptr;
-  const std::string where = "systems." + name;
-  const Value* const type = entry->Find("type");
-  if (type == nullptr || type->string() == nullptr) {
-    problems.Add(entry->location(), where + ".type: missing; expected the name of a system type");
-    return nullptr;
-  }
-  Value::Map params = Without(*entry, "type");
-  std::erase_if(params, [](const Value::Entry& field) {
-    return field.key == "period" || field.key == "frequency";
-  });
-  try {
-    systems::ModelSet models;
-    if (model_) models.Add(names_.model, model_);
-    Value::Map packages;
-    if (const Value* const section = root.Find("packages")) {
-      packages.push_back({"packages", section->location(), *section});
-    }
-    files::ModelSection files(Value(std::move(packages), root.location()), problems);
-    const Value resolved = files.ResolveFiles(Value(std::move(params), entry->location()));
-    auto system = catalogue_.Find(*type->string())->Make(resolved, where, models, problems);
-    if (!system) return nullptr;
-    DiagramBuilder builder;
-    const System& added = builder.AddSystem(name, std::move(system));
-    builder.ExportOutput(output, added.FindOutput(output));
-    return builder.Build();
-  } catch (const std::runtime_error& error) {
-    problems.Add(entry->location(), fmt::format("{}: {}", where, error.what()));
-  }
-  return nullptr;
+                                              Problems& problems) const {
+  systems::ModelSet models;
+  models.Add(names_.model, model_);
+  return foresight::MakeTreeSource(root, name, models, catalogue_, problems);
 }
-
-Eigen::VectorXd TaskGeometry::Request(double time) {
-  request_context_->SetTime(time);
-  return request_->GetOutput<Vector>("position").Eval(*request_context_);
-}
-
-Eigen::VectorXd TaskGeometry::Goal() { return Request(duration_); }
 
 std::vector<Eigen::Isometry3d> TaskGeometry::LinkPosesAt(const Eigen::VectorXd& q) const {
   return robot::LinkPoses(*model_, q);
 }
 
 void TaskGeometry::SetObstacles(const Value& root, Problems& problems) {
-  obstacles_ = Source(root, names_.obstacles, "obstacles", problems);
-  if (obstacles_) obstacles_context_ = obstacles_->MakeContext();
+  std::shared_ptr<const Diagram> source = Source(root, names_.obstacles, problems);
+  if (!source) return;
+  const std::string port = names_.obstacles + ".obstacles";
+  const OutputHandle output = source->FindOutput(port);
+  obstacles_.emplace(std::move(source), output, "systems." + port);
 }
 
 void TaskGeometry::PlaceObstacles(double time) {
-  obstacles_context_->SetTime(time);
-  const auto& set =
-      obstacles_->GetOutput<systems::ObstacleSet>("obstacles").Eval(*obstacles_context_);
-  std::vector<robot::PlacedBody> bodies;
-  bodies.reserve(set.obstacles.size());
-  for (const systems::Obstacle& obstacle : set.obstacles) {
-    bodies.push_back({obstacle.body->collider, obstacle.X_WO});
-  }
-  clearance_->SetBodies(std::move(bodies));
+  clearance_->SetBodies(systems::PlacedBodies(obstacles_->At(time)));
 }
 
 double TaskGeometry::Distance(const Eigen::VectorXd& q, double time) {

@@ -7,10 +7,11 @@
 #include <string>
 
 #include "oca/diagrams/files/catalogue.h"
+#include "oca/diagrams/foresight/motion_ahead.h"
+#include "oca/diagrams/foresight/obstacles_ahead.h"
 #include "oca/framework/dataflow/diagram.h"
 #include "oca/framework/dataflow/value.h"
 #include "oca/models/robot/clearance.h"
-#include "oca/systems/signals/signals.h"
 
 namespace oca::sampling {
 
@@ -27,8 +28,8 @@ struct ModelCache {
   std::shared_ptr<const robot::RobotModel> model;
 };
 
-/// The task of one scenario as geometry: a robot, the motion that is requested of it, and the
-/// obstacles at every time. It looks at the diagram file's own systems, apart from the diagram.
+/// The task of one scenario as geometry: a robot, and how near it comes to what the tree says
+/// beforehand (foresight) of its requested motion and of the obstacles.
 class TaskGeometry {
  public:
   /// From a tree whose ${...} are worked out. What is wrong is added to `problems`; then nothing
@@ -39,9 +40,9 @@ class TaskGeometry {
   const robot::RobotModel& model() const { return *model_; }
   double duration() const { return duration_; }  ///< s, of the run
   /// Requested joint positions at a time.
-  Eigen::VectorXd Request(double time);
+  Eigen::VectorXd Request(double time) const { return request_(time); }
   /// Where the robot goes in the end.
-  Eigen::VectorXd Goal();
+  Eigen::VectorXd Goal() const { return Request(duration_); }
   /// Poses of all links.
   std::vector<Eigen::Isometry3d> LinkPosesAt(const Eigen::VectorXd& q) const;
 
@@ -61,7 +62,8 @@ class TaskGeometry {
   bool HasClearPath(double margin, int most_nodes, std::uint64_t seed);
 
  private:
-  std::unique_ptr<Diagram> Source(const Value& root, const std::string& name, const char* output,
+  /// A system of the tree alone; nullptr, with problems, if it cannot be made.
+  std::unique_ptr<Diagram> Source(const Value& root, const std::string& name,
                                   Problems& problems) const;
   void LoadModel(const Value& root, ModelCache& cache, Problems& problems);
   void PlaceObstacles(double time);
@@ -71,8 +73,9 @@ class TaskGeometry {
   double duration_{0.0};
   std::shared_ptr<const robot::RobotModel> model_;
   std::optional<robot::Clearance> clearance_;
-  std::unique_ptr<Diagram> request_, goal_, obstacles_;
-  std::optional<Context> request_context_, obstacles_context_;
+  std::unique_ptr<Diagram> request_source_;
+  foresight::Positions request_;  ///< of that
+  std::optional<foresight::ObstaclesAhead> obstacles_;
 };
 
 }  // namespace oca::sampling

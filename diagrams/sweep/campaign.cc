@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "oca/diagrams/record/record_files.h"
+#include "oca/diagrams/sweep/campaign_tree.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/random.h"
 
@@ -52,7 +53,9 @@ class Hash {
   std::uint64_t hash_{0xCBF29CE484222325u};
 };
 
-ordered_json ToJson(const Campaign& campaign) {
+}  // namespace
+
+ordered_json CampaignTree(const Campaign& campaign) {
   std::vector<std::string> variations;
   for (const Variation& variation : campaign.variations) variations.push_back(variation.text());
   return {{"file", campaign.file},
@@ -66,8 +69,6 @@ ordered_json ToJson(const Campaign& campaign) {
           {"arrival", campaign.arrival},
           {"version", campaign.version}};
 }
-
-}  // namespace
 
 std::string Shard::Stem() const {
   return count == 1 ? "results" : fmt::format("shard-{}-of-{}", index, count);
@@ -168,7 +169,7 @@ void Campaign::Check() const {
 
 std::string Campaign::Header() const {
   ordered_json json;
-  json["campaign"] = ToJson(*this);
+  json["campaign"] = CampaignTree(*this);
   return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
@@ -195,8 +196,8 @@ Campaign Campaign::FromHeader(const std::string& line) {
 }
 
 std::string Campaign::DifferenceTo(const Campaign& other) const {
-  const ordered_json mine = ToJson(*this);
-  const ordered_json its = ToJson(other);
+  const ordered_json mine = CampaignTree(*this);
+  const ordered_json its = CampaignTree(other);
   std::string differences;
   for (const auto& [key, value] : mine.items()) {
     if (key == "file" || value == its.at(key)) continue;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <array>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -11,6 +12,7 @@
 #include <string>
 #include <system_error>
 
+#include "oca/diagrams/sweep/campaign_tree.h"
 #include "oca/diagrams/sweep/summary.h"
 #include "oca/framework/dataflow/error.h"
 
@@ -96,9 +98,9 @@ class Insertion {
     if (value) return Bind(std::int64_t{*value});
     database_.Check(sqlite3_bind_null(statement_, ++column_));
   }
-  void Bind(const ordered_json& value) {
-    if (value.is_number()) return Bind(value.get<double>());
-    Bind(value.is_string() ? value.get<std::string>() : value.dump());
+  /// A pair of names as a JSON list.
+  void Bind(const std::array<models::Name, 2>& pair) {
+    Bind(ordered_json{pair[0].text(), pair[1].text()}.dump());
   }
 
   const Database& database_;
@@ -108,8 +110,8 @@ class Insertion {
 
 void AddCampaign(const Database& database, const Campaign& campaign) {
   Insertion properties(database, "campaign", 2);
-  const ordered_json header = ordered_json::parse(campaign.Header());
-  for (const auto& [key, value] : header.at("campaign").items()) {
+  const ordered_json tree = CampaignTree(campaign);
+  for (const auto& [key, value] : tree.items()) {
     properties.Add(key, value.is_string() ? value.get<std::string>() : value.dump());
   }
   Insertion settings(database, "setting", 3);
@@ -117,6 +119,16 @@ void AddCampaign(const Database& database, const Campaign& campaign) {
   for (const Settings& one : campaign.Combinations()) {
     for (const auto& [path, value] : one) settings.Add(combination, path, value);
     ++combination;
+  }
+}
+
+void AddMetrics(Insertion& rows, const SampleRow& row) {
+  for (const systems::Metric& metric : MetricsIn(*row.metrics)) {
+    const std::string name(metric.name);
+    if (const auto number = metric.number()) rows.Add(row.sample, row.combination, name, *number);
+    if (const auto* const pair = std::get_if<std::array<models::Name, 2>>(&metric.value)) {
+      rows.Add(row.sample, row.combination, name, *pair);
+    }
   }
 }
 
@@ -134,10 +146,7 @@ void AddRows(const Database& database, const Results& results) {
                 std::optional<bool>(judged.met), FailureOf(row, campaign.arrival),
                 campaign.CommandOf(row.seed, settings));
     for (const auto& [path, value] : campaign.Drawn(row.seed)) draws.Add(row.sample, path, value);
-    const ordered_json known = ordered_json::parse(row.metrics);
-    for (const auto& [name, value] : known.items()) {
-      if (!value.is_null()) metrics.Add(row.sample, row.combination, name, value);
-    }
+    if (row.metrics) AddMetrics(metrics, row);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "oca/diagrams/runs/metrics_tree.h"
 #include "oca/framework/dataflow/error.h"
 
 namespace oca::sweep {
@@ -46,7 +47,7 @@ std::string SampleRow::Line() const {
                {"error", error.empty() ? ordered_json() : ordered_json(error)},
                {"duration", duration},
                {"steps", steps},
-               {"metrics", ordered_json::parse(metrics)},
+               {"metrics", runs::MetricsTree(metrics)},
                {"unmet", unmet}});
 }
 
@@ -62,7 +63,8 @@ SampleRow SampleRow::FromLine(std::string_view line) {
     if (!json.at("error").is_null()) row.error = json.at("error");
     row.duration = json.at("duration");
     row.steps = json.at("steps");
-    row.metrics = json.at("metrics").dump();
+    row.metrics = runs::ReadMetrics(json.at("metrics"));
+    if (!row.metrics && !json.at("metrics").empty()) throw NoRow(line);
     row.unmet = json.at("unmet").get<std::vector<std::string>>();
     return row;
   } catch (const ordered_json::exception&) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -9,6 +10,7 @@
 
 #include "oca/diagrams/sweep/campaign.h"
 #include "oca/diagrams/sweep/step_times.h"
+#include "oca/systems/signals/motion_metrics_value.h"
 
 namespace oca::sweep {
 
@@ -34,8 +36,8 @@ struct SampleRow {
   std::string error;  ///< empty if it finished
   double duration{0.0};
   std::int64_t steps{0};
-  std::string metrics{"{}"};       ///< JSON object
-  std::vector<std::string> unmet;  ///< expectations that were not met
+  std::optional<systems::MotionMetricsValue> metrics;  ///< of all judges as one
+  std::vector<std::string> unmet;                      ///< expectations that were not met
 
   std::tuple<std::int64_t, int> key() const { return {sample, combination}; }
   std::string Line() const;

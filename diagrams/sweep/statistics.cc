@@ -6,7 +6,7 @@
 
 namespace oca::sweep {
 
-Interval WilsonInterval(std::size_t count, std::size_t of) {
+ConfidenceInterval WilsonInterval(std::size_t count, std::size_t of) {
   if (of == 0) return {0.0, 1.0};
   constexpr double z = 1.959963984540054;
   const auto n = static_cast<double>(of);
@@ -25,7 +25,7 @@ double Quantile(const std::vector<double>& sorted, double q) {
   return std::lerp(sorted[below], sorted[above], place - static_cast<double>(below));
 }
 
-Interval MedianInterval(const std::vector<double>& sorted) {
+ConfidenceInterval MedianInterval(const std::vector<double>& sorted) {
   const auto n = static_cast<double>(sorted.size());
   std::size_t k = 0;
   double below = 0.0;  // P(Binomial(n, 1/2) <= k)

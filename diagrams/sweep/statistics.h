@@ -6,7 +6,7 @@
 
 namespace oca::sweep {
 
-struct Interval {
+struct ConfidenceInterval {
   double low;
   double high;
 };
@@ -17,7 +17,7 @@ struct Interval {
 ///
 /// [0, 1] of no samples.
 /// source Wilson, Probable inference, J. Am. Stat. Assoc. 22, 1927
-Interval WilsonInterval(std::size_t count, std::size_t of);
+ConfidenceInterval WilsonInterval(std::size_t count, std::size_t of);
 
 /// The value that a share `q` of the sorted values, which are not none, does not exceed; between
 /// two of them it is interpolated linearly.
@@ -27,6 +27,6 @@ double Quantile(const std::vector<double>& sorted, double q);
 /// distribution: from the k-th least to the k-th largest value, with the largest k for which
 /// P(Binomial(n, 1/2) < k) <= 0.025; all values if there are fewer than 6. Not of none.
 /// source Conover, Practical Nonparametric Statistics, 3rd ed., section 3.2
-Interval MedianInterval(const std::vector<double>& sorted);
+ConfidenceInterval MedianInterval(const std::vector<double>& sorted);
 
 }  // namespace oca::sweep

@@ -4,19 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <tuple>
 #include <utility>
 
 namespace oca::sweep {
 namespace {
 
-using nlohmann::ordered_json;
-
-std::optional<double> NumberOf(const ordered_json& metrics, const char* key) {
-  const auto found = metrics.find(key);
-  if (found == metrics.end() || !found->is_number()) return std::nullopt;
-  return found->get<double>();
-}
+using systems::MotionMetricsValue;
 
 std::optional<bool> And(const std::optional<bool>& a, const std::optional<bool>& b) {
   if (!a || !b) return std::nullopt;
@@ -58,20 +52,16 @@ struct Collection {
   Collected min_distance, final_error, reversals, path_ratio, time_to_goal, max_delta, violations;
 
   void Add(const SampleRow& row, CombinationSummary& summary) {
-    const ordered_json metrics = ordered_json::parse(row.metrics);
-    const auto add = [&](Collected& collected, const char* key) {
-      collected.Add(NumberOf(metrics, key), row.sample);
-    };
-    add(min_distance, "min_distance");
-    add(final_error, "final_error");
-    add(reversals, "delta_sign_changes_per_second");
-    add(path_ratio, "total_variation_ratio");
-    add(time_to_goal, "time_to_goal");
-    add(max_delta, "max_abs_delta");
-    add(violations, "limit_violations");
-    if (const auto number = NumberOf(metrics, "limit_violations")) {
-      Count(*number == 0.0, summary.within_limits);
-    }
+    if (!row.metrics) return;
+    const MotionMetricsValue& metrics = *row.metrics;
+    min_distance.Add(metrics.min_distance, row.sample);
+    final_error.Add(metrics.final_error, row.sample);
+    reversals.Add(metrics.delta_sign_changes_per_second, row.sample);
+    path_ratio.Add(metrics.total_variation_ratio, row.sample);
+    time_to_goal.Add(metrics.time_to_goal, row.sample);
+    max_delta.Add(metrics.max_abs_delta, row.sample);
+    violations.Add(metrics.limit_violations, row.sample);
+    if (metrics.limit_violations) Count(*metrics.limit_violations == 0.0, summary.within_limits);
   }
 
   void Finish(CombinationSummary& summary) {
@@ -89,17 +79,17 @@ struct Collection {
 
 Judgement Judge(const SampleRow& row, double arrival) {
   if (row.outcome != Outcome::kFinished) return {false, false, false, false, false};
-  const ordered_json metrics = ordered_json::parse(row.metrics);
+  const MotionMetricsValue metrics = row.metrics.value_or(MotionMetricsValue());
   Judgement judgement;
   judgement.met = row.unmet.empty();
-  if (const auto least = NumberOf(metrics, "min_distance")) {
-    judgement.sampled_clear = *least > 0.0;
-  } else if (NumberOf(metrics, "contact_time")) {
+  if (metrics.min_distance) {
+    judgement.sampled_clear = *metrics.min_distance > 0.0;
+  } else if (metrics.contact_time) {
     judgement.sampled_clear = true;  // something looked, and nothing came within its reach
   }
-  const auto certified = NumberOf(metrics, "certified_min_distance");
+  const auto& certified = metrics.certified_min_distance;
   judgement.clear = certified ? *certified > 0.0 : judgement.sampled_clear;
-  if (const auto error = NumberOf(metrics, "final_error")) judgement.arrived = *error <= arrival;
+  if (metrics.final_error) judgement.arrived = *metrics.final_error <= arrival;
   judgement.both = And(judgement.clear, judgement.arrived);
   return judgement;
 }
@@ -109,16 +99,16 @@ std::string FailureOf(const SampleRow& row, double arrival) {
     return std::string(NameOf(row.outcome)) + (row.error.empty() ? "" : ": " + row.error);
   }
   const Judgement judgement = Judge(row, arrival);
-  const ordered_json metrics = ordered_json::parse(row.metrics);
+  const MotionMetricsValue metrics = row.metrics.value_or(MotionMetricsValue());
   std::vector<std::string> whys;
   if (judgement.sampled_clear == false) {
-    whys.push_back(fmt::format("contact, {:.3g} m", *NumberOf(metrics, "min_distance")));
+    whys.push_back(fmt::format("contact, {:.3g} m", *metrics.min_distance));
   } else if (judgement.clear == false) {
     whys.push_back(fmt::format("contact not ruled out between ticks, {:.3g} m at them",
-                               NumberOf(metrics, "min_distance").value_or(0.0)));
+                               metrics.min_distance.value_or(0.0)));
   }
   if (judgement.arrived == false) {
-    whys.push_back(fmt::format("not arrived, {:.3g} rad off", *NumberOf(metrics, "final_error")));
+    whys.push_back(fmt::format("not arrived, {:.3g} rad off", *metrics.final_error));
   }
   for (const std::string& unmet : row.unmet) whys.push_back("not met: " + unmet);
   std::string text;

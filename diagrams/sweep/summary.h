@@ -31,7 +31,7 @@ Judgement Judge(const SampleRow& row, double arrival);
 struct Share {
   std::int64_t count{0};
   std::int64_t of{0};
-  Interval interval() const {
+  ConfidenceInterval interval() const {
     return WilsonInterval(static_cast<std::size_t>(count), static_cast<std::size_t>(of));
   }
 };
@@ -40,8 +40,8 @@ struct Share {
 struct Spread {
   std::int64_t count{0};
   double median{0.0};
-  Interval interval{0.0, 0.0};  ///< of the median
-  double worst{0.0};            ///< the least of what should be large, the largest of the rest
+  ConfidenceInterval interval{0.0, 0.0};  ///< of the median
+  double worst{0.0};  ///< the least of what should be large, the largest of the rest
   std::int64_t worst_sample{0};
 };
 

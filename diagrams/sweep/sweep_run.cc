@@ -60,9 +60,9 @@ void TakeResult(const runs::RunResult& result, SampleRow& row) {
     const std::string got = one.value ? fmt::format("{}", *one.value) : "no value";
     row.unmet.push_back(fmt::format("{} {} (got {})", one.name, one.bound, got));
   }
-  if (result.failure.empty()) return;
+  if (!result.failure) return;
   row.outcome = Outcome::kFailed;
-  row.error = result.failure;
+  row.error = result.failure->message;
 }
 
 /// Hands out the runs of a shard that are not done yet, to any thread.

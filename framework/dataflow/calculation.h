@@ -12,8 +12,8 @@ namespace oca {
 
 /// One thing that a calculation reads.
 struct Read {
-  enum class Kind { kOfTime, kOfLog, kInput, kOutput, kState } kind;
-  int index{-1};                  ///< of the input, output or state in its system
+  enum class Kind { kOfTime, kOfLog, kInput, kOutput, kCached, kState } kind;
+  int index{-1};                  ///< of the input, output, cached value or state in its system
   const System* system{nullptr};  ///< the one that declared it; none for the time and the log
 };
 
@@ -81,6 +81,13 @@ struct Access<Output<T>> {
   }
 };
 template <class T>
+struct Access<Cached<T>> {
+  static const T& Get(std::byte* arena, Slot slot) { return ViewOf<T>::Read(arena, slot); }
+  static Read Declare(const Handle& handle) {
+    return {Read::Kind::kCached, handle.index, handle.system};
+  }
+};
+template <class T>
 struct Access<DiscreteState<T>> {
   static decltype(auto) Get(std::byte* arena, Slot slot) { return ViewOf<T>::Read(arena, slot); }
   static Read Declare(const Handle& handle) {
@@ -106,6 +113,17 @@ struct OwnerOf<R (S::*)(A...) const> {
   using Type = S;
 };
 
+/// What a method computes that takes it last, as a reference to write to.
+template <class M>
+struct LastOf;
+template <class S, class R, class... A>
+struct LastOf<R (S::*)(A...) const> {
+  using Reference = std::tuple_element_t<sizeof...(A) - 1, std::tuple<A...>>;
+  using Type = std::remove_reference_t<Reference>;
+  static_assert(std::is_lvalue_reference_v<Reference> && !std::is_const_v<Type>,
+                "the last parameter is the value to write, a T&");
+};
+
 /// Calls a method that returns a double and stores it at the last slot.
 template <auto kMethod, class... Handles>
 void InvokeWitness(const System& system, std::byte* arena, const Slot* slots) {
@@ -115,6 +133,18 @@ void InvokeWitness(const System& system, std::byte* arena, const Slot* slots) {
         (static_cast<const Owner&>(system).*kMethod)(Access<Handles>::Get(arena, slots[I])...);
   }
   (std::index_sequence_for<Handles...>());
+}
+
+/// Shows a member of what it reads: a number or a vector as a Vector, others as they are.
+template <auto kMember, class From, class To>
+void InvokeMember(const System& /*system*/, std::byte* arena, const Slot* slots) {
+  const auto& value = Access<From>::Get(arena, slots[0]).*kMember;
+  auto&& shown = Access<To>::Get(arena, slots[1]);
+  if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>>) {
+    shown[0] = static_cast<double>(value);
+  } else {
+    shown = value;
+  }
 }
 
 template <auto kMethod, class... Handles>
@@ -129,11 +159,16 @@ void Invoke(const System& system, std::byte* arena, const Slot* slots) {
 }  // namespace internal
 
 /// Binds a member function to what it reads and then writes. A method whose parameters do not fit
-/// the handles does not compile.
-template <auto kMethod, class... WriteTypes, class... Reads>
+/// the handles does not compile. A data member, of the one value that is read, is copied.
+template <auto kMember, class... WriteTypes, class... Reads>
 Calculation MakeCalculation(const Reads&... reads) {
-  return {&internal::Invoke<kMethod, Reads..., WriteTypes...>,
-          {internal::Access<Reads>::Declare(reads)...}};
+  if constexpr (std::is_member_object_pointer_v<decltype(kMember)>) {
+    return {&internal::InvokeMember<kMember, Reads..., WriteTypes...>,
+            {internal::Access<Reads>::Declare(reads)...}};
+  } else {
+    return {&internal::Invoke<kMember, Reads..., WriteTypes...>,
+            {internal::Access<Reads>::Declare(reads)...}};
+  }
 }
 
 /// Binds a witness function, which returns its value, to what it reads.

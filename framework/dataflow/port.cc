@@ -21,6 +21,13 @@ Storage Find(const OutputHandle& output, const Context& context) {
   return {schedule.arena(context), entry.slot, {}};
 }
 
+Storage Find(const CachedHandle& cached, const Context& context) {
+  const Schedule& schedule = Schedule::Of(cached, context);
+  const int node = schedule.cached(cached);
+  schedule.Evaluate(context, node);
+  return {schedule.arena(context), schedule.nodes[node].out, {}};
+}
+
 Storage Find(const StateHandle& state, const Context& context) {
   const Schedule& schedule = Schedule::Of(state, context);
   return {schedule.arena(context), schedule.state(state).slot, {}};

@@ -95,6 +95,7 @@ struct Handle {
 
 struct InputHandle : Handle {};
 struct OutputHandle : Handle {};
+struct CachedHandle : Handle {};
 struct StateHandle : Handle {};
 
 template <class T>
@@ -147,6 +148,19 @@ struct Output : OutputHandle {
   friend class System;
   friend Output Typed<T>(const OutputHandle& output);
   explicit Output(const OutputHandle& handle) : OutputHandle(handle) {}
+};
+
+/// A value that several calculations of one system share, computed at most once an instant. It is
+/// no port: nothing outside the system reads it, files and records do not know it.
+template <class T>
+struct Cached : CachedHandle {
+  Cached() = default;
+  /// As of an output; for tests of the system.
+  const T& Eval(const Context& context) const;
+
+ private:
+  friend class System;
+  explicit Cached(const CachedHandle& handle) : CachedHandle(handle) {}
 };
 
 /// A part of the state that updates change at discrete times.

@@ -19,6 +19,7 @@ struct Storage {
 };
 
 Storage Find(const OutputHandle& output, const Context& context);
+Storage Find(const CachedHandle& cached, const Context& context);
 Storage Find(const StateHandle& state, const Context& context);
 Storage FindExported(const InputHandle& input, const Context& context);
 void MarkChanged(const InputHandle& input, Context& context);
@@ -60,6 +61,12 @@ void Input<T>::Fix(Context& context, const Value& value) const {
 
 template <class T>
 typename ViewOf<T>::Const Output<T>::Eval(const Context& context) const {
+  const internal::Storage at = internal::Find(*this, context);
+  return ViewOf<T>::Read(at.arena, at.slot);
+}
+
+template <class T>
+const T& Cached<T>::Eval(const Context& context) const {
   const internal::Storage at = internal::Find(*this, context);
   return ViewOf<T>::Read(at.arena, at.slot);
 }

@@ -59,9 +59,9 @@ void Schedule::PullRange(const Context& context, std::uint32_t begin, std::uint3
       if (state.computed < changed) {
         Call(node.function, *node.system, memory, node.first_slot, profile);
         const std::byte* const value = memory + node.out.offset;
-        const bool finite = node.vector
-                                ? AllFinite(reinterpret_cast<const double*>(value), node.out.size)
-                                : node.type->check(value, Look::kFinite).ok();
+        const bool finite =
+            node.vector ? AllFinite(reinterpret_cast<const double*>(value), node.out.size)
+                        : node.type == nullptr || node.type->check(value, Look::kFinite).ok();
         if (!finite) FailNode(context, index);
         state.computed = epoch;
       }
@@ -70,27 +70,22 @@ void Schedule::PullRange(const Context& context, std::uint32_t begin, std::uint3
   } catch (const SimulationError&) {
     throw;
   } catch (const std::exception& error) {
-    const System* const system = nodes[index].system;
-    Fail(context, system, system->outputs()[PortOf(index)].name, error.what());
+    Fail(context, nodes[index].system, PortOf(nodes[index]), error.what());
   }
 }
 
-int Schedule::PortOf(std::uint32_t node) const {
-  const auto& all = nodes[node].system->outputs();
-  const int first = nodes[node].system->first_output_;
-  for (int i = 0; i < static_cast<int>(all.size()); ++i) {
-    if (outputs[first + i].node == static_cast<int>(node)) return i;
-  }
-  return 0;
+std::string Schedule::PortOf(const Node& node) const {
+  return node.port < 0 ? "" : node.system->outputs()[node.port].name;
 }
 
 void Schedule::FailNode(const Context& context, std::uint32_t index) const {
-  const System* const system = nodes[index].system;
   const Node& node = nodes[index];
-  const std::string& port = system->outputs()[PortOf(index)].name;
-  if (node.vector) Fail(context, system, port, "the value is not finite (NaN or infinity)");
+  const std::string port = PortOf(node);
+  if (node.vector) {
+    Fail(context, node.system, port, "the value is not finite (NaN or infinity)");
+  }
   const Fault fault = node.type->check(arena(context) + node.out.offset, Look::kFinite);
-  Fail(context, system, port, fmt::format("the value: {}", fault.text()).c_str());
+  Fail(context, node.system, port, fmt::format("the value: {}", fault.text()).c_str());
 }
 
 void Schedule::FailUnfixed(const Context& context, std::uint32_t source) const {

@@ -15,7 +15,7 @@ namespace oca {
 ///
 /// Everything that can change on its own is a *source*: the time, the continuous state, each
 /// discrete state, each fixed input. A source carries the epoch of its last change. A *node* is
-/// one output's calculation; it carries the epoch at which it was last computed, and nodes with
+/// the calculation of an output or a cached value; it carries the epoch at which it was last computed, and nodes with
 /// the same set of sources share one *source class*, whose newest change is looked up once an
 /// epoch. A node is up to date when it was computed no earlier than its class changed. Epoch 0 is
 /// before everything: a source still there is an exported input that nobody has fixed.
@@ -27,8 +27,9 @@ class Schedule {
     std::uint32_t first_slot;  ///< into slots
     std::uint32_t source_class;
     Slot out;
-    const SignalType* type;
+    const SignalType* type;              ///< nullptr: a cached value
     bool vector;                         ///< of type Vector
+    int port;                            ///< output that a failure is told of; -1: none
     std::uint32_t pull_begin, pull_end;  ///< into pulls: nodes it needs and itself, in order
   };
   struct SourceClass {
@@ -105,7 +106,7 @@ class Schedule {
   };
   struct Object {
     std::uint32_t offset;
-    const SignalType* type;
+    const ObjectType* type;
   };
 
   // Evaluation. `context` is const to callers; its cache is not.
@@ -171,6 +172,10 @@ class Schedule {
   const OutputEntry& output(const OutputHandle& handle) const {
     return outputs[handle.system->first_output_ + handle.index];
   }
+  /// The node of a cached value.
+  int cached(const CachedHandle& handle) const {
+    return cached_nodes[handle.system->first_cached_ + handle.index];
+  }
   const StateEntry& state(const StateHandle& handle) const {
     return states[handle.system->first_state_ + handle.index];
   }
@@ -187,6 +192,7 @@ class Schedule {
   std::vector<InputEntry> exported_inputs;  ///< of the root
   std::vector<ShownState> shown_states;
   std::vector<OutputEntry> outputs;  ///< of all leaf systems
+  std::vector<int> cached_nodes;     ///< of all leaf systems
   std::vector<StateEntry> states;    ///< of all leaf systems
   std::vector<Derivative> derivatives;
   std::uint32_t derivative_pull_begin{0}, derivative_pull_end{0};
@@ -236,7 +242,8 @@ class Schedule {
                               const StateEntry& state) const;
   void FailDerivative(const Context& context) const;
   void GrowLikeNext(Context& context, const StateEntry& state) const;
-  int PortOf(std::uint32_t node) const;
+  /// The name of the port that a node's failure is told of.
+  std::string PortOf(const Node& node) const;
 };
 
 }  // namespace oca

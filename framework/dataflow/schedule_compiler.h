@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -21,22 +22,41 @@ class ScheduleCompiler {
   static std::unique_ptr<Schedule> Compile(Diagram& root, Wiring& wiring);
 
  private:
+  /// The calculation of an output or of a cached value.
+  struct NodeInfo {
+    int leaf;
+    int output{-1};  ///< -1: a cached value
+    int cached{-1};
+    std::vector<int> predecessors{};
+    std::set<std::uint32_t> sources{};
+  };
+  const Calculation& CalculationOf(const NodeInfo& node) const;
+  const ObjectType& TypeOfNode(const NodeInfo& node) const;
+
   ScheduleCompiler(Diagram& root, Wiring& wiring);
 
   void IndexLeaves();
   void MakeSources();
+  void FindNodes();
   void OrderNodes();
-  std::vector<int> ReportLoop(const std::vector<int>& open_predecessors,
-                              const std::vector<std::vector<int>>& predecessors);
+  std::vector<int> ReportLoop(const std::vector<int>& open_predecessors);
+  void Renumber(const std::vector<int>& order);
+  void MakeGroups();
+  void MakeClasses();
   void LayOut();
-  void LayOutObject(Slot& slot, const SignalType& type);
+  void LayOutCounters();
+  void LayOutStates();
+  void LayOutNodes();
+  void LayOutObject(Slot& slot, const ObjectType& type);
   void CompileNodes();
+  /// Finds for each node the output that its failure is told of.
+  void TellPorts();
   void CompilePlausible();
   void CompileStates();
   void CompileWitnesses();
   void CompileEvents();
 
-  /// The node behind an output or an input's driver; -1 for what is always up to date.
+  /// The node behind an output, a cached value or an input's driver; -1 for what is always up to date.
   int NodeOf(int leaf, const Read& read) const;
   /// The sources that reading this depends on.
   std::set<std::uint32_t> SourcesOf(int leaf, const Read& read) const;
@@ -47,19 +67,14 @@ class ScheduleCompiler {
   std::vector<int> NodesOf(int leaf, const std::vector<Read>& reads) const;
   std::uint32_t Allocate(std::size_t bytes, std::size_t align = 8);
 
-  struct NodeInfo {
-    int leaf;
-    int output;
-    std::vector<int> predecessors;
-    std::set<std::uint32_t> sources;
-  };
-
   Diagram& root_;
   Wiring& wiring_;
   std::unique_ptr<Schedule> schedule_;
-  std::vector<NodeInfo> nodes_;            // in evaluation order once ordered
-  std::vector<std::vector<int>> node_of_;  // leaf, output -> node
-  std::vector<char> marked_;               // scratch of AddPulls
+  std::vector<NodeInfo> nodes_;                               // in evaluation order once ordered
+  std::vector<std::vector<int>> node_of_;                     // leaf, output -> node
+  std::vector<std::vector<int>> cached_node_of_;              // leaf, cached value -> node
+  std::map<std::set<std::uint32_t>, std::uint32_t> classes_;  // sources -> class
+  std::vector<char> marked_;                                  // scratch of AddPulls
   std::size_t arena_{0};
 };
 

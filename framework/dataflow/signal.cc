@@ -15,8 +15,8 @@ namespace oca {
 
 // A vector port keeps its doubles in the arena itself, so nothing here is ever called with one
 // value; the engine asks for `&kVectorType` and handles the length.
-const SignalType kVectorType{"Vector", 0,       alignof(double), nullptr, nullptr,
-                             nullptr,  nullptr, nullptr,         nullptr};
+const SignalType kVectorType{
+    {0, alignof(double), nullptr, nullptr, nullptr}, "Vector", nullptr, nullptr, nullptr};
 
 namespace internal {
 

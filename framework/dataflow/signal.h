@@ -28,64 +28,103 @@ namespace internal {
 void ThrowIf(const Fault& fault);
 }  // namespace internal
 
-/// What the engine, the recorder and `eval` know of a signal type, without its C++ type.
-struct SignalType {
-  const char* name;
+/// What a Context knows of a type whose values it keeps.
+struct ObjectType {
   std::size_t size;   ///< bytes; 0 for Vector, whose size the port says
   std::size_t align;  ///< bytes
   void (*construct)(void* at);
   void (*destroy)(void* at);
   void (*assign)(void* to, const void* from);
+};
+
+template <class T>
+constexpr ObjectType ObjectTypeOf() {
+  return {sizeof(T), alignof(T), [](void* at) { new (at) T; },
+          [](void* at) { static_cast<T*>(at)->~T(); },
+          [](void* to, const void* from) { *static_cast<T*>(to) = *static_cast<const T*>(from); }};
+}
+
+/// What the engine, the recorder and `eval` know of a signal type, without its C++ type.
+struct SignalType : ObjectType {
+  const char* name;
   Fault (*check)(const void* value, Look look);
+  /// nullptr: only states are of this type.
   void (*write_json)(const void* value, std::string& out);
-  /// Reads and checks; throws ConfigError saying what is wrong.
+  /// Reads and checks; throws ConfigError saying what is wrong. nullptr: no input is of this type.
   void (*read_json)(std::string_view text, void* value);
 };
 
-/// Trait of a type that ports carry. A signal type specialises it with
-/// `static constexpr const char* kName`, `static Fault Check(const T&, Look)`,
-/// `static void WriteJson(const T&, std::string&)` and `static T ReadJson(std::string_view)`,
-/// the last three defined in a source file. Check alone judges what a value may be: whoever takes
-/// one from outside asks with Look::kWhole, the engine asks of all that it computes with
-/// Look::kFinite, which costs no more than a look at the numbers. `static void FromOutside(T&)`, if
-/// there is one, drops what only systems may say to each other. Values are copied by assignment, so
-/// a type whose assignment does not allocate once its capacity suffices keeps the run free of the
-/// heap.
+/// Trait of a type that ports and states carry. A signal type specialises it with
+/// `static constexpr const char* kName` and `static Fault Check(const T&, Look)`; one that outputs
+/// show also with `static void WriteJson(const T&, std::string&)`, and one that inputs take with
+/// `static T ReadJson(std::string_view)`; all but the name are defined in a source file. Check
+/// alone judges what a value may be: whoever takes one from outside asks with Look::kWhole, the
+/// engine asks of all that it computes with Look::kFinite, which costs no more than a look at the
+/// numbers. `static void FromOutside(T&)`, if there is one, drops what only systems may say to each
+/// other. Values are copied by assignment, so a type whose assignment does not allocate once its
+/// capacity suffices keeps the run free of the heap.
 template <class T>
 struct Signal;
 
+/// Whether outputs can be of the type.
+template <class T>
+concept Shown = std::is_same_v<T, Vector> || requires(const T& value, std::string& out) {
+  Signal<T>::WriteJson(value, out);
+};
+/// Whether inputs can be of the type.
+template <class T>
+concept Taken = std::is_same_v<T, Vector> || requires(T& value, std::string_view text) {
+  value = Signal<T>::ReadJson(text);
+};
+
 /// Vectors live in the arena itself; only the name of this entry is ever used.
 extern const SignalType kVectorType;
+
+namespace internal {
+
+template <class T>
+constexpr auto WriterOf() -> decltype(SignalType::write_json) {
+  if constexpr (Shown<T>) {
+    return [](const void* value, std::string& out) {
+      Signal<T>::WriteJson(*static_cast<const T*>(value), out);
+    };
+  } else {
+    return nullptr;
+  }
+}
+
+template <class T>
+constexpr auto ReaderOf() -> decltype(SignalType::read_json) {
+  if constexpr (Taken<T>) {
+    return [](std::string_view text, void* value) {
+      T read = Signal<T>::ReadJson(text);
+      ThrowIf(Signal<T>::Check(read, Look::kWhole));
+      *static_cast<T*>(value) = std::move(read);
+    };
+  } else {
+    return nullptr;
+  }
+}
+
+}  // namespace internal
 
 template <class T>
 const SignalType& TypeOf() {
   if constexpr (std::is_same_v<T, Vector>) {
     return kVectorType;
   } else {
-    static constexpr SignalType kType{
-        Signal<T>::kName,
-        sizeof(T),
-        alignof(T),
-        [](void* at) { new (at) T; },
-        [](void* at) { static_cast<T*>(at)->~T(); },
-        [](void* to, const void* from) { *static_cast<T*>(to) = *static_cast<const T*>(from); },
-        [](const void* value, Look look) {
-          return Signal<T>::Check(*static_cast<const T*>(value), look);
-        },
-        [](const void* value, std::string& out) {
-          Signal<T>::WriteJson(*static_cast<const T*>(value), out);
-        },
-        [](std::string_view text, void* value) {
-          T read = Signal<T>::ReadJson(text);
-          internal::ThrowIf(Signal<T>::Check(read, Look::kWhole));
-          *static_cast<T*>(value) = std::move(read);
-        }};
+    static constexpr SignalType kType{ObjectTypeOf<T>(), Signal<T>::kName,
+                                      [](const void* value, Look look) {
+                                        return Signal<T>::Check(*static_cast<const T*>(value),
+                                                                look);
+                                      },
+                                      internal::WriterOf<T>(), internal::ReaderOf<T>()};
     return kType;
   }
 }
 
-/// The JSON of a value made by default, which tells the members of a type that is no Vector.
-/// throws ConfigError if the type's WriteJson writes none.
+/// The JSON of a value made by default, which tells the members of a type that is no Vector and
+/// that outputs show. throws ConfigError if the type's WriteJson writes none.
 std::string DefaultJson(const SignalType& type);
 
 /// Where a value lies in a Context.

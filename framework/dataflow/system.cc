@@ -52,6 +52,12 @@ Size System::DeclareSize(
 }
 
 InputHandle System::AddInput(InputInfo info) {
+  if (info.type != &kVectorType && info.type->read_json == nullptr) {
+    throw WiringError(
+        {fmt::format("input '{}': type; got {}, which is not read from JSON; expected "
+                     "one that is",
+                     info.name, info.type->name)});
+  }
   inputs_.push_back(std::move(info));
   return {{this, static_cast<int>(inputs_.size()) - 1}};
 }
@@ -67,14 +73,27 @@ void System::CheckReads(const std::string& what, const Calculation& calculation)
     };
     if (read.kind == Read::Kind::kInput) check("an input", inputs_.size());
     if (read.kind == Read::Kind::kOutput) check("an output", outputs_.size());
+    if (read.kind == Read::Kind::kCached) check("a cached value", cached_.size());
     if (read.kind == Read::Kind::kState) check("a state", states_.size());
   }
 }
 
 OutputHandle System::AddOutput(OutputInfo info) {
+  if (info.type != &kVectorType && info.type->write_json == nullptr) {
+    throw WiringError(
+        {fmt::format("output '{}': type; got {}, which is not written as JSON; "
+                     "expected one that is",
+                     info.name, info.type->name)});
+  }
   CheckReads(fmt::format("output '{}'", info.name), info.calculation);
   outputs_.push_back(std::move(info));
   return {{this, static_cast<int>(outputs_.size()) - 1}};
+}
+
+CachedHandle System::AddCached(CachedInfo info) {
+  CheckReads("cached value", info.calculation);
+  cached_.push_back(std::move(info));
+  return {{this, static_cast<int>(cached_.size()) - 1}};
 }
 
 OutputHandle System::AddStateOutput(std::string name, const StateHandle& state) {

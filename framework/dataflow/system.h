@@ -2,6 +2,7 @@
 #pragma once
 
 #include <any>
+#include <concepts>
 #include <functional>
 #include <initializer_list>
 #include <string>
@@ -64,6 +65,10 @@ class System {
     Calculation calculation;  ///< unused if `state` is set
     int state{-1};            ///< the output shows this state as it is
   };
+  struct CachedInfo {
+    const ObjectType* type;
+    Calculation calculation;
+  };
   struct StateInfo {
     std::string name;
     const SignalType* type;
@@ -93,6 +98,7 @@ class System {
 
   const std::vector<InputInfo>& inputs() const { return inputs_; }
   const std::vector<OutputInfo>& outputs() const { return outputs_; }
+  const std::vector<CachedInfo>& cached() const { return cached_; }
   const std::vector<StateInfo>& states() const { return states_; }
   const std::vector<EventInfo>& events() const { return events_; }
   const std::vector<WitnessInfo>& witnesses() const { return witnesses_; }
@@ -138,16 +144,34 @@ class System {
 
   template <class T>
   Input<T> DeclareInput(std::string name, PortSpec spec = {}) {
+    static_assert(Taken<T>, "what an input takes has a Signal<T>::ReadJson");
     return Input<T>(AddInput({std::move(name), &TypeOf<T>(), std::move(spec), false}));
   }
   template <class T>
   OptionalInput<T> DeclareOptionalInput(std::string name, PortSpec spec = {}) {
+    static_assert(Taken<T>, "what an input takes has a Signal<T>::ReadJson");
     return OptionalInput<T>(AddInput({std::move(name), &TypeOf<T>(), std::move(spec), true}));
   }
 
-  /// An output that `kMethod(reads..., T& out)` computes.
+  /// A value that `kMethod(reads..., T& value)` computes for other calculations of this system,
+  /// each time in place of the last one, so that T may hold the memory that its computation takes.
+  /// A Context keeps and copies it as it does outputs. Its numbers are not looked at: what outputs
+  /// and states take over of them is. A failure is told of the first output that reads it, or of
+  /// the system if none does.
+  template <auto kMethod, class... Reads>
+  auto DeclareCached(const Reads&... reads) {
+    using T = typename internal::LastOf<decltype(kMethod)>::Type;
+    static_assert(std::semiregular<T>,
+                  "a Context makes the value and assigns it when it is copied");
+    static constexpr ObjectType kType = ObjectTypeOf<T>();
+    return Cached<T>(AddCached({&kType, MakeCalculation<kMethod, WriteOf<T>>(reads...)}));
+  }
+
+  /// An output that `kMethod(reads..., T& out)` computes; or, with a data member as kMethod, that
+  /// shows this member of the one cached value, state or signal that it reads.
   template <class T, auto kMethod, class... Reads>
   Output<T> DeclareOutput(std::string name, PortSpec spec, const Reads&... reads) {
+    static_assert(Shown<T>, "what an output shows has a Signal<T>::WriteJson");
     auto calculation = MakeCalculation<kMethod, WriteOf<T>>(reads...);
     return Output<T>(
         AddOutput({std::move(name), &TypeOf<T>(), std::move(spec), std::move(calculation)}));
@@ -155,6 +179,7 @@ class System {
   /// An output that shows a state; it costs nothing and breaks algebraic loops.
   template <class T>
   Output<T> DeclareStateOutput(std::string name, const DiscreteState<T>& state) {
+    static_assert(Shown<T>, "what an output shows has a Signal<T>::WriteJson");
     return Output<T>(AddStateOutput(std::move(name), state));
   }
   Output<Vector> DeclareStateOutput(std::string name, const ContinuousState& state) {
@@ -228,10 +253,12 @@ class System {
   }
 
   // What the templates above are made of, for systems whose ports and calculations are known only
-  // at run time. Those that read what another system declared throw WiringError.
+  // at run time. Those that read what another system declared throw WiringError, as does an input
+  // or an output of a type without JSON to read or to write.
   InputHandle AddInput(InputInfo info);
   OutputHandle AddOutput(OutputInfo info);
   OutputHandle AddStateOutput(std::string name, const StateHandle& state);
+  CachedHandle AddCached(CachedInfo info);
   StateHandle AddState(StateInfo info);
   void SetDerivative(const StateHandle& state, Calculation calculation);
   Witness AddWitness(WitnessInfo info);
@@ -267,6 +294,7 @@ class System {
 
   std::vector<InputInfo> inputs_;
   std::vector<OutputInfo> outputs_;
+  std::vector<CachedInfo> cached_;
   std::vector<StateInfo> states_;
   std::vector<EventInfo> events_;
   std::vector<WitnessInfo> witnesses_;
@@ -278,6 +306,7 @@ class System {
   const Schedule* schedule_{nullptr};
   int first_input_{0};
   int first_output_{0};
+  int first_cached_{0};
   int first_state_{0};
   int leaf_{0};
 };

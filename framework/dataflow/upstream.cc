@@ -43,6 +43,7 @@ class UpstreamWalk {
       if (output.state >= 0) Add(leaf, {Read::Kind::kState, output.state});
       AddReads(leaf, output.calculation);
     }
+    if (read.kind == Read::Kind::kCached) AddReads(leaf, system.cached()[read.index].calculation);
     if (read.kind == Read::Kind::kInput) {
       const Wiring::Driver& driver = wiring_.leaves()[leaf].drivers[read.index];
       if (driver.exported >= 0) AddExported(driver.exported);

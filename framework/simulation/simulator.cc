@@ -4,16 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/log.h"
 #include "oca/framework/dataflow/schedule.h"
+#include "oca/framework/simulation/event_clock.h"
 #include "oca/framework/simulation/witness_locator.h"
 
 namespace oca {
@@ -21,97 +19,17 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Ticks of the common clock up to which a double divided by a double is the nearest time.
-constexpr std::int64_t kMostTicks = std::int64_t{1} << 53;
-/// The clock stays exact at least so long: more than a day.
-constexpr std::int64_t kLeastSeconds = 100000;
-
 }  // namespace
-
-/// All periods and offsets as whole ticks of one clock, whose rate is their least common multiple.
-class Simulator::Clock {
- public:
-  struct Beat {
-    std::int64_t offset;
-    std::int64_t period;
-  };
-
-  void Add(const Every& every) {
-    std::int64_t rate = rate_;
-    for (const std::int64_t denominator :
-         {every.period.denominator(), every.offset.denominator()}) {
-      const std::int64_t factor = denominator / std::gcd(rate, denominator);
-      if (factor > kMostTicks / kLeastSeconds / rate) {
-        throw ConfigError(fmt::format(
-            "simulator: period; got {}, which shares no clock with the others; expected periods "
-            "with small common multiples",
-            every.period.ToString()));
-      }
-      rate *= factor;
-    }
-    std::vector<Every> everies = everies_;
-    everies.push_back(every);
-    std::vector<Beat> beats;
-    beats.reserve(everies.size());
-    for (const Every& each : everies) {
-      beats.push_back({Ticks(each.offset, rate), Ticks(each.period, rate)});
-    }
-    rate_ = rate;
-    everies_ = std::move(everies);
-    beats_ = std::move(beats);
-  }
-  double Time(std::size_t beat, std::int64_t count) const {
-    return static_cast<double>(beats_[beat].offset + count * beats_[beat].period) /
-           static_cast<double>(rate_);
-  }
-  /// The first count whose time is not before `time`.
-  std::int64_t FirstCount(std::size_t beat, double time) const {
-    const double ticks = time * static_cast<double>(rate_);
-    if (!(std::fabs(ticks) <= static_cast<double>(kMostTicks))) {
-      throw ConfigError(fmt::format("simulator: time; got {} s; expected at most {} s", time,
-                                    kMostTicks / rate_));
-    }
-    auto count =
-        static_cast<std::int64_t>(std::floor((ticks - static_cast<double>(beats_[beat].offset)) /
-                                             static_cast<double>(beats_[beat].period)));
-    count = std::max<std::int64_t>(count - 1, 0);
-    while (Time(beat, count) < time) ++count;
-    return count;
-  }
-  /// `count` as long as `time` lies between it and the one before; else the first not before
-  /// `time`.
-  std::int64_t Follow(std::size_t beat, std::int64_t count, double time) const {
-    const bool behind = Time(beat, count) < time;
-    const bool ahead = count > 0 && Time(beat, count - 1) > time;
-    return behind || ahead ? FirstCount(beat, time) : count;
-  }
-
- private:
-  static std::int64_t Ticks(const Period& period, std::int64_t rate) {
-    const std::int64_t factor = rate / period.denominator();
-    assert(factor > 0);  // the rate is a multiple of every denominator
-    if (std::abs(period.numerator()) > kMostTicks / factor) {
-      throw ConfigError(
-          fmt::format("simulator: period; got {}; expected at most {} s beside the others",
-                      period.ToString(), kMostTicks / rate));
-    }
-    return period.numerator() * factor;
-  }
-
-  std::int64_t rate_{1};  // ticks a second
-  std::vector<Every> everies_;
-  std::vector<Beat> beats_;
-};
 
 Simulator::Simulator(const Diagram& diagram, const IntegratorOptions& options)
     : Simulator(diagram, diagram.MakeContext(), options) {}
 
 Simulator::Simulator(const Diagram& diagram, Context context, const IntegratorOptions& options)
-    : diagram_(diagram), context_(std::move(context)), clock_(std::make_unique<Clock>()) {
+    : diagram_(diagram), context_(std::move(context)), clock_(std::make_unique<EventClock>()) {
   const Schedule& schedule = diagram_.schedule();
   CheckContext();
   for (const Schedule::Group& group : schedule.groups) clock_->Add(group.every);
-  integrator_ = MakeIntegrator(schedule, options);
+  integrator_ = MakeIntegrationMethod(schedule, options);
   if (!schedule.witnesses.empty()) locator_ = std::make_unique<WitnessLocator>(schedule, options);
   due_.reserve(schedule.events.size());
   saved_state_.resize(schedule.continuous_size);

@@ -10,11 +10,12 @@
 #include "oca/framework/dataflow/diagram.h"
 #include "oca/framework/dataflow/profile.h"
 #include "oca/framework/dataflow/status.h"
-#include "oca/framework/simulation/integrator.h"
+#include "oca/framework/simulation/integration_method.h"
 #include "oca/framework/simulation/pacer.h"
 
 namespace oca {
 
+class EventClock;
 class WitnessLocator;
 
 /// What a simulator did since Initialize.
@@ -100,7 +101,6 @@ class Simulator {
   const SimulatorStatistics& statistics() const { return statistics_; }
 
  private:
-  class Clock;
   struct OwnPublish {
     std::int64_t count;  ///< of the next one
     Publish publish;
@@ -121,8 +121,8 @@ class Simulator {
 
   const Diagram& diagram_;
   Context context_;
-  std::unique_ptr<Clock> clock_;
-  std::unique_ptr<Integrator> integrator_;
+  std::unique_ptr<EventClock> clock_;
+  std::unique_ptr<IntegrationMethod> integrator_;
   std::unique_ptr<WitnessLocator> locator_;
   std::vector<OwnPublish> publishes_;
   std::vector<Monitor> monitors_;

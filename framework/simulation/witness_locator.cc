@@ -52,7 +52,7 @@ WitnessLocator::WitnessLocator(const Schedule& schedule, const IntegratorOptions
       scale_(schedule.witnesses.size()),
       crossing_(schedule.witnesses.size()) {}
 
-bool WitnessLocator::Advance(Context& context, Integrator* integrator, double to) {
+bool WitnessLocator::Advance(Context& context, IntegrationMethod* integrator, double to) {
   integrator_ = integrator;
   Start(context);
   for (int steps = 0; context.time() < to; ++steps) {

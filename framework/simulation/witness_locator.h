@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "oca/framework/dataflow/schedule.h"
-#include "oca/framework/simulation/integrator.h"
+#include "oca/framework/simulation/integration_method.h"
 
 namespace oca {
 
@@ -26,7 +26,7 @@ class WitnessLocator {
   /// pending; true if there was one. `integrator` may be nullptr if nothing moves but the time.
   /// throws SimulationError if a witness fails, needs too many steps, or crosses ever faster
   /// (Zeno).
-  bool Advance(Context& context, Integrator* integrator, double to);
+  bool Advance(Context& context, IntegrationMethod* integrator, double to);
 
  private:
   struct Look {
@@ -57,7 +57,7 @@ class WitnessLocator {
 
   const Schedule& schedule_;
   const int max_steps_;
-  Integrator* integrator_{nullptr};
+  IntegrationMethod* integrator_{nullptr};
   double begin_{0.0}, end_{0.0};        // s; of the present step
   std::vector<double> end_state_, at_;  // x at the end of the step; x at a look
   std::vector<double> start_value_;     // of each witness, 0 at rest

@@ -2,7 +2,7 @@
 #include "oca/models/geometry/closed_forms.h"
 
 #include "oca/models/geometry/box_overlap.h"
-#include "oca/models/geometry/point_forms.h"
+#include "oca/models/geometry/core_forms.h"
 #include "oca/models/geometry/segment_forms.h"
 
 namespace oca::geometry::internal {

@@ -10,7 +10,7 @@
 
 #include "oca/models/error.h"
 #include "oca/models/geometry/ball_tree.h"
-#include "oca/models/geometry/core_support.h"
+#include "oca/models/geometry/core_forms.h"
 
 namespace oca::geometry {
 namespace {

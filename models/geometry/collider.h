@@ -16,29 +16,11 @@ class BallTree;
 
 /// A shape prepared for distance queries: the set of all points within `radius` of a convex core.
 ///
-/// | shape    | core                                        | radius  |
-/// |----------|---------------------------------------------|---------|
-/// | sphere   | point                                       | its own |
-/// | capsule  | segment along z                             | its own |
-/// | box, cylinder, cone, ellipsoid, convex mesh | itself   | 0       |
-/// | half-space, compound | no convex core that ends: see parts() | 0 |
-///
 /// Rounding costs nothing that way: the core distance less the two radii is exact, also in overlap.
 /// Immutable; made by MakeCollider. Everything in the shape's frame, m.
 class Collider {
  public:
-  /// From simple to intricate; algorithms put the simpler one second.
-  enum class Core {
-    kPoint,
-    kSegment,
-    kBox,
-    kCylinder,
-    kCone,
-    kEllipsoid,
-    kHull,
-    kHalfSpace,
-    kCompound
-  };
+  using Core = geometry::Core;
   struct Part {
     Eigen::Isometry3d X_SP;
     std::shared_ptr<const Collider> collider;
@@ -49,8 +31,8 @@ class Collider {
   const Shape& shape() const { return shape_; }
   Core core() const { return core_; }
   double radius() const { return radius_; }
-  /// Half extents of the core's bounding box (segment: (0, 0, half length); ellipsoid: semi-axes;
-  /// point, hull, half-space and compound: zero).
+  /// Half extents of the core's bounding box (of a segment (0, 0, half length); zero
+  /// where Core says so).
   const Eigen::Vector3d& half() const { return half_; }
   /// Centre and radius of a sphere that contains the whole shape; infinite for a half-space, whose
   /// centre is the origin.
@@ -86,7 +68,7 @@ class Collider {
 };
 
 /// Prepares a shape. `where` names it in the error.
-/// throws ModelError for a size that is not finite and positive; a box, cylinder, cone or ellipsoid
+/// throws ModelError for a size that is not finite and positive; a shape
 ///        thinner than 1e-9 of its extent; a mesh without a hull; a compound without parts, with a
 ///        half-space or a compound among them, or with a pose that is not a finite rigid motion
 std::shared_ptr<const Collider> MakeCollider(const Shape& shape, std::string_view where);

@@ -21,39 +21,6 @@ constexpr double kLastStep = 1e-9;          // rad; the next one is its square
 constexpr double kSupportRounding = 2e-15;  // of a support, of the size of the pair
 constexpr double kMostRest = 1e-11;  // the same, where a rim follows the last digit of a normal
 
-bool HasRim(const Collider& core, const Vector3d& p) {
-  return core.core() == Collider::Core::kCylinder ||
-         (core.core() == Collider::Core::kCone && p.z() < 0.0);
-}
-
-bool IsEllipsoid(const Collider& core) { return core.core() == Collider::Core::kEllipsoid; }
-
-// Whether two points of a core lie on the same branch.
-bool SameBranch(const Collider& core, const Vector3d& p, const Vector3d& q) {
-  if (IsEllipsoid(core)) return true;
-  if (HasRim(core, p) && HasRim(core, q)) return p.z() * q.z() > 0.0;
-  return p == q;
-}
-
-// Moves a point of a branch to where the branch is extreme along `d`, and gives the derivative of
-// that place by the direction.
-void Follow(const Collider& core, const Vector3d& d, Vector3d* p, Matrix3d* curvature) {
-  curvature->setZero();
-  if (IsEllipsoid(core)) {
-    const Vector3d scaled = core.half().cwiseProduct(d);
-    const double length = scaled.norm();
-    *p = core.half().cwiseProduct(scaled) / length;
-    *curvature = core.half().cwiseAbs2().asDiagonal();
-    *curvature = (*curvature - *p * p->transpose()) / length;
-  } else if (HasRim(core, *p)) {
-    const double across = std::sqrt(d.x() * d.x() + d.y() * d.y());
-    const Vector3d along(-d.y() / across, d.x() / across, 0.0);
-    const double radius = core.half().x();
-    *p = {radius * along.y(), -radius * along.x(), p->z()};
-    *curvature = radius / across * along * along.transpose();
-  }
-}
-
 class Contact {
  public:
   Contact(const CorePair& pair, const Vector3d& normal) : pair_(pair), n_(normal) {}

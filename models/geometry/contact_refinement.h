@@ -11,7 +11,7 @@ namespace oca::geometry::internal {
 /// right to rounding, not to the square root of the proof.
 ///
 /// Each of the nearest points lies between branches a_k - b_k of A - B: corners stay where they
-/// are, points of rims and ellipsoids follow the normal n. Where w = sum mu_k w_k(n) = d n and all
+/// are, points of round branches follow the normal n. Where w = sum mu_k w_k(n) = d n and all
 /// n . w_k are equal, n is the normal. Newton's method solves that, with the branches of `points`
 /// first and others as the support function names them.
 ///

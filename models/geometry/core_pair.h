@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-#include "oca/models/geometry/core_support.h"
+#include "oca/models/geometry/core_forms.h"
 
 namespace oca::geometry::internal {
 
@@ -26,13 +26,8 @@ struct CorePair {
   Difference Support(const Eigen::Vector3d& direction) const {
     return At(CoreSupport(a, direction), CoreSupport(b, -(X_AB.linear().transpose() * direction)));
   }
-  /// Whether a core has a round side: no search then ends in a finite number of steps.
-  bool IsRound() const {
-    const auto round = [](Collider::Core core) {
-      return core >= Collider::Core::kCylinder && core <= Collider::Core::kEllipsoid;
-    };
-    return round(a.core()) || round(b.core());
-  }
+  /// Whether one of them has a round side.
+  bool IsRound() const { return internal::IsRound(a.core()) || internal::IsRound(b.core()); }
   /// A point well inside A - B or near it.
   Eigen::Vector3d Centre() const { return a.centre() - X_AB * b.centre(); }
   /// A - B lies within this distance of Centre(), m.

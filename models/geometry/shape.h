@@ -62,6 +62,20 @@ struct Compound {
 using Shape =
     std::variant<Sphere, Box, Cylinder, Capsule, ConvexMesh, Cone, Ellipsoid, HalfSpace, Compound>;
 
+/// What is left of a shape without its round skin, from simple to intricate; algorithms put the
+/// simpler one second.
+enum class Core {
+  kPoint,      ///< of a sphere; no extents
+  kSegment,    ///< of a capsule, along z
+  kBox,        ///< the box itself
+  kCylinder,   ///< the cylinder itself
+  kCone,       ///< the cone itself
+  kEllipsoid,  ///< the ellipsoid itself; its extents are the semi-axes
+  kHull,       ///< of a convex mesh; no extents
+  kHalfSpace,  ///< it has no core that ends; no extents
+  kCompound    ///< each part has one; no extents
+};
+
 /// `X_SP` pose of the part in the frame of the compound.
 struct CompoundPart {
   Eigen::Isometry3d X_SP{Eigen::Isometry3d::Identity()};

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "oca/models/planning/elastic_band.h"
+#include "oca/models/planning/band_optimizer.h"
 
 namespace oca::planning {
 
@@ -106,7 +106,7 @@ class BandPlanner {
   void Keep(BandPlan plan, BandPlan& best) const;
 
   const BandPlannerSettings settings_;
-  ElasticBand band_;
+  BandOptimizer band_;
   std::unique_ptr<robot::Clearance> standing_;
   BandCurve zero_;
   bool end_fixed_{true};

@@ -79,7 +79,7 @@ class Search {
     goal_free_ = judge_.Distance(goal, task.duration) > 0.0;
     for (const Prices& prices : kPrices) {
       bands_.push_back(
-          std::make_unique<ElasticBand>(model, SettingsOf(prices), task.self_collision));
+          std::make_unique<BandOptimizer>(model, SettingsOf(prices), task.self_collision));
     }
     FixEnd(goal_free_);
   }
@@ -255,7 +255,7 @@ class Search {
   BandCurve zero_;  ///< the request, from where the arm is
   VectorXd deviation_[3];
   bool goal_free_{true}, end_fixed_{true}, prepared_{false};
-  std::vector<std::unique_ptr<ElasticBand>> bands_;  ///< one for each of kPrices
+  std::vector<std::unique_ptr<BandOptimizer>> bands_;  ///< one for each of kPrices
   ClairvoyantPlan best_;
 };
 

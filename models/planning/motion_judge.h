@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "oca/models/planning/band_curve.h"
-#include "oca/models/planning/elastic_band.h"
+#include "oca/models/planning/band_optimizer.h"
 #include "oca/models/robot/clearance.h"
 
 namespace oca::planning {

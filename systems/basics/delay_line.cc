@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oca/systems/basics/delay_line.h"
 
-#include "oca/framework/dataflow/error.h"
-
 namespace oca::systems {
 
 void DelayLine::Fill(std::size_t steps, Eigen::Index size, const PerComponent& initial) {
@@ -26,14 +24,6 @@ namespace oca {
 
 Fault Signal<systems::DelayLine>::Check(const systems::DelayLine& line, Look /*look*/) {
   return Fault::UnlessFinite(AllFinite(line.values().data(), line.values().size()));
-}
-
-void Signal<systems::DelayLine>::WriteJson(const systems::DelayLine& line, std::string& out) {
-  WriteVectorJson(line.values().data(), line.values().size(), out);
-}
-
-systems::DelayLine Signal<systems::DelayLine>::ReadJson(std::string_view /*text*/) {
-  throw ConfigError("DelayLine: internal state; got JSON; expected none");
 }
 
 }  // namespace oca

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "oca/framework/dataflow/per_component.h"
@@ -32,13 +30,10 @@ class DelayLine {
 
 namespace oca {
 
-/// As JSON the samples in the order of the ring; it is never read.
 template <>
 struct Signal<systems::DelayLine> {
   static constexpr const char* kName = "DelayLine";
   static Fault Check(const systems::DelayLine& line, Look look);
-  static void WriteJson(const systems::DelayLine& line, std::string& out);
-  static systems::DelayLine ReadJson(std::string_view text);
 };
 
 }  // namespace oca

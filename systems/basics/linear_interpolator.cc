@@ -23,12 +23,11 @@ LinearRequest::Params LinearRequest::Example() {
 
 LinearRequest::Params LinearRequest::Checked(Params params) {
   Validated(params);
-  params.key_points = KeyPointsFrom(params.key_points, params.file, params.joints);
   return params;
 }
 
-Trajectory LinearRequest::MakeTrajectory(const Params& params) {
-  return Trajectory::Linear(params.key_points);
+motion::Trajectory LinearRequest::MakeTrajectory(const Params& params) {
+  return motion::Trajectory::Linear(KeyPointsFrom(params.key_points, params.file, params.joints));
 }
 
 }  // namespace oca::systems

@@ -6,7 +6,6 @@
 
 #include "oca/framework/dataflow/params.h"
 #include "oca/systems/commands/key_points.h"
-#include "oca/systems/commands/trajectory.h"
 #include "oca/systems/commands/trajectory_source.h"
 
 namespace oca::systems {
@@ -17,7 +16,7 @@ struct LinearRequest {
                                   "position = p_i + (p_{i+1} - p_i) (t - t_i) / (t_{i+1} - t_i)",
                                   "Jain, Sixt, Exner 2016, fake controller"};
   struct Params {
-    std::vector<KeyPoint> key_points{};
+    std::vector<KeyPointParams> key_points{};
     std::string file{};
     std::vector<std::string> joints{};
     Period period{};
@@ -26,7 +25,7 @@ struct LinearRequest {
   };
   static Params Example();
   static Params Checked(Params params);
-  static Trajectory MakeTrajectory(const Params& params);
+  static motion::Trajectory MakeTrajectory(const Params& params);
 };
 
 /// The requested motion of the report's fake controller: straight lines between key points.

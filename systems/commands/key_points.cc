@@ -1,211 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oca/systems/commands/key_points.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <algorithm>
-#include <cctype>
-#include <charconv>
-#include <cmath>
-#include <map>
-#include <numeric>
-#include <string_view>
-
-#include "oca/framework/dataflow/error.h"
-#include "oca/models/csv_table.h"
-#include "oca/models/error.h"
-#include "oca/models/file_cache.h"
-#include "oca/models/robot/joint_limits.h"
+#include "oca/systems/signals/config_errors.h"
 
 namespace oca::systems {
-namespace {
 
-using Numbers = std::vector<std::size_t>;
-
-/// Where the time and the positions, velocities and accelerations of all joints are.
-struct Columns {
-  std::size_t time{0};
-  Numbers positions, velocities, accelerations;
-};
-
-/// The column of each joint, of names that are a word or its first letter and the joint's number,
-/// as p1 or position[0]; empty if there are none.
-Numbers Numbered(const models::CsvTable& table, std::string_view word) {
-  const char letter = word.front();
-  std::map<std::size_t, std::size_t> columns;
-  const auto& names = table.names();
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    std::string_view name = names[i];
-    const bool bracketed = name.ends_with(']');
-    if (bracketed) name.remove_suffix(1);
-    const std::size_t last = name.find_last_not_of("0123456789");
-    const std::string_view digits = name.substr(last + 1);
-    if (digits.empty() || digits.size() > 6) continue;
-    std::string before(name.substr(0, last + 1));
-    if (bracketed != before.ends_with('[')) continue;
-    if (bracketed || before.ends_with('_')) before.pop_back();
-    std::transform(before.begin(), before.end(), before.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (before != word && before != word.substr(0, 1)) continue;
-    std::size_t number = 0;
-    std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    if (columns.emplace(number, i).second) continue;
-    throw ConfigError(fmt::format(
-        "{}: names of columns; got two with number {}; expected each once", table.where(), number));
-  }
-  Numbers ordered;
-  for (const auto& [number, column] : columns) {
-    if (ordered.empty() ? number <= 1 : number == columns.begin()->first + ordered.size()) {
-      ordered.push_back(column);
-      continue;
-    }
-    throw ConfigError(
-        fmt::format("{}: names of columns; got {}{} without those before; expected "
-                    "numbers from 0 or 1 on",
-                    table.where(), letter, number));
-  }
-  return ordered;
+void KeyPointParams::Describe(Fields<KeyPointParams>& fields) {
+  using P = KeyPointParams;
+  fields.Add("time", &P::time, "s", "when the point is passed").Required();
+  fields.Add("position", &P::position, "", "one number a joint").Required();
+  fields.Add("velocity", &P::velocity, "", "one number a joint; absent: 0");
+  fields.Add("acceleration", &P::acceleration, "", "one number a joint; absent: 0");
 }
 
-Columns FindColumns(models::CsvTable& table, const std::vector<std::string>& joints) {
-  Columns columns;
-  std::vector<std::string> wanted{"time"};
-  wanted.insert(wanted.end(), joints.begin(), joints.end());
-  const Numbers found = table.Columns(wanted);
-  if (!joints.empty() && found.empty()) {
-    throw ConfigError(
-        fmt::format("{}: names of columns; got none; expected time and those of "
-                    "`joints`",
-                    table.where()));
+std::vector<motion::KeyPoint> KeyPointsFrom(const std::vector<KeyPointParams>& key_points,
+                                            const std::string& file,
+                                            const std::vector<std::string>& joints) {
+  if (file.empty() && !joints.empty()) {
+    throw ConfigError("joints: without a file; got names; expected them with `file` only");
   }
-  if (!found.empty()) columns.time = found.front();
-  if (!joints.empty()) {
-    columns.positions.assign(found.begin() + 1, found.end());
-  } else if (found.empty()) {
-    columns.positions.resize(table.width() == 0 ? 0 : table.width() - 1);
-    std::iota(columns.positions.begin(), columns.positions.end(), std::size_t{1});
-  } else {
-    columns.positions = Numbered(table, "position");
-    columns.velocities = Numbered(table, "velocity");
-    columns.accelerations = Numbered(table, "acceleration");
-    const std::size_t count = columns.positions.size();
-    const auto fits = [&](const Numbers& rates) { return rates.empty() || rates.size() == count; };
-    if (count == 0 || !fits(columns.velocities) || !fits(columns.accelerations)) {
-      throw ConfigError(fmt::format(
-          "{}: names of columns; got {} positions, {} velocities, {} accelerations; expected time, "
-          "p1..pn, then v1..vn and a1..an or none; or `joints`, the names of the columns of "
-          "positions in order",
-          table.where(), count, columns.velocities.size(), columns.accelerations.size()));
-    }
-  }
-  return columns;
-}
-
-Eigen::VectorXd VectorAt(const models::CsvTable& table, const Numbers& columns) {
-  Eigen::VectorXd values(static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    values[static_cast<Eigen::Index>(i)] = table.Number(columns[i]);
-  }
-  return values;
-}
-
-void CheckVector(const std::string& where, const Eigen::VectorXd& values, Eigen::Index size) {
-  if (values.size() != size || size == 0) {
-    throw ConfigError(fmt::format("{}: wrong length; got {} numbers; expected {}", where,
-                                  values.size(),
-                                  size == 0 ? "at least one" : std::to_string(size)));
-  }
-  if (!values.allFinite()) {
-    throw ConfigError(
-        fmt::format("{}: not finite; got a NaN or an infinity; expected numbers", where));
-  }
-}
-
-void CheckPoints(const std::vector<KeyPoint>& points, const std::string& list) {
-  if (points.empty()) {
-    throw ConfigError(fmt::format("{}: empty; got no point; expected at least one", list));
-  }
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const KeyPoint& point = points[i];
-    const std::string where = fmt::format("{}[{}]", list, i);
-    if (!std::isfinite(point.time)) {
-      throw ConfigError(
-          fmt::format("{}.time: not finite; got {}; expected a finite number", where, point.time));
-    }
-    if (i > 0 && !(point.time > points[i - 1].time)) {
-      throw ConfigError(
-          fmt::format("{}.time: not later than the point before; got {}; expected > {}", where,
-                      point.time, points[i - 1].time));
-    }
-    const Eigen::Index joints = points.front().position.size();
-    CheckVector(where + ".position", point.position, joints);
-    if (const double far = point.position.cwiseAbs().maxCoeff(); far > robot::kFarthestPosition) {
-      throw ConfigError(fmt::format("{}.position: too far out; got {}; expected at most {:g}",
-                                    where, far, robot::kFarthestPosition));
-    }
-    if (point.velocity) CheckVector(where + ".velocity", *point.velocity, joints);
-    if (point.acceleration) CheckVector(where + ".acceleration", *point.acceleration, joints);
-  }
-}
-
-std::vector<KeyPoint> ReadKeyPointTable(const std::string& path,
-                                        const std::vector<std::string>& joints) {
-  models::CsvTable table(path);
-  const Columns columns = FindColumns(table, joints);
-  std::vector<KeyPoint> points;
-  while (table.NextRow()) {
-    if (columns.positions.empty()) {
-      throw ConfigError(fmt::format("{}: wrong length; got 1 value; expected a time and positions",
-                                    table.where()));
-    }
-    KeyPoint& point = points.emplace_back();
-    point.time = table.Number(columns.time);
-    point.position = VectorAt(table, columns.positions);
-    if (!columns.velocities.empty()) point.velocity = VectorAt(table, columns.velocities);
-    if (!columns.accelerations.empty()) {
-      point.acceleration = VectorAt(table, columns.accelerations);
-    }
-  }
-  return points;
-}
-
-}  // namespace
-
-void KeyPoint::Describe(Fields<KeyPoint>& fields) {
-  fields.Add("time", &KeyPoint::time, "s", "when the point is passed").Required();
-  fields.Add("position", &KeyPoint::position, "", "one number a joint").Required();
-  fields.Add("velocity", &KeyPoint::velocity, "", "one number a joint; absent: 0");
-  fields.Add("acceleration", &KeyPoint::acceleration, "", "one number a joint; absent: 0");
-}
-
-std::vector<KeyPoint> ReadKeyPoints(const std::string& path,
-                                    const std::vector<std::string>& joints) {
-  try {
-    return *models::ReadOnce<std::vector<KeyPoint>>(
-        path, fmt::format("{}", fmt::join(joints, "\n")),
-        [&] { return ReadKeyPointTable(path, joints); });
-  } catch (const models::ModelError& error) {
-    throw ConfigError(error.what());
-  }
-}
-
-std::vector<KeyPoint> KeyPointsFrom(const std::vector<KeyPoint>& key_points,
-                                    const std::string& file,
-                                    const std::vector<std::string>& joints) {
-  if (file.empty()) {
-    if (!joints.empty()) {
-      throw ConfigError("joints: without a file; got names; expected them with `file` only");
-    }
-    CheckPoints(key_points, "key_points");
-    return key_points;
-  }
-  if (!key_points.empty()) {
+  if (!file.empty() && !key_points.empty()) {
     throw ConfigError("file: given twice; got key_points too; expected one of the two");
   }
-  std::vector<KeyPoint> points = ReadKeyPoints(file, joints);
-  CheckPoints(points, file);
-  return points;
+  return WithConfigErrors([&] {
+    std::vector<motion::KeyPoint> points;
+    if (!file.empty()) points = motion::ReadKeyPoints(file, joints);
+    for (const KeyPointParams& point : key_points) {
+      points.push_back({point.time, point.position, point.velocity, point.acceleration});
+    }
+    motion::CheckKeyPoints(points, file.empty() ? "key_points" : file);
+    return points;
+  });
 }
 
 }  // namespace oca::systems

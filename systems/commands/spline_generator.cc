@@ -19,7 +19,7 @@ namespace {
 
 /// Numbers that the spline would silently ignore are refused.
 void CheckUsed(const SplineRequest::Params& params) {
-  const auto& points = params.key_points;
+  const auto& points = params.points;
   const char* const kind = EnumNames(params.kind)[static_cast<std::size_t>(params.kind)];
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (points[i].acceleration && params.kind != SplineKind::kQuintic) {
@@ -28,7 +28,7 @@ void CheckUsed(const SplineRequest::Params& params) {
     if (!points[i].velocity || params.kind != SplineKind::kC2) continue;
     const bool inside = i > 0 && i + 1 < points.size();
     if (inside) RefuseUnused(i, "velocity", kind, "one at the first and last point only");
-    if (params.ends == Trajectory::Ends::kNatural) {
+    if (params.ends == SplineEnds::kNatural) {
       RefuseUnused(i, "velocity", kind, "none, or ends clamped");
     }
   }
@@ -41,7 +41,7 @@ std::span<const char* const> EnumNames(SplineKind) {
   return kNames;
 }
 
-std::span<const char* const> EnumNames(Trajectory::Ends) {
+std::span<const char* const> EnumNames(SplineEnds) {
   static constexpr const char* kNames[] = {"clamped", "natural"};
   return kNames;
 }
@@ -71,11 +71,9 @@ SplineRequest::Params SplineRequest::Example() {
 
 SplineRequest::Params SplineRequest::Resolved(Params params, const ModelSet& models) {
   if (!params.goal) return params;
-  params.key_points = KeyPointsFrom(params.key_points, params.file, params.joints);
-  params.file.clear();
-  params.joints.clear();
+  params.points = KeyPointsFrom(params.key_points, params.file, params.joints);
   const auto model = MovableModel(models, params.model);
-  params.key_points.push_back(KeyPointAt(*params.goal, params.key_points.back(), model));
+  params.points.push_back(KeyPointAt(*params.goal, params.points.back(), model));
   params.goal.reset();
   return params;
 }
@@ -85,19 +83,24 @@ SplineRequest::Params SplineRequest::Checked(Params params) {
   if (params.goal) {
     throw ConfigError("goal: a pose of a link; got no models; expected the model it is of");
   }
-  params.key_points = KeyPointsFrom(params.key_points, params.file, params.joints);
+  if (params.points.empty()) {
+    params.points = KeyPointsFrom(params.key_points, params.file, params.joints);
+  }
   CheckUsed(params);
   return params;
 }
 
-Trajectory SplineRequest::MakeTrajectory(const Params& params) {
+motion::Trajectory SplineRequest::MakeTrajectory(const Params& params) {
+  using motion::Trajectory;
   switch (params.kind) {
     case SplineKind::kCubic:
-      return Trajectory::CubicHermite(params.key_points);
+      return Trajectory::CubicHermite(params.points);
     case SplineKind::kQuintic:
-      return Trajectory::QuinticHermite(params.key_points);
+      return Trajectory::QuinticHermite(params.points);
     case SplineKind::kC2:
-      return Trajectory::CubicSpline(params.key_points, params.ends);
+      return Trajectory::CubicSpline(params.points, params.ends == SplineEnds::kClamped
+                                                        ? Trajectory::Ends::kClamped
+                                                        : Trajectory::Ends::kNatural);
   }
   throw ConfigError(fmt::format("kind: unknown; got {}; expected cubic, quintic or c2",
                                 static_cast<int>(params.kind)));

@@ -9,15 +9,15 @@
 #include "oca/framework/dataflow/params.h"
 #include "oca/systems/commands/key_points.h"
 #include "oca/systems/commands/pose_goal.h"
-#include "oca/systems/commands/trajectory.h"
 #include "oca/systems/commands/trajectory_source.h"
 #include "oca/systems/signals/model_set.h"
 
 namespace oca::systems {
 
 enum class SplineKind { kCubic, kQuintic, kC2 };
+enum class SplineEnds { kClamped, kNatural };
 std::span<const char* const> EnumNames(SplineKind);
-std::span<const char* const> EnumNames(Trajectory::Ends);
+std::span<const char* const> EnumNames(SplineEnds);
 
 /// How SplineGenerator is parameterised.
 struct SplineRequest {
@@ -26,21 +26,23 @@ struct SplineRequest {
                                   "De Boor, A Practical Guide to Splines, chapter IV"};
   struct Params {
     SplineKind kind{SplineKind::kCubic};
-    Trajectory::Ends ends{Trajectory::Ends::kClamped};
-    std::vector<KeyPoint> key_points{};
+    SplineEnds ends{SplineEnds::kClamped};
+    std::vector<KeyPointParams> key_points{};
     std::string file{};
     std::vector<std::string> joints{};
-    std::optional<PoseGoal> goal{};
+    std::optional<PoseGoalParams> goal{};
     std::string model{};
     Period period{};
     std::string unit{"rad"};
     static void Describe(Fields<Params>& fields);
+
+    std::vector<motion::KeyPoint> points{};  ///< made of all this; no parameter of files
   };
   static Params Example();
   /// With the goal as one more key point.
   static Params Resolved(Params params, const ModelSet& models);
   static Params Checked(Params params);
-  static Trajectory MakeTrajectory(const Params& params);
+  static motion::Trajectory MakeTrajectory(const Params& params);
 };
 
 /// The requested motion: a spline through key points.
@@ -68,7 +70,7 @@ struct SplineRequest {
 /// throws ConfigError if the key points are none, not in order of time, of different lengths, not
 ///        finite, or tell what `kind` cannot meet; if the file cannot be read; if period < 0; if
 ///        the goal is out of reach, without a key point before or a model
-/// source report section 3.4; formulas in trajectory.h
+/// source report section 3.4; formulas in models/motion/trajectory.h
 using SplineGenerator = TrajectorySource<SplineRequest>;
 
 }  // namespace oca::systems

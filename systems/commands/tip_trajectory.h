@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "oca/framework/dataflow/params.h"
-#include "oca/systems/commands/key_points.h"
-#include "oca/systems/commands/trajectory.h"
+#include "oca/models/motion/key_points.h"
 #include "oca/systems/commands/trajectory_source.h"
 #include "oca/systems/signals/model_set.h"
 
@@ -45,23 +44,23 @@ struct TipRequest {
     std::string unit{"rad"};
     static void Describe(Fields<Params>& fields);
 
-    std::vector<KeyPoint> points{};  ///< what Resolved made of all this; no parameter of files
+    std::vector<motion::KeyPoint>
+        points{};  ///< what Resolved made of all this; no parameter of files
   };
   static Params Example();
   static Params Resolved(Params params, const ModelSet& models);
   static Params Checked(Params params);
-  static Trajectory MakeTrajectory(const Params& params);
+  static motion::Trajectory MakeTrajectory(const Params& params);
 };
 
 /// The requested motion of joints whose tip, the origin of `link`, draws a line or a circle in the
 /// base frame of the robot; its orientation is free.
 ///
 /// From `start` on the joints go within `approach` from `posture` to the path's first point, then
-/// within `duration` along the path, from rest to rest, s = 10 x^3 - 15 x^4 + 6 x^5. A circle
-/// starts at u, the direction across `normal` that is nearest to z (x if the normal is z), and goes
-/// round once, counter-clockwise about the normal. Positions of the joints are found every 0.02 s
-/// by damped least squares on the kinematics, each from the one before, to 1e-9 m, and joined by a
-/// spline with continuous acceleration: between them the tip is off by some 1e-6 m.
+/// within `duration` along the path, from rest to rest, by motion::KeyPointsAlong. A circle starts
+/// where it is nearest to z and goes round once, counter-clockwise about the normal
+/// (motion::CirclePath). The key points, every 0.02 s, are joined by a spline with continuous
+/// acceleration: between them the tip is off by some 1e-6 m.
 ///
 /// Ports and `period` are those of TrajectorySource. All is computed when the system is made.
 /// throws ConfigError for a path that is not wholly given, leaves the robot's reach or would take a

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "oca/framework/dataflow/system.h"
-#include "oca/systems/commands/trajectory.h"
+#include "oca/models/motion/trajectory.h"
 #include "oca/systems/signals/model_set.h"
 #include "oca/systems/signals/request_ahead.h"
 
@@ -36,7 +36,8 @@ class TrajectorySource final : public System {
 
   explicit TrajectorySource(const Params& params)
       : params_(Request::Checked(params)),
-        ahead_{std::make_shared<const Trajectory>(Request::MakeTrajectory(params_))},
+        ahead_{std::make_shared<const motion::Trajectory>(Request::MakeTrajectory(params_)),
+               params_.period},
         trajectory_(*ahead_.trajectory),
         spec_{static_cast<int>(trajectory_.size()), Unit(params_.unit)},
         rate_spec_{spec_.size, spec_.unit.Rate()},
@@ -88,7 +89,7 @@ class TrajectorySource final : public System {
 
   const Params params_;
   const RequestAhead ahead_;
-  const Trajectory& trajectory_;
+  const motion::Trajectory& trajectory_;
   const PortSpec spec_;  ///< of the position
   const PortSpec rate_spec_;
   const PortSpec rate_rate_spec_;

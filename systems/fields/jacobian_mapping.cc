@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oca/systems/fields/jacobian_mapping.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
+#include <optional>
+#include <vector>
 
 #include "oca/framework/dataflow/error.h"
 #include "oca/systems/basics/require.h"
 #include "oca/systems/fields/loop_gain.h"
 #include "oca/systems/sensing/model_links.h"
-#include "oca/systems/signals/json_fields.h"
 #include "oca/systems/signals/roles.h"
 
 namespace oca::systems {
-namespace {
 
-constexpr std::array kStatusNames{"ok", "regularised", "not_finite"};
-
-}  // namespace
+struct JacobianMapping::Solution {
+  Eigen::VectorXd delta;
+  bool regularised{false};
+  std::vector<robot::BodyWrench> body_wrenches;
+  std::vector<Eigen::Isometry3d> reordered;
+  std::optional<robot::MappingWorkspace> workspace;
+};
 
 robot::MappingSettings MappingSettingsOf(const JacobianMapping::Params& params) {
   Validated(params);
@@ -49,10 +50,10 @@ JacobianMapping::JacobianMapping(const Params& params, const ModelSet& models)
       settings_(MappingSettingsOf(params)),
       wrenches(DeclareInput<WrenchSet>("wrenches")),
       links(DeclareInput<LinkPoses>("links")),
-      solution(DeclareOutput<MappingSolution, &JacobianMapping::CalcSolution>("solution", {},
-                                                                              wrenches, links)),
-      delta(DeclareOutput<Vector, &JacobianMapping::CalcDelta>("delta", DeltaSpec(*model_),
-                                                               solution)) {
+      solution_(DeclareCached<&JacobianMapping::CalcSolution>(wrenches, links)),
+      delta(DeclareOutput<Vector, &Solution::delta>("delta", DeltaSpec(*model_), solution_)),
+      regularised(DeclareOutput<Vector, &Solution::regularised>("regularised", {1, Unit::Any()},
+                                                                solution_)) {
   DeclareRole(MapsForces{
       .links = links, .delta = delta, .make_gain = [params, models](const Period& period) {
         LoopGain::Params gain{.period = period};
@@ -65,7 +66,7 @@ JacobianMapping::JacobianMapping(const Params& params, const ModelSet& models)
 }
 
 void JacobianMapping::CalcSolution(const WrenchSet& wrench_set, const LinkPoses& poses,
-                                   MappingSolution& result) const {
+                                   Solution& result) const {
   if (!result.workspace) result.workspace.emplace(*model_);
   result.delta.resize(model_->num_positions());
   result.body_wrenches.assign(model_->bodies().size(), robot::BodyWrench{});
@@ -78,46 +79,9 @@ void JacobianMapping::CalcSolution(const WrenchSet& wrench_set, const LinkPoses&
     sum.force += wrench.force;
     sum.torque += wrench.torque + (wrench.origin - origin).cross(wrench.force);
   }
-  result.status = robot::MapWrenches(*model_, X_WL, result.body_wrenches, settings_,
-                                     *result.workspace, result.delta);
-}
-
-void JacobianMapping::CalcDelta(const MappingSolution& result, MutableVectorView value) const {
-  value = result.delta;
+  const auto status = robot::MapWrenches(*model_, X_WL, result.body_wrenches, settings_,
+                                         *result.workspace, result.delta);
+  result.regularised = status == robot::MappingStatus::kRegularised;
 }
 
 }  // namespace oca::systems
-
-namespace oca {
-
-using systems::MappingSolution;
-
-Fault Signal<MappingSolution>::Check(const MappingSolution& value, Look /*look*/) {
-  return Fault::UnlessFinite(
-      AllFinite(value.delta.data(), static_cast<std::size_t>(value.delta.size())));
-}
-
-void Signal<MappingSolution>::WriteJson(const MappingSolution& value, std::string& out) {
-  out += fmt::format(R"({{"status":"{}","delta":)",
-                     systems::kStatusNames[static_cast<int>(value.status)]);
-  WriteVectorJson(value.delta.data(), static_cast<std::size_t>(value.delta.size()), out);
-  out += '}';
-}
-
-MappingSolution Signal<MappingSolution>::ReadJson(std::string_view text) {
-  const systems::Json json = systems::ParseJson(text);
-  const systems::JsonReader reader(json, "solution");
-  reader.CheckKeys({"status", "delta"});
-  const std::string status = reader.At("status").Text();
-  const auto& names = systems::kStatusNames;
-  const auto found = std::find(names.begin(), names.end(), status);
-  if (found == names.end()) {
-    reader.At("status").Fail("'" + status + "'", "ok, regularised or not_finite");
-  }
-  MappingSolution solution;
-  solution.status = static_cast<robot::MappingStatus>(found - names.begin());
-  solution.delta = ReadVectorJson(json["delta"].dump());
-  return solution;
-}
-
-}  // namespace oca

@@ -3,11 +3,8 @@
 
 #include <array>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include "oca/framework/dataflow/params.h"
 #include "oca/framework/dataflow/system.h"
@@ -16,16 +13,6 @@
 #include "oca/systems/signals/signals.h"
 
 namespace oca::systems {
-
-/// A delta with the status of the computation, and the memory that it was computed in.
-/// JSON: {"status": "ok" | "regularised" | "not_finite", "delta": [n]}
-struct MappingSolution {
-  robot::MappingStatus status{robot::MappingStatus::kOk};
-  Eigen::VectorXd delta;
-  std::vector<robot::BodyWrench> body_wrenches;
-  std::vector<Eigen::Isometry3d> reordered;
-  std::optional<robot::MappingWorkspace> workspace;
-};
 
 /// Maps wrenches on the links of a robot to an offset of its joint positions:
 ///
@@ -40,8 +27,8 @@ struct MappingSolution {
 ///
 /// in    wrenches  WrenchSet   N, Nm  world axes, about any origin; several on a link add up
 /// in    links     LinkPoses
-/// out   delta     n  rad, m
-/// out   solution  MappingSolution    the same with its status
+/// out   delta        n  rad, m
+/// out   regularised  1   1 where the pseudo-inverse had to be damped, else 0
 /// state -
 /// throws ConfigError if there is no such model, alpha is not finite, damping is negative or, in
 ///        method damped, 0; while running if a wrench or a pose is of no link of the model
@@ -72,30 +59,22 @@ class JacobianMapping final : public System {
   const Params params_;
   const std::shared_ptr<const robot::RobotModel> model_;
   const robot::MappingSettings settings_;
-  void CalcSolution(const WrenchSet& wrench_set, const LinkPoses& poses,
-                    MappingSolution& result) const;
-  void CalcDelta(const MappingSolution& result, MutableVectorView value) const;
+  struct Solution;
+  void CalcSolution(const WrenchSet& wrench_set, const LinkPoses& poses, Solution& result) const;
 
  public:
   const Input<WrenchSet> wrenches;
   const Input<LinkPoses> links;
-  const Output<MappingSolution> solution;
+
+ private:
+  const Cached<Solution> solution_;
+
+ public:
   const Output<Vector> delta;
+  const Output<Vector> regularised;
 };
 
 /// What the mathematics needs of the parameters. throws ConfigError as JacobianMapping does
 robot::MappingSettings MappingSettingsOf(const JacobianMapping::Params& params);
 
 }  // namespace oca::systems
-
-namespace oca {
-
-template <>
-struct Signal<systems::MappingSolution> {
-  static constexpr const char* kName = "MappingSolution";
-  static Fault Check(const systems::MappingSolution& value, Look look);
-  static void WriteJson(const systems::MappingSolution& value, std::string& out);
-  static systems::MappingSolution ReadJson(std::string_view text);
-};
-
-}  // namespace oca

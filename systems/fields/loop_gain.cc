@@ -2,12 +2,20 @@
 #include "oca/systems/fields/loop_gain.h"
 
 #include <algorithm>
-#include <cmath>
+#include <optional>
+#include <vector>
 
 #include "oca/systems/sensing/model_links.h"
-#include "oca/systems/signals/json_fields.h"
 
 namespace oca::systems {
+
+struct LoopGain::Estimate {
+  double gain{0.0};
+  std::vector<robot::GainContact> contacts;
+  std::vector<Eigen::Isometry3d> reordered;
+  std::optional<robot::LoopGainWorkspace> workspace;
+};
+
 void LoopGain::Params::Describe(Fields<Params>& fields) {
   fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
   fields.Add("alpha", &Params::alpha, "", "of the mapping");
@@ -33,11 +41,10 @@ LoopGain::LoopGain(const Params& params, const ModelSet& models)
       slopes(DeclareInput<ContactSlopes>("slopes")),
       more_slopes(DeclareOptionalInput<ContactSlopes>("more_slopes")),
       links(DeclareInput<LinkPoses>("links")),
-      estimate(DeclareOutput<GainEstimate, &LoopGain::CalcEstimate>("estimate", {}, slopes,
-                                                                    more_slopes, links)),
-      gain(DeclareOutput<Vector, &LoopGain::CalcGain>("gain", {1, Unit::Any()}, estimate)),
+      estimate_(DeclareCached<&LoopGain::CalcEstimate>(slopes, more_slopes, links)),
+      gain(DeclareOutput<Vector, &Estimate::gain>("gain", {1, Unit::Any()}, estimate_)),
       relaxation_time(
-          DeclareOutput<Vector, &LoopGain::CalcTime>("relaxation_time", {1, "s"}, estimate)) {}
+          DeclareOutput<Vector, &LoopGain::CalcTime>("relaxation_time", {1, "s"}, estimate_)) {}
 
 void LoopGain::AddContacts(const ContactSlopes& from,
                            std::vector<robot::GainContact>& contacts) const {
@@ -54,7 +61,7 @@ void LoopGain::AddContacts(const ContactSlopes& from,
 }
 
 void LoopGain::CalcEstimate(const ContactSlopes& first, const ContactSlopes* second,
-                            const LinkPoses& poses, GainEstimate& result) const {
+                            const LinkPoses& poses, Estimate& result) const {
   if (!result.workspace) result.workspace.emplace(*model_);
   result.contacts.clear();
   result.contacts.reserve(first.slopes.capacity() + (second ? second->slopes.capacity() : 0));
@@ -64,34 +71,9 @@ void LoopGain::CalcEstimate(const ContactSlopes& first, const ContactSlopes* sec
   result.gain = robot::LoopGain(*model_, X_WL, result.contacts, settings_, *result.workspace);
 }
 
-void LoopGain::CalcGain(const GainEstimate& result, MutableVectorView value) const {
-  value[0] = result.gain;
-}
-
-void LoopGain::CalcTime(const GainEstimate& result, MutableVectorView value) const {
+void LoopGain::CalcTime(const Estimate& result, MutableVectorView value) const {
   const double least = robot::LeastRelaxationTime(result.gain, params_.period.seconds());
   value[0] = std::max(params_.relaxation_time, params_.safety * least);
 }
 
 }  // namespace oca::systems
-
-namespace oca {
-
-using systems::GainEstimate;
-
-Fault Signal<GainEstimate>::Check(const GainEstimate& value, Look /*look*/) {
-  return Fault::UnlessFinite(std::isfinite(value.gain));
-}
-
-void Signal<GainEstimate>::WriteJson(const GainEstimate& value, std::string& out) {
-  out += systems::Json(value.gain).dump();
-}
-
-GainEstimate Signal<GainEstimate>::ReadJson(std::string_view text) {
-  const systems::Json json = systems::ParseJson(text);
-  GainEstimate value;
-  value.gain = systems::JsonReader(json, "estimate").Number();
-  return value;
-}
-
-}  // namespace oca

@@ -2,9 +2,7 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "oca/framework/dataflow/params.h"
@@ -17,21 +15,13 @@
 
 namespace oca::systems {
 
-/// The gain of an avoidance loop, with the memory that it was computed in. JSON: the number.
-struct GainEstimate {
-  double gain{0.0};
-  std::vector<robot::GainContact> contacts;
-  std::vector<Eigen::Isometry3d> reordered;
-  std::optional<robot::LoopGainWorkspace> workspace;
-};
-
 /// How long a DeltaRelaxation must take so that the loop through field, mapping and robot does not
 /// chatter, from what is near at this tick:
 ///
 ///     relaxation_time = max(parameter relaxation_time, safety period (1 + gain) / 2)
 ///     gain = spectral radius of alpha M sum_i b_i(slope_i + 2 damping_i / period) b_i(normal_i)^T
 ///
-/// as models::LoopGain has it, with the M of the mapping: the parameters model, alpha, method and
+/// as robot::LoopGain has it, with the M of the mapping: the parameters model, alpha, method and
 /// damping must be those of the JacobianMapping in the loop. With `safety` 1 the loop is at the
 /// bound, with 2 an error of the linear part is gone after one period; more is slower. A force that
 /// answers to the rate of the distance counts like one that answers to the distance over half a
@@ -43,7 +33,6 @@ struct GainEstimate {
 /// in    links        LinkPoses
 /// out   gain             1          of the unrelaxed loop; above 1 that one chatters
 /// out   relaxation_time  1  s
-/// out   estimate         GainEstimate  the gain
 /// state -
 /// throws ConfigError if there is no such model, alpha is not finite, damping is negative or, in
 ///        method damped, 0, safety < 1, period is not positive or relaxation_time negative; while
@@ -76,30 +65,22 @@ class LoopGain final : public System {
   const std::shared_ptr<const robot::RobotModel> model_;
   const robot::MappingSettings settings_;
   void AddContacts(const ContactSlopes& from, std::vector<robot::GainContact>& contacts) const;
+  struct Estimate;
   void CalcEstimate(const ContactSlopes& first, const ContactSlopes* second, const LinkPoses& poses,
-                    GainEstimate& result) const;
-  void CalcGain(const GainEstimate& result, MutableVectorView value) const;
-  void CalcTime(const GainEstimate& result, MutableVectorView value) const;
+                    Estimate& result) const;
+  void CalcTime(const Estimate& result, MutableVectorView value) const;
 
  public:
   const Input<ContactSlopes> slopes;
   const OptionalInput<ContactSlopes> more_slopes;
   const Input<LinkPoses> links;
-  const Output<GainEstimate> estimate;
+
+ private:
+  const Cached<Estimate> estimate_;
+
+ public:
   const Output<Vector> gain;
   const Output<Vector> relaxation_time;
 };
 
 }  // namespace oca::systems
-
-namespace oca {
-
-template <>
-struct Signal<systems::GainEstimate> {
-  static constexpr const char* kName = "GainEstimate";
-  static Fault Check(const systems::GainEstimate& value, Look look);
-  static void WriteJson(const systems::GainEstimate& value, std::string& out);
-  static systems::GainEstimate ReadJson(std::string_view text);
-};
-
-}  // namespace oca

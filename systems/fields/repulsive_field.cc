@@ -1,41 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oca/systems/fields/repulsive_field.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
-#include "oca/framework/dataflow/error.h"
+#include "oca/systems/fields/force_per_proximity.h"
 #include "oca/systems/signals/roles.h"
 
 namespace oca::systems {
-namespace {
-
-RepulsiveField::Params Checked(const RepulsiveField::Params& params) {
-  Validated(params);
-  if (params.min_distance >= params.max_distance) {
-    throw ConfigError(fmt::format("min_distance: got {} m; expected less than max_distance, {} m",
-                                  params.min_distance, params.max_distance));
-  }
-  return params;
-}
-
-}  // namespace
-
 void RepulsiveField::Params::Describe(Fields<Params>& fields) {
   fields.Add("force_gain", &Params::force_gain, "N m^3", "gain eta of eq. (3.1)").AtLeast(0.0);
-  fields
-      .Add("max_distance", &Params::max_distance, "m",
-           "limit distance rho0 of the field, beyond which the force is 0")
-      .Above(0.0);
-  fields
-      .Add("min_distance", &Params::min_distance, "m",
-           "distance below which the force stays the same, so that it is finite in contact")
-      .Above(0.0);
+  AddRange(fields);
 }
 
 RepulsiveField::RepulsiveField(const Params& params)
-    : params_(Checked(params)),
+    : params_(WithRange(params)),
       proximities(DeclareInput<ProximitySet>("proximities")),
       forces(DeclareOutput<LinkForceSet, &RepulsiveField::CalcForces>("forces", {}, proximities)),
       slopes(DeclareOutput<ContactSlopes, &RepulsiveField::CalcSlopes>("slopes", {}, proximities)) {
@@ -57,24 +35,18 @@ double RepulsiveField::Slope(double distance) const {
 }
 
 void RepulsiveField::CalcForces(const ProximitySet& proximity_set, LinkForceSet& force_set) const {
-  force_set.forces.clear();
-  force_set.forces.reserve(proximity_set.proximities.capacity());  // so no later tick allocates
-  for (const Proximity& proximity : proximity_set.proximities) {
-    force_set.forces.push_back({proximity.link, proximity.obstacle,
-                                Magnitude(proximity.distance) * proximity.normal,
-                                proximity.point_on_link});
-  }
+  ForcePerProximity(proximity_set, force_set, [&](const Proximity& proximity) -> Eigen::Vector3d {
+    return Magnitude(proximity.distance) * proximity.normal;
+  });
 }
 
 void RepulsiveField::CalcSlopes(const ProximitySet& proximity_set,
                                 ContactSlopes& contact_slopes) const {
-  contact_slopes.slopes.clear();
-  contact_slopes.slopes.reserve(proximity_set.proximities.capacity());
-  for (const Proximity& proximity : proximity_set.proximities) {
-    if (proximity.distance > params_.max_distance) continue;
-    contact_slopes.slopes.push_back(
-        SlopeAt(proximity, Slope(proximity.distance) * proximity.normal));
-  }
+  SlopePerProximity(proximity_set, contact_slopes,
+                    [&](const Proximity& proximity) -> std::optional<ContactSlope> {
+                      if (proximity.distance > params_.max_distance) return std::nullopt;
+                      return SlopeAt(proximity, Slope(proximity.distance) * proximity.normal);
+                    });
 }
 
 }  // namespace oca::systems

@@ -7,19 +7,11 @@
 #include <cmath>
 
 #include "oca/framework/dataflow/error.h"
+#include "oca/systems/fields/force_per_proximity.h"
 #include "oca/systems/signals/roles.h"
 
 namespace oca::systems {
 namespace {
-
-VelocityAwareField::Params Checked(const VelocityAwareField::Params& params) {
-  Validated(params);
-  if (params.min_distance >= params.max_distance) {
-    throw ConfigError(fmt::format("min_distance: got {} m; expected less than max_distance, {} m",
-                                  params.min_distance, params.max_distance));
-  }
-  return params;
-}
 
 // With y = -c and u = -v . n: d(|v| y^b)/du = y^(b-1) (b - (b-1) y^2), largest at y^2 = b / (b+1).
 double WorstRate(double b) {
@@ -56,18 +48,11 @@ void VelocityAwareField::Params::Describe(Fields<Params>& fields) {
       .Add("exponent", &Params::exponent, "",
            "beta; the larger, the more only a head-on way counts")
       .AtLeast(2.0);
-  fields
-      .Add("max_distance", &Params::max_distance, "m",
-           "limit distance rho0 of the field, beyond which the force is 0")
-      .Above(0.0);
-  fields
-      .Add("min_distance", &Params::min_distance, "m",
-           "distance below which the force stays the same, so that it is finite in contact")
-      .Above(0.0);
+  AddRange(fields);
 }
 
 VelocityAwareField::VelocityAwareField(const Params& params)
-    : params_(Checked(params)),
+    : params_(WithRange(params)),
       worst_(WorstRate(params_.exponent)),
       proximities(DeclareInput<ProximitySet>("proximities")),
       links(DeclareInput<LinkPoses>("links")),
@@ -124,30 +109,24 @@ Eigen::Vector3d VelocityAwareField::SlopeOf(const Proximity& proximity,
 
 void VelocityAwareField::CalcForces(const ProximitySet& set, const LinkPoses& poses,
                                     LinkForceSet& result) const {
-  result.forces.clear();
-  result.forces.reserve(set.proximities.capacity());  // so no later tick allocates
   int hint = 0;
-  for (const Proximity& proximity : set.proximities) {
+  ForcePerProximity(set, result, [&](const Proximity& proximity) {
     const Eigen::Vector3d v = RelativeVelocity(proximity, poses, hint);
-    result.forces.push_back({proximity.link, proximity.obstacle,
-                             Force(proximity.distance, proximity.normal, v),
-                             proximity.point_on_link});
-  }
+    return Force(proximity.distance, proximity.normal, v);
+  });
 }
 
 void VelocityAwareField::CalcSlopes(const ProximitySet& set, const LinkPoses& poses,
                                     ContactSlopes& result) const {
-  result.slopes.clear();
-  result.slopes.reserve(set.proximities.capacity());
   int hint = 0;
-  for (const Proximity& proximity : set.proximities) {
-    if (proximity.distance >= params_.max_distance) continue;
+  SlopePerProximity(set, result, [&](const Proximity& proximity) -> std::optional<ContactSlope> {
+    if (proximity.distance >= params_.max_distance) return std::nullopt;
     const Eigen::Vector3d v = RelativeVelocity(proximity, poses, hint);
     const double p = std::max(proximity.distance, params_.min_distance);
     const double rate = params_.velocity_gain * worst_ *
                         (1.0 / (p * p) - 1.0 / (params_.max_distance * params_.max_distance));
-    result.slopes.push_back(SlopeAt(proximity, SlopeOf(proximity, v), rate * proximity.normal));
-  }
+    return SlopeAt(proximity, SlopeOf(proximity, v), rate * proximity.normal);
+  });
 }
 
 }  // namespace oca::systems

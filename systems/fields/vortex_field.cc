@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "oca/models/robot/kinematics.h"
+#include "oca/systems/fields/force_per_proximity.h"
 #include "oca/systems/sensing/model_links.h"
-#include "oca/systems/signals/json_fields.h"
 #include "oca/systems/signals/roles.h"
 
 namespace oca::systems {
@@ -24,6 +25,14 @@ RepulsiveField::Params RepulsionOf(const VortexField::Params& params) {
 }
 
 }  // namespace
+
+struct VortexField::Axes {
+  Eigen::Matrix3Xd axes;
+  Eigen::VectorXd wish;
+  Eigen::Matrix3Xd J_v;
+  std::vector<Eigen::Isometry3d> reordered;
+  std::vector<const Proximity*> nearest;
+};
 
 void VortexField::Params::Describe(Fields<Params>& fields) {
   fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
@@ -48,13 +57,13 @@ VortexField::VortexField(const Params& params, const ModelSet& models)
       position(DeclareInput<Vector>("position", DeltaSpec(*model_))),
       velocity(DeclareOptionalInput<Vector>("velocity", RateSpec(*model_))),
       measured_position(DeclareInput<Vector>("measured_position", PositionSpec(*model_))),
-      axes(DeclareOutput<VortexAxes, &VortexField::CalcAxes>(
-          "axes", {}, proximities, links, position, velocity, measured_position, held_)),
+      axes_(DeclareCached<&VortexField::CalcAxes>(proximities, links, position, velocity,
+                                                  measured_position, held_)),
       forces(
-          DeclareOutput<LinkForceSet, &VortexField::CalcForces>("forces", {}, proximities, axes)),
-      slopes(
-          DeclareOutput<ContactSlopes, &VortexField::CalcSlopes>("slopes", {}, proximities, axes)) {
-  DeclareUpdate<&VortexField::Update>(Every{params_.period}, Writes(held_), axes);
+          DeclareOutput<LinkForceSet, &VortexField::CalcForces>("forces", {}, proximities, axes_)),
+      slopes(DeclareOutput<ContactSlopes, &VortexField::CalcSlopes>("slopes", {}, proximities,
+                                                                    axes_)) {
+  DeclareUpdate<&VortexField::Update>(Every{params_.period}, Writes(held_), axes_);
   DeclareRole(Repels{params_.max_distance});
   DeclareRole(Limits{
       .shown = Limits::Shown::kBelow, .signal = proximities, .bound = {params_.max_distance}});
@@ -83,7 +92,7 @@ Eigen::Vector3d VortexField::ChooseAxis(const Proximity& nearest, const Eigen::V
 
 void VortexField::CalcAxes(const ProximitySet& set, const LinkPoses& poses, VectorView request,
                            OptionalVector rate, VectorView measured, VectorView held,
-                           VortexAxes& result) const {
+                           Axes& result) const {
   result.axes.resize(3, model_->num_links());
   result.J_v.resize(3, model_->num_positions());
   result.nearest.assign(model_->links().size(), nullptr);
@@ -110,66 +119,32 @@ void VortexField::CalcAxes(const ProximitySet& set, const LinkPoses& poses, Vect
   }
 }
 
-void VortexField::CalcForces(const ProximitySet& set, const VortexAxes& about,
+void VortexField::CalcForces(const ProximitySet& set, const Axes& about,
                              LinkForceSet& result) const {
-  result.forces.clear();
-  result.forces.reserve(set.proximities.capacity());  // so no later tick allocates
-  for (const Proximity& proximity : set.proximities) {
-    const int link = LinkNumber(*model_, proximity.link, "proximities");
-    result.forces.push_back({proximity.link, proximity.obstacle,
-                             Force(proximity, about.axes.col(link)), proximity.point_on_link});
-  }
+  ForcePerProximity(set, result, [&](const Proximity& proximity) {
+    return Force(proximity, about.axes.col(LinkNumber(*model_, proximity.link, "proximities")));
+  });
 }
 
-void VortexField::CalcSlopes(const ProximitySet& set, const VortexAxes& about,
+void VortexField::CalcSlopes(const ProximitySet& set, const Axes& about,
                              ContactSlopes& result) const {
-  result.slopes.clear();
-  result.slopes.reserve(set.proximities.capacity());
-  for (const Proximity& proximity : set.proximities) {
-    if (proximity.distance > params_.max_distance) continue;
+  SlopePerProximity(set, result, [&](const Proximity& proximity) -> std::optional<ContactSlope> {
+    if (proximity.distance > params_.max_distance) return std::nullopt;
     const Eigen::Vector3d axis = about.axes.col(LinkNumber(*model_, proximity.link, "proximities"));
     const Eigen::Vector3d& n = proximity.normal;
     const Eigen::Vector3d t = axis.cross(n);
     const double phi = Angle(proximity.distance);
     const bool turning = proximity.distance > 0.0 && phi < params_.turn;
     const double dphi = turning ? 2.0 * params_.turn / params_.max_distance : 0.0;
-    result.slopes.push_back(SlopeAt(
+    return SlopeAt(
         proximity,
         field_.Slope(proximity.distance) * (std::cos(phi) * n + std::sin(phi) * t) -
-            field_.Magnitude(proximity.distance) * dphi * (std::cos(phi) * t - std::sin(phi) * n)));
-  }
+            field_.Magnitude(proximity.distance) * dphi * (std::cos(phi) * t - std::sin(phi) * n));
+  });
 }
 
-void VortexField::Update(const VortexAxes& about, MutableVectorView next) const {
+void VortexField::Update(const Axes& about, MutableVectorView next) const {
   next = about.axes.reshaped();
 }
 
 }  // namespace oca::systems
-
-namespace oca {
-
-using systems::VortexAxes;
-
-Fault Signal<VortexAxes>::Check(const VortexAxes& value, Look /*look*/) {
-  return Fault::UnlessFinite(value.axes.allFinite());
-}
-
-void Signal<VortexAxes>::WriteJson(const VortexAxes& value, std::string& out) {
-  systems::Json list = systems::Json::array();
-  for (Eigen::Index i = 0; i < value.axes.cols(); ++i) {
-    list.push_back(systems::ToJson(Eigen::Vector3d(value.axes.col(i))));
-  }
-  out += list.dump();
-}
-
-VortexAxes Signal<VortexAxes>::ReadJson(std::string_view text) {
-  const systems::Json json = systems::ParseJson(text);
-  VortexAxes value;
-  systems::JsonReader(json, "axes").ForEach([&](const systems::JsonReader& item) {
-    value.axes.conservativeResize(3, value.axes.cols() + 1);
-    value.axes.rightCols<1>() = item.Vector3();
-  });
-  return value;
-}
-
-}  // namespace oca

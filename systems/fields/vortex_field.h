@@ -4,8 +4,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include "oca/framework/dataflow/params.h"
 #include "oca/framework/dataflow/system.h"
@@ -15,16 +13,6 @@
 #include "oca/systems/signals/signals.h"
 
 namespace oca::systems {
-
-/// The axes that a VortexField turns about, a column a link of the model, 0 for a link without
-/// obstacles; and the memory that they were computed in. JSON: a list of [3].
-struct VortexAxes {
-  Eigen::Matrix3Xd axes;
-  Eigen::VectorXd wish;
-  Eigen::Matrix3Xd J_v;
-  std::vector<Eigen::Isometry3d> reordered;
-  std::vector<const Proximity*> nearest;
-};
 
 /// A RepulsiveField whose force is turned towards the way around the obstacle, so that a link which
 /// is pushed back against its request slides along instead of standing still:
@@ -52,7 +40,6 @@ struct VortexAxes {
 /// in    measured_position  n  rad, m
 /// out   forces             LinkForceSet  N  one a proximity, same order, at point_on_link
 /// out   slopes             ContactSlopes    for a LoopGain
-/// out   axes               VortexAxes       of this tick
 /// state held               3 num_links      the axes of the last tick
 /// throws ConfigError as RepulsiveField does, if turn is not within [0, 1.5], period is not
 ///        positive or there is no such model; while running if a proximity is of no link of the
@@ -91,12 +78,13 @@ class VortexField final : public System {
   double Angle(double distance) const;
   Eigen::Vector3d ChooseAxis(const Proximity& nearest, const Eigen::Vector3d& way,
                              const Eigen::Matrix3d& R_WB) const;
+  /// A column a link of the model, 0 for a link without obstacles.
+  struct Axes;
   void CalcAxes(const ProximitySet& set, const LinkPoses& poses, VectorView request,
-                OptionalVector rate, VectorView measured, VectorView held,
-                VortexAxes& result) const;
-  void CalcForces(const ProximitySet& set, const VortexAxes& about, LinkForceSet& result) const;
-  void CalcSlopes(const ProximitySet& set, const VortexAxes& about, ContactSlopes& result) const;
-  void Update(const VortexAxes& about, MutableVectorView next) const;
+                OptionalVector rate, VectorView measured, VectorView held, Axes& result) const;
+  void CalcForces(const ProximitySet& set, const Axes& about, LinkForceSet& result) const;
+  void CalcSlopes(const ProximitySet& set, const Axes& about, ContactSlopes& result) const;
+  void Update(const Axes& about, MutableVectorView next) const;
 
  public:
   const Input<ProximitySet> proximities;
@@ -104,21 +92,13 @@ class VortexField final : public System {
   const Input<Vector> position;
   const OptionalInput<Vector> velocity;
   const Input<Vector> measured_position;
-  const Output<VortexAxes> axes;
+
+ private:
+  const Cached<Axes> axes_;
+
+ public:
   const Output<LinkForceSet> forces;
   const Output<ContactSlopes> slopes;
 };
 
 }  // namespace oca::systems
-
-namespace oca {
-
-template <>
-struct Signal<systems::VortexAxes> {
-  static constexpr const char* kName = "VortexAxes";
-  static Fault Check(const systems::VortexAxes& value, Look look);
-  static void WriteJson(const systems::VortexAxes& value, std::string& out);
-  static systems::VortexAxes ReadJson(std::string_view text);
-};
-
-}  // namespace oca

@@ -19,16 +19,16 @@ MotionMetrics::MotionMetrics(const Params& params, const ModelSet& models)
       model_(params.model.empty() ? nullptr : MovableModel(models, params.model)),
       travel_(model_ ? std::optional<robot::TravelBound>(*model_) : std::nullopt),
       spec_(MakeSpec()),
-      x_(DeclareDiscreteState<MotionTally>("x", {})),
+      x_(DeclareDiscreteState<robot::MotionTally>("x", {})),
       position(DeclareOptionalInput<Vector>("position", spec_)),
       request(DeclareOptionalInput<Vector>("request", spec_)),
       goal(DeclareOptionalInput<Vector>("goal", spec_)),
       delta(DeclareOptionalInput<Vector>("delta", PortSpec{spec_.size, spec_.unit})),
       proximities(DeclareOptionalInput<ProximitySet>("proximities")),
-      tally(DeclareOutput<MotionTally, &MotionMetrics::CalcTally>(
-          "tally", {}, kTime, position, request, goal, delta, proximities, x_)),
+      tally_(DeclareCached<&MotionMetrics::CalcTally>(kTime, position, request, goal, delta,
+                                                      proximities, x_)),
       metrics(DeclareOutput<MotionMetricsValue, &MotionMetrics::CalcMetrics>(
-          "metrics", {}, kTime, position, request, goal, delta, proximities, tally)) {
+          "metrics", {}, kTime, position, request, goal, delta, proximities, tally_)) {
   DeclareUpdate<&MotionMetrics::Update>(Every{params.period}, Writes(x_), kTime, position, request,
                                         goal, delta, proximities);
   DeclareRole(Boundary{"the judge"});
@@ -47,24 +47,24 @@ PortSpec MotionMetrics::MakeSpec() {
   return model_ ? PositionSpec(*model_) : PortSpec{DeclareSize(), DeclareUnit()};
 }
 
-MotionSample MotionMetrics::Sample(double time, OptionalVector position_value,
-                                   OptionalVector request_value, OptionalVector goal_value,
-                                   OptionalVector delta_value,
-                                   const ProximitySet* proximity_set) const {
+robot::MotionSample MotionMetrics::Sample(double time, OptionalVector position_value,
+                                          OptionalVector request_value, OptionalVector goal_value,
+                                          OptionalVector delta_value,
+                                          const ProximitySet* proximity_set) const {
   return {time,        position_value, request_value, goal_value,
           delta_value, proximity_set,  model_.get(),  travel_ ? &*travel_ : nullptr};
 }
 
 void MotionMetrics::Update(double time, OptionalVector position_value, OptionalVector request_value,
                            OptionalVector goal_value, OptionalVector delta_value,
-                           const ProximitySet* proximity_set, MotionTally& next) const {
+                           const ProximitySet* proximity_set, robot::MotionTally& next) const {
   next.Add(Sample(time, position_value, request_value, goal_value, delta_value, proximity_set));
 }
 
 void MotionMetrics::CalcTally(double time, OptionalVector position_value,
                               OptionalVector request_value, OptionalVector goal_value,
                               OptionalVector delta_value, const ProximitySet* proximity_set,
-                              const MotionTally& x, MotionTally& value) const {
+                              const robot::MotionTally& x, robot::MotionTally& value) const {
   value = x;
   // Times of ticks are rationals rounded to doubles, so their differences are off by a little.
   const bool pending = x.samples() == 0 || time - x.last_time() > 0.999999 * period_;
@@ -75,7 +75,8 @@ void MotionMetrics::CalcTally(double time, OptionalVector position_value,
 void MotionMetrics::CalcMetrics(double time, OptionalVector position_value,
                                 OptionalVector request_value, OptionalVector goal_value,
                                 OptionalVector delta_value, const ProximitySet* proximity_set,
-                                const MotionTally& complete, MotionMetricsValue& value) const {
+                                const robot::MotionTally& complete,
+                                MotionMetricsValue& value) const {
   value = complete.At(
       Sample(time, position_value, request_value, goal_value, delta_value, proximity_set));
 }

@@ -10,6 +10,7 @@
 #include "oca/models/robot/travel_bound.h"
 #include "oca/systems/signals/model_set.h"
 #include "oca/systems/signals/motion_metrics_value.h"
+#include "oca/systems/signals/signals.h"
 
 namespace oca::systems {
 
@@ -50,7 +51,6 @@ namespace oca::systems {
 /// in    position, request, goal, delta  n  u   optional; n and u are common
 /// in    proximities  ProximitySet              optional
 /// out   metrics      MotionMetrics
-/// out   tally        MotionTally   the sums behind them, the present sample included
 /// state x            MotionTally
 /// throws ConfigError if period is not positive or there is no such model
 /// source models/robot/travel_bound.h
@@ -74,20 +74,21 @@ class MotionMetrics final : public System {
   const std::shared_ptr<const robot::RobotModel> model_;  ///< null: positions mean nothing
   const std::optional<robot::TravelBound> travel_;
   const PortSpec spec_;
-  const DiscreteState<MotionTally> x_;
+  const DiscreteState<robot::MotionTally> x_;
   PortSpec MakeSpec();
-  MotionSample Sample(double time, OptionalVector position_value, OptionalVector request_value,
-                      OptionalVector goal_value, OptionalVector delta_value,
-                      const ProximitySet* proximity_set) const;
+  robot::MotionSample Sample(double time, OptionalVector position_value,
+                             OptionalVector request_value, OptionalVector goal_value,
+                             OptionalVector delta_value, const ProximitySet* proximity_set) const;
   void Update(double time, OptionalVector position_value, OptionalVector request_value,
               OptionalVector goal_value, OptionalVector delta_value,
-              const ProximitySet* proximity_set, MotionTally& next) const;
+              const ProximitySet* proximity_set, robot::MotionTally& next) const;
   void CalcTally(double time, OptionalVector position_value, OptionalVector request_value,
                  OptionalVector goal_value, OptionalVector delta_value,
-                 const ProximitySet* proximity_set, const MotionTally& x, MotionTally& value) const;
+                 const ProximitySet* proximity_set, const robot::MotionTally& x,
+                 robot::MotionTally& value) const;
   void CalcMetrics(double time, OptionalVector position_value, OptionalVector request_value,
                    OptionalVector goal_value, OptionalVector delta_value,
-                   const ProximitySet* proximity_set, const MotionTally& complete,
+                   const ProximitySet* proximity_set, const robot::MotionTally& complete,
                    MotionMetricsValue& value) const;
 
  public:
@@ -96,7 +97,11 @@ class MotionMetrics final : public System {
   const OptionalInput<Vector> goal;
   const OptionalInput<Vector> delta;
   const OptionalInput<ProximitySet> proximities;
-  const Output<MotionTally> tally;
+
+ private:
+  const Cached<robot::MotionTally> tally_;  ///< the present sample included
+
+ public:
   const Output<MotionMetricsValue> metrics;
 };
 

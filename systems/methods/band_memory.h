@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "oca/framework/dataflow/signal.h"
@@ -21,10 +20,10 @@ namespace oca::systems {
 /// "stuck", "nearest", "link", "obstacle", "time", "cost", "evaluations"}; the bands themselves are
 /// neither written nor read.
 struct BandMemory {
-  planning::BandCurve held{};                   ///< up to `change`
-  planning::BandCurve next{};                   ///< from then on; empty: held goes on
-  double change{0.0};                           ///< s
-  std::shared_ptr<const Trajectory> request{};  ///< that next was made for
+  planning::BandCurve held{};                           ///< up to `change`
+  planning::BandCurve next{};                           ///< from then on; empty: held goes on
+  double change{0.0};                                   ///< s
+  std::shared_ptr<const motion::Trajectory> request{};  ///< that next was made for
   std::vector<Obstacle> seen{};
   double seen_at{0.0};     ///< s
   double sure_from{0.0};   ///< s; from then on the bands were made for what is seen
@@ -61,7 +60,6 @@ struct Signal<systems::BandMemory> {
   static constexpr const char* kName = "BandMemory";
   static Fault Check(const systems::BandMemory& value, Look look);
   static void WriteJson(const systems::BandMemory& value, std::string& out);
-  static systems::BandMemory ReadJson(std::string_view text);
 };
 
 }  // namespace oca

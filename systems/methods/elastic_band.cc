@@ -10,6 +10,7 @@
 #include "oca/framework/dataflow/log.h"
 #include "oca/models/robot/robot_model.h"
 #include "oca/systems/basics/require.h"
+#include "oca/systems/methods/obstacle_prediction.h"
 #include "oca/systems/sensing/model_links.h"
 #include "oca/systems/signals/roles.h"
 
@@ -19,12 +20,7 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double kArrived = 0.01;          // rad, m; of all joints
-constexpr double kSameSpeed = 1e-6;        // m/s, rad/s: stands
-constexpr double kSamePlace = 1e-4;        // m, of an obstacle that stands
 constexpr double kOnPlan = 0.005;          // rad, m; of the arm
-constexpr double kForeseen = 0.005;        // m; that what was foreseen may be wrong by,
-constexpr double kForeseenSpan = 0.3;      // s; after so long too
-constexpr double kForeseenLever = 0.5;     // m; at which a turn counts
 constexpr std::uint64_t kFreshPlans = 8;   // that look for a better way though theirs is clear
 constexpr double kLongestHorizon = 600.0;  // s; a plan looks at 2.5 to 20 places a second
 constexpr int kMostPause = 20;             // plans between two searches that fail
@@ -49,30 +45,7 @@ ElasticBand::Params Checked(const ElasticBand::Params& params) {
   return params;
 }
 
-bool Stands(const Obstacle& obstacle) {
-  return obstacle.linear.norm() < kSameSpeed && obstacle.angular.norm() < kSameSpeed;
-}
-
-/// Same bodies at the same places, all at rest. The capacity of `seen` may differ.
-bool SameStanding(const std::vector<Obstacle>& seen, const std::vector<Obstacle>& now) {
-  return std::equal(seen.begin(), seen.end(), now.begin(), now.end(),
-                    [](const Obstacle& a, const Obstacle& b) {
-                      return a.body == b.body && Stands(b) && Stands(a) &&
-                             (a.X_WO.matrix() - b.X_WO.matrix()).cwiseAbs().maxCoeff() < kSamePlace;
-                    });
-}
-
-Eigen::Isometry3d Foreseen(const Obstacle& obstacle, double ahead) {
-  Eigen::Isometry3d X = obstacle.X_WO;
-  X.translation() += ahead * obstacle.linear;
-  const double angle = ahead * obstacle.angular.norm();
-  if (angle > 0.0) {
-    X.linear() = Eigen::AngleAxisd(angle, obstacle.angular.normalized()) * X.linear();
-  }
-  return X;
-}
-
-void RequireSize(const Trajectory& request, Eigen::Index size) {
+void RequireSize(const motion::Trajectory& request, Eigen::Index size) {
   if (request.size() == size) return;
   throw ConfigError(fmt::format("ahead: length; got {} joints; expected {}", request.size(), size));
 }
@@ -210,17 +183,8 @@ void ElasticBand::Sample(double time, const RequestAhead& request, const BandMem
   }
 }
 
-bool ElasticBand::AsForeseen(double time, const ObstacleSet& set, const BandMemory& memory) const {
-  const double since = std::clamp(time - memory.seen_at, 0.0, params_.prediction);
-  return std::equal(memory.seen.begin(), memory.seen.end(), set.obstacles.begin(),
-                    set.obstacles.end(), [&](const Obstacle& seen, const Obstacle& now) {
-                      const Eigen::Isometry3d X = Foreseen(seen, since);
-                      const double away = (X.translation() - now.X_WO.translation()).norm() +
-                                          (X.linear() - now.X_WO.linear()).norm() * kForeseenLever;
-                      const double faster = (seen.linear - now.linear).norm() +
-                                            (seen.angular - now.angular).norm() * kForeseenLever;
-                      return seen.body == now.body && away + kForeseenSpan * faster < kForeseen;
-                    });
+double ElasticBand::Since(double time, const BandMemory& memory) const {
+  return std::clamp(time - memory.seen_at, 0.0, params_.prediction);
 }
 
 void ElasticBand::CalcClear(double time, const RequestAhead& request, const ObstacleSet& set,
@@ -232,7 +196,8 @@ void ElasticBand::CalcClear(double time, const RequestAhead& request, const Obst
   for (const Obstacle& seen : memory.seen) motion.bodies.push_back(seen.body->id);
   if (request.trajectory != memory.request) return;
   const bool followed = (measured - planned).cwiseAbs().maxCoeff() <= kOnPlan;
-  if (memory.plans == 0 || time < memory.sure_from || !followed || !AsForeseen(time, set, memory)) {
+  if (memory.plans == 0 || time < memory.sure_from || !followed ||
+      !AsForeseen(memory.seen, set.obstacles, Since(time, memory))) {
     return;
   }
   const bool next = !memory.next.empty() && time >= memory.change;
@@ -252,7 +217,7 @@ std::vector<planning::BandBody> ElasticBand::MakeBodies(double time, const Obsta
   return bodies;
 }
 
-bool ElasticBand::Astray(double time, const Trajectory* request, VectorView measured,
+bool ElasticBand::Astray(double time, const motion::Trajectory* request, VectorView measured,
                          BandMemory& memory) const {
   memory.planned.resize(measured.size());
   request->Evaluate(time, 0, memory.planned);
@@ -273,7 +238,7 @@ bool ElasticBand::Kept(double time, const RequestAhead& request, const ObstacleS
          !Astray(time, request.trajectory.get(), measured, memory);
 }
 
-void ElasticBand::Follow(double time, const Trajectory* request, VectorView measured,
+void ElasticBand::Follow(double time, const motion::Trajectory* request, VectorView measured,
                          BandMemory& memory) const {
   if (memory.resting.size() != measured.size() ||
       (measured - memory.resting).cwiseAbs().maxCoeff() > params_.stuck_motion ||
@@ -295,7 +260,7 @@ void ElasticBand::Report(double time, const BandMemory& memory, Log& log) const 
                         params_.stuck_time, pair));
 }
 
-planning::BandTask ElasticBand::MakeTask(double time, const Trajectory* request,
+planning::BandTask ElasticBand::MakeTask(double time, const motion::Trajectory* request,
                                          const std::vector<planning::BandBody>& bodies,
                                          VectorView measured, OptionalVector rate,
                                          BandMemory& memory) const {
@@ -335,7 +300,7 @@ void ElasticBand::Plan(double time, Log& log, const RequestAhead& request, const
   if (memory.stuck && !was_stuck) Report(time, memory, log);
   if (Kept(time, request, set, measured, memory)) return;
   const bool foreseen = memory.plans > 0 && request.trajectory == memory.request &&
-                        AsForeseen(time, set, memory) &&
+                        AsForeseen(memory.seen, set.obstacles, Since(time, memory)) &&
                         !Astray(time, request.trajectory.get(), measured, memory);
   if (!memory.next.empty()) {
     memory.held = memory.next;

@@ -19,7 +19,7 @@ namespace oca::systems {
 /// Bends the requested motion around what stands and moves, in time: an elastic band in space and
 /// time, planned anew every plan_period, whose place in time a SafetyFilter then follows.
 ///
-///     position = request(t) + x(t),   x the deviation of models::ElasticBand
+///     position = request(t) + x(t),   x the deviation of planning::BandOptimizer
 ///
 /// A plan looks ahead to the end of the request and a little further, at least least_horizon. It
 /// takes every obstacle to go on as it does now for `prediction` seconds and then to stay. It
@@ -97,18 +97,19 @@ class ElasticBand final : public System {
  private:
   using OptionalVector = std::optional<VectorView>;
   static planning::BandPlannerSettings SettingsOf(const Params& params);
-  planning::BandTask MakeTask(double time, const Trajectory* request,
+  planning::BandTask MakeTask(double time, const motion::Trajectory* request,
                               const std::vector<planning::BandBody>& bodies, VectorView measured,
                               OptionalVector rate, BandMemory& memory) const;
   std::vector<planning::BandBody> MakeBodies(double time, const ObstacleSet& set) const;
   bool Kept(double time, const RequestAhead& request, const ObstacleSet& set, VectorView measured,
             BandMemory& memory) const;
-  bool Astray(double time, const Trajectory* request, VectorView measured,
+  bool Astray(double time, const motion::Trajectory* request, VectorView measured,
               BandMemory& memory) const;
-  void Follow(double time, const Trajectory* request, VectorView measured,
+  void Follow(double time, const motion::Trajectory* request, VectorView measured,
               BandMemory& memory) const;
 
-  bool AsForeseen(double time, const ObstacleSet& set, const BandMemory& memory) const;
+  /// For how long what was seen at the last plan is foreseen to go on, s.
+  double Since(double time, const BandMemory& memory) const;
   void CalcClear(double time, const RequestAhead& request, const ObstacleSet& set,
                  VectorView measured, VectorView planned, const BandMemory& memory,
                  ClearMotion& motion) const;

@@ -5,10 +5,9 @@
 #include <cmath>
 
 #include "oca/models/robot/kinematics.h"
+#include "oca/models/robot/motion_limits.h"
 #include "oca/models/robot/robot_model.h"
 #include "oca/models/robot/saturated_task.h"
-#include "oca/systems/basics/require.h"
-#include "oca/systems/methods/motion_limiter.h"
 #include "oca/systems/methods/velocity_methods.h"
 #include "oca/systems/sensing/model_links.h"
 #include "oca/systems/signals/roles.h"
@@ -18,12 +17,6 @@ namespace {
 
 // An entry of a row that is as good as none, m/rad.
 constexpr double kNoLever = 1e-9;
-
-FlaccoDeLuca::Params Checked(const FlaccoDeLuca::Params& params) {
-  Validated(params);
-  RequireAtLeast("damping_threshold", params.damping_threshold, params.most_damping);
-  return params;
-}
 
 }  // namespace
 
@@ -35,8 +28,7 @@ struct FlaccoDeLuca::Motion {
 };
 
 void FlaccoDeLuca::Params::Describe(Fields<Params>& fields) {
-  fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
-  fields.Add("tip", &Params::tip, "", "link that is repulsed; may be left out if one is last");
+  AddModelAndTip(fields, "link that is repulsed; may be left out if one is last");
   fields.Add("repulsion", &Params::repulsion, "",
              "which links are repulsed: tip, as published, or all");
   fields.Add("repulsion_speed", &Params::repulsion_speed, "m/s", "of a repulsed point near contact")
@@ -50,30 +42,25 @@ void FlaccoDeLuca::Params::Describe(Fields<Params>& fields) {
       .Add("max_joint_velocity", &Params::max_joint_velocity, "rad/s",
            "bound on every joint's speed, beside the model's limits")
       .Above(0.0);
-  fields.Add("most_damping", &Params::most_damping, "m/rad", "damping of a singular direction")
-      .Above(0.0);
-  fields
-      .Add("damping_threshold", &Params::damping_threshold, "m/rad",
-           "singular value below which there is damping; at least most_damping")
-      .Above(0.0);
+  AddDamping(fields);
 }
 
 FlaccoDeLuca::FlaccoDeLuca(const Params& params, const ModelSet& models)
-    : params_(Checked(params)),
+    : params_(WithDamping(params)),
       model_(FilteredModel(models, params.model)),
       tip_(TipNumber(*model_, params.tip)),
       damping_{params.most_damping, params.damping_threshold},
       proximities(DeclareInput<ProximitySet>("proximities")),
       links(DeclareInput<LinkPoses>("links")),
       wish(DeclareInput<Vector>("wish", RateSpec(*model_))),
-      solution(DeclareOutput<AvoidanceVelocity, &FlaccoDeLuca::CalcSolution>(
-          "solution", {}, proximities, links, wish)),
-      velocity(DeclareOutput<Vector, &FlaccoDeLuca::CalcVelocity>("velocity", RateSpec(*model_),
-                                                                  solution)) {
+      solution_(DeclareCached<&FlaccoDeLuca::CalcSolution>(proximities, links, wish)),
+      velocity(DeclareOutput<Vector, &AvoidanceVelocity::velocity>("velocity", RateSpec(*model_),
+                                                                   solution_)),
+      share(DeclareOutput<Vector, &AvoidanceVelocity::share>("share", {1, Unit::Any()}, solution_)),
+      rows(DeclareOutput<Vector, &AvoidanceVelocity::rows>("rows", {1, Unit::Any()}, solution_)) {
   DeclareRole(Limits{.shown = Limits::Shown::kAbove,
-                     .signal = solution,
+                     .signal = rows,
                      .bound = {0.0},
-                     .member = "rows",
                      .how = "repulsed or held back"});
 }
 
@@ -112,7 +99,7 @@ void FlaccoDeLuca::AddLink(const ProximitySet& set, std::size_t first, int link,
   if (model_->body(link) == model_->body(tip_)) return;
   const robot::JointVector row = RowOf(*model_, X_WL, *nearest);
   for (Eigen::Index j = 0; j < row.size(); ++j) {
-    const double limit = std::min(LimitsOf(*model_, j).velocity, params_.max_joint_velocity);
+    const double limit = std::min(robot::LimitsOf(*model_, j).velocity, params_.max_joint_velocity);
     if (row[j] < -kNoLever) motion.upper[j] = std::min(motion.upper[j], limit * (1.0 - risk));
     if (row[j] > kNoLever) motion.lower[j] = std::max(motion.lower[j], -limit * (1.0 - risk));
   }
@@ -125,7 +112,7 @@ void FlaccoDeLuca::CalcSolution(const ProximitySet& set, const LinkPoses& poses,
   Motion motion{robot::JointMatrix::Zero(n, n), robot::JointVector::Zero(n), robot::JointVector(n),
                 robot::JointVector(n)};
   for (Eigen::Index j = 0; j < n; ++j) {
-    motion.upper[j] = std::min(LimitsOf(*model_, j).velocity, params_.max_joint_velocity);
+    motion.upper[j] = std::min(robot::LimitsOf(*model_, j).velocity, params_.max_joint_velocity);
   }
   motion.lower = -motion.upper;
   result.share = 0.0;
@@ -139,15 +126,11 @@ void FlaccoDeLuca::CalcSolution(const ProximitySet& set, const LinkPoses& poses,
     const auto same = [&](const Proximity& before) { return before.link == all[i].link; };
     const auto here = all.begin() + static_cast<std::ptrdiff_t>(i);
     if (std::any_of(all.begin(), here, same)) continue;
-    const int link = NumberOfLink(*model_, all[i].link);
+    const int link = robot::NumberOfLink(*model_, all[i].link);
     AddLink(set, i, link, X_WL, request, motion);
   }
   result.velocity = robot::SaturateInNullspace(motion.M, motion.b, robot::JointVector(request),
                                                motion.lower, motion.upper, damping_);
-}
-
-void FlaccoDeLuca::CalcVelocity(const AvoidanceVelocity& result, MutableVectorView out) const {
-  out = result.velocity;
 }
 
 }  // namespace oca::systems

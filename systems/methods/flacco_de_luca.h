@@ -9,7 +9,7 @@
 #include "oca/framework/dataflow/params.h"
 #include "oca/framework/dataflow/system.h"
 #include "oca/models/robot/filtered_inverse.h"
-#include "oca/systems/signals/avoidance_velocity.h"
+#include "oca/systems/methods/velocity_methods.h"
 #include "oca/systems/signals/model_set.h"
 #include "oca/systems/signals/signals.h"
 
@@ -22,7 +22,7 @@ namespace oca::systems {
 ///     v = repulsion_speed risk(d) direction            at the control point of a repulsed link
 ///     upper_j = V_j (1 - risk(d)) where row_j < 0      row = d(distance)/dq of a control point
 ///     lower_j = -V_j (1 - risk(d)) where row_j > 0     of another link, the least of all counts
-///     u = r + J+ v between lower and upper             models::SaturateInNullspace
+///     u = r + J+ v between lower and upper             robot::SaturateInNullspace
 ///
 /// r is `wish`, the joint velocity that follows the request; the points that are repulsed shall
 /// move with J r + v. The control point of a link is its nearest point, d its distance, and the
@@ -47,8 +47,9 @@ namespace oca::systems {
 /// in    proximities  ProximitySet
 ///       links        LinkPoses
 ///       wish         n  u/s
-/// out   velocity     n  u/s             u
-///       solution     AvoidanceVelocity  share is the largest risk
+/// out   velocity     n  u/s        u
+///       share        1             of avoidance: the largest risk
+///       rows         1             number of proximities that take part
 /// state -
 /// throws ConfigError if there is no such model or link, it has more than 32 joints, or a parameter
 ///        is out of its bounds; while running if a proximity or a pose is of no link of the model
@@ -97,14 +98,19 @@ class FlaccoDeLuca final : public System {
                std::span<const Eigen::Isometry3d> X_WL, VectorView wish, Motion& motion) const;
   void CalcSolution(const ProximitySet& set, const LinkPoses& poses, VectorView wish_value,
                     AvoidanceVelocity& result) const;
-  void CalcVelocity(const AvoidanceVelocity& result, MutableVectorView out) const;
 
  public:
   const Input<ProximitySet> proximities;
   const Input<LinkPoses> links;
   const Input<Vector> wish;
-  const Output<AvoidanceVelocity> solution;
+
+ private:
+  const Cached<AvoidanceVelocity> solution_;
+
+ public:
   const Output<Vector> velocity;
+  const Output<Vector> share;
+  const Output<Vector> rows;
 };
 
 }  // namespace oca::systems

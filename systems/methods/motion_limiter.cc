@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oca/systems/methods/motion_limiter.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "oca/framework/dataflow/error.h"
+#include "oca/models/robot/motion_limits.h"
 #include "oca/models/robot/robot_model.h"
 #include "oca/systems/sensing/model_links.h"
 #include "oca/systems/signals/json_fields.h"
@@ -24,21 +23,7 @@ constexpr double kCatchUpShare = 0.5;
 
 }  // namespace
 
-motion::JointLimits LimitsOf(const robot::RobotModel& model, Eigen::Index index) {
-  return {model.lower_limits()[index], model.upper_limits()[index], model.velocity_limits()[index],
-          model.acceleration_limits()[index], model.jerk_limits()[index]};
-}
-
 const char* NameOf(motion::MotionLimit limit) { return kLimitNames[static_cast<int>(limit)]; }
-
-motion::MotionLimit MotionLimitNamed(const std::string& name) {
-  const auto found = std::find(kLimitNames.begin(), kLimitNames.end(), name);
-  if (found != kLimitNames.end()) {
-    return static_cast<motion::MotionLimit>(found - kLimitNames.begin());
-  }
-  throw ConfigError(fmt::format(
-      "limit: got '{}'; expected none, position, velocity, acceleration or jerk", name));
-}
 
 /// What becomes of the request of one joint.
 struct MotionLimiter::Answer {
@@ -129,7 +114,7 @@ MotionLimiter::Answer MotionLimiter::Answers(VectorView request, const Past& pas
   Answer answer{request[joint], whole, {}};
   if (!params_.enabled) return answer;
   if (past.started[0] == 0.0) return {c, 0.0, {}};
-  const motion::JointLimits limits = LimitsOf(*model_, joint);
+  const motion::JointLimits limits = robot::LimitsOf(*model_, joint);
   const motion::VelocityRange range =
       motion::StoppableVelocities(limits, {c, past.v[joint], past.a[joint]}, dt);
   const double wish = Wish(request[joint], c, past.r[joint], past.v[joint], limits);
@@ -186,19 +171,6 @@ void Signal<MotionClips>::WriteJson(const MotionClips& value, std::string& out) 
                     {"amount", clip.amount}});
   }
   out += list.dump();
-}
-
-MotionClips Signal<MotionClips>::ReadJson(std::string_view text) {
-  const systems::Json json = systems::ParseJson(text);
-  MotionClips value;
-  systems::JsonReader(json, "clips").ForEach([&](const systems::JsonReader& item) {
-    item.CheckKeys({"joint", "limit", "yields", "amount"});
-    value.clips.push_back({static_cast<int>(item.At("joint").Number()),
-                           systems::MotionLimitNamed(item.At("limit").Text()),
-                           systems::MotionLimitNamed(item.At("yields").Text()),
-                           item.At("amount").Number()});
-  });
-  return value;
 }
 
 }  // namespace oca

@@ -4,7 +4,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "oca/framework/dataflow/params.h"
@@ -35,7 +34,7 @@ struct MotionClips {
 ///
 /// c, v, a are position, velocity and acceleration of the command at the last tick, r is the
 /// request there and w = (position - r) / period its velocity. The range is that of
-/// models::StoppableVelocities: position, velocity, acceleration and jerk limits of the model, the
+/// motion::StoppableVelocities: position, velocity, acceleration and jerk limits of the model, the
 /// last two where it has any. A command that was held back, c != r, catches up no faster than it
 /// can brake by half the acceleration (and half the jerk, if that is limited), so that it
 /// meets the request at the request's own velocity instead of shooting past it. Each joint is
@@ -108,13 +107,8 @@ class MotionLimiter final : public System {
   const Output<MotionClips> clips;
 };
 
-/// The limits of joint position number `index`, as MotionLimiter and SafetyFilter take them.
-motion::JointLimits LimitsOf(const robot::RobotModel& model, Eigen::Index index);
-
 /// "none", "position", ...
 const char* NameOf(motion::MotionLimit limit);
-/// throws ConfigError naming the limits there are
-motion::MotionLimit MotionLimitNamed(const std::string& name);
 
 }  // namespace oca::systems
 
@@ -125,7 +119,6 @@ struct Signal<systems::MotionClips> {
   static constexpr const char* kName = "MotionClips";
   static Fault Check(const systems::MotionClips& value, Look look);
   static void WriteJson(const systems::MotionClips& value, std::string& out);
-  static systems::MotionClips ReadJson(std::string_view text);
 };
 
 }  // namespace oca

@@ -10,14 +10,12 @@
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/robot/robot_model.h"
 #include "oca/systems/sensing/model_links.h"
-#include "oca/systems/signals/json_fields.h"
 #include "oca/systems/signals/roles.h"
 
 namespace oca::systems {
 namespace {
 
-constexpr double kFading = 10.0;       // s, of the way that a joint was led
-constexpr double kLeastLever = 1e-12;  // of the reach; a slider's: of 1
+constexpr double kFading = 10.0;  // s, of the way that a joint was led
 
 /// A gain above 1 / period would ask for more than all of h within one period.
 void RequireGain(const char* where, double gain, const Period& period) {
@@ -34,18 +32,39 @@ SafetyFilter::Params Checked(const SafetyFilter::Params& params) {
   return params;
 }
 
-Eigen::VectorXd LeastEntries(const robot::RobotModel& model, double reach) {
-  Eigen::VectorXd least = Eigen::VectorXd::Zero(model.num_positions());
-  for (const robot::KinematicStep& step : model.steps()) {
-    if (step.column < 0) continue;
-    const double lever = step.type == robot::JointType::kPrismatic ? 1.0 : reach;
-    least[step.column] =
-        std::max(least[step.column], kLeastLever * std::abs(step.multiplier) * lever);
+/// throws ConfigError if there are neither one weight nor one a joint
+robot::BarrierSettings SettingsOf(const SafetyFilter::Params& params,
+                                  const robot::RobotModel& model) {
+  const Eigen::Index n = model.num_positions();
+  if (!params.weights.scalar() && params.weights.values().size() != n) {
+    throw ConfigError(fmt::format("weights: got {} numbers; expected 1 or {}",
+                                  params.weights.values().size(), n));
   }
-  return least;
+  Eigen::VectorXd weights(n);
+  for (Eigen::Index j = 0; j < n; ++j) weights[j] = params.weights[j];
+  return {.period = params.period.seconds(),
+          .safe_distance = params.safe_distance,
+          .form = params.form == SafetyFilter::Form::kLinear
+                      ? robot::BarrierSettings::Form::kLinear
+                      : robot::BarrierSettings::Form::kBraking,
+          .approach_gain = params.approach_gain,
+          .deceleration = params.deceleration,
+          .position_gain = params.position_gain,
+          .weights = std::move(weights),
+          .progress_weight = params.progress_weight,
+          .slack_penalty = params.slack_penalty,
+          .trust_time = params.trust_time,
+          .recovery_gain = params.recovery_gain,
+          .recovery_speed = params.recovery_speed,
+          .recovery_penalty = params.recovery_penalty,
+          .most_rows = params.most_rows};
 }
 
 }  // namespace
+
+struct SafetyFilter::Solution : robot::BarrierFilter::Solution {
+  std::vector<Eigen::Isometry3d> reordered;
+};
 
 void SafetyFilter::Params::Describe(Fields<Params>& fields) {
   fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
@@ -103,7 +122,7 @@ void SafetyFilter::Params::Describe(Fields<Params>& fields) {
 SafetyFilter::SafetyFilter(const Params& params, const ModelSet& models)
     : params_(Checked(params)),
       model_(MovableModel(models, params.model)),
-      least_entries_(LeastEntries(*model_, Reach())),
+      filter_(model_, SettingsOf(params_, *model_)),
       c_(DeclareDiscreteState("c", PositionSpec(*model_), 0.0)),
       u_(DeclareDiscreteState("u", RateSpec(*model_), 0.0)),
       l_(DeclareDiscreteState("l", PositionSpec(*model_), 0.0)),
@@ -117,20 +136,15 @@ SafetyFilter::SafetyFilter(const Params& params, const ModelSet& models)
       measured_position(DeclareInput<Vector>("measured_position", PositionSpec(*model_))),
       command(DeclareOptionalInput<Vector>("command", PositionSpec(*model_))),
       clear(DeclareOptionalInput<ClearMotion>("clear")),
-      solution(DeclareOutput<FilterSolution, &SafetyFilter::CalcSolution>(
-          "solution", {}, proximities, links, position, velocity, acceleration, command, clear, c_,
-          u_, l_, activity_)),
+      solution_(DeclareCached<&SafetyFilter::CalcSolution>(proximities, links, position, velocity,
+                                                           acceleration, command, clear, c_, u_, l_,
+                                                           activity_)),
       delta(DeclareOutput<Vector, &SafetyFilter::CalcDelta>("delta", DeltaSpec(*model_), position,
                                                             c_, u_)),
       activity(DeclareStateOutput("activity", activity_)) {
-  const PerComponent& weights = params_.weights;
-  if (!weights.scalar() && weights.values().size() != model_->num_positions()) {
-    throw ConfigError(fmt::format("weights: got {} numbers; expected 1 or {}",
-                                  weights.values().size(), model_->num_positions()));
-  }
   DeclareInitialization<&SafetyFilter::Start>(Writes(c_), measured_position);
   DeclareUpdate<&SafetyFilter::Update>(Every{params_.period}, Writes(c_, u_, l_, activity_),
-                                       solution, command, velocity);
+                                       solution_, command, velocity);
   DeclareRole(Limits{.shown = Limits::Shown::kListed,
                      .signal = activity,
                      .member = "bounds",
@@ -139,22 +153,23 @@ SafetyFilter::SafetyFilter(const Params& params, const ModelSet& models)
 }
 
 std::string SafetyFilter::DescribeMargin() const {
-  const double reach = Reach();
+  const double reach = filter_.reach();
   const double fastest = model_->velocity_limits().sum();
   std::string text = fmt::format(
       "keeps {} m, less {:.3g} m while its joint speeds add up to 1 rad/s, {:.3g} m with obstacles "
       "at 1 m/s besides",
-      params_.safe_distance, TickMargin(1.0, reach, 0.0), TickMargin(1.0, reach, 1.0));
+      params_.safe_distance, filter_.TickMargin(1.0, reach, 0.0),
+      filter_.TickMargin(1.0, reach, 1.0));
   if (std::isfinite(fastest)) {
-    text +=
-        fmt::format(", {:.3g} m with all joints at their limits", TickMargin(fastest, reach, 0.0));
+    text += fmt::format(", {:.3g} m with all joints at their limits",
+                        filter_.TickMargin(fastest, reach, 0.0));
   }
   return text;
 }
 
 void SafetyFilter::Start(VectorView measured, MutableVectorView c) const { c = measured; }
 
-void SafetyFilter::Update(const FilterSolution& result, OptionalVector sent, OptionalVector rate,
+void SafetyFilter::Update(const Solution& result, OptionalVector sent, OptionalVector rate,
                           MutableVectorView c, MutableVectorView u, MutableVectorView l,
                           FilterActivity& last) const {
   if (sent) {
@@ -177,60 +192,16 @@ void SafetyFilter::CalcDelta(VectorView request, VectorView c, VectorView u,
 void SafetyFilter::CalcSolution(const ProximitySet& set, const LinkPoses& poses, VectorView request,
                                 OptionalVector rate, OptionalVector rate_rate, OptionalVector sent,
                                 const ClearMotion* clear_motion, VectorView c, VectorView u,
-                                VectorView l, const FilterActivity& last,
-                                FilterSolution& result) const {
-  if (!result.workspace) {
-    result.workspace.emplace(model_->num_positions(), params_.most_rows);
-    result.velocity.resize(model_->num_positions());
-  }
+                                VectorView l, const FilterActivity& last, Solution& result) const {
   const double dt = params_.period.seconds();
-  FilterSolution::Workspace& work = *result.workspace;
   if (sent) {
-    work.command = *sent;
+    result.command = *sent;
   } else {
-    work.command = c + u * dt;
+    result.command = c + u * dt;
   }
-  work.last_velocity = (work.command - c) / dt;
-  result.activity = {};
-  const auto X_WL = PosesInOrder(*model_, poses, work.reordered);
-  FillBox(result);
-  FillWish(request, rate, rate_rate, l, result);
-  FillRows(set, X_WL, clear_motion, result);
-  FillGuess(set, last, result);
-  work.solver.Solve(work.qp, work.solution);
-  result.velocity = work.solution.u;
-  if (work.solution.status != qp::QpStatus::kOptimal) Brake(result);
-  Report(set, X_WL, result);
+  result.last_velocity = (result.command - c) / dt;
+  const auto X_WL = PosesInOrder(*model_, poses, result.reordered);
+  filter_.Solve({X_WL, set, request, rate, rate_rate, clear_motion, l, last}, result);
 }
 
 }  // namespace oca::systems
-
-namespace oca {
-
-using systems::FilterActivity;
-using systems::FilterSolution;
-
-Fault Signal<FilterSolution>::Check(const FilterSolution& value, Look look) {
-  if (!AllFinite(value.velocity.data(), static_cast<std::size_t>(value.velocity.size())))
-    return Fault::UnlessFinite(false);
-  return Signal<FilterActivity>::Check(value.activity, look);
-}
-
-void Signal<FilterSolution>::WriteJson(const FilterSolution& value, std::string& out) {
-  out += R"({"velocity":)";
-  WriteVectorJson(value.velocity.data(), static_cast<std::size_t>(value.velocity.size()), out);
-  out += R"(,"activity":)";
-  Signal<FilterActivity>::WriteJson(value.activity, out);
-  out += '}';
-}
-
-FilterSolution Signal<FilterSolution>::ReadJson(std::string_view text) {
-  const systems::Json json = systems::ParseJson(text);
-  systems::JsonReader(json, "solution").CheckKeys({"velocity", "activity"});
-  FilterSolution value;
-  value.velocity = ReadVectorJson(json["velocity"].dump());
-  value.activity = Signal<FilterActivity>::ReadJson(json["activity"].dump());
-  return value;
-}
-
-}  // namespace oca

@@ -6,46 +6,17 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "oca/framework/dataflow/params.h"
 #include "oca/framework/dataflow/system.h"
-#include "oca/models/qp/projection_solver.h"
+#include "oca/models/robot/barrier_filter.h"
 #include "oca/systems/signals/clear_motion.h"
 #include "oca/systems/signals/filter_activity.h"
 #include "oca/systems/signals/model_set.h"
 #include "oca/systems/signals/signals.h"
 
 namespace oca::systems {
-
-/// What one row of a SafetyFilter's problem stands for.
-struct FilterRow {
-  int proximity;
-  bool recovery;
-  double headroom;  ///< h, m
-};
-
-/// A velocity with what bound it, and the memory that it was computed in.
-/// JSON: {"velocity": [n], "activity": FilterActivity}
-struct FilterSolution {
-  struct Workspace {
-    Workspace(int num_positions, int most_rows);
-    qp::ProjectionQp qp;
-    qp::ProjectionSolver solver;
-    qp::QpSolution solution;
-    std::vector<FilterRow> rows;             ///< of the problem
-    std::vector<FilterBound> unmovable;      ///< that should grow, one a proximity
-    std::vector<motion::VelocityRange> box;  ///< one a joint
-    Eigen::VectorXd command;                 ///< c at this tick
-    Eigen::VectorXd last_velocity;           ///< that led to it
-    Eigen::VectorXd row;
-    std::vector<Eigen::Isometry3d> reordered;
-  };
-  Eigen::VectorXd velocity;
-  FilterActivity activity;
-  std::optional<Workspace> workspace;
-};
 
 /// The joint velocity nearest to the requested one that keeps the arm clear: a control barrier
 /// function as a quadratic program, once a period.
@@ -95,7 +66,6 @@ struct FilterSolution {
 ///       clear              ClearMotion    of the request; optional, absent: not known
 /// out   delta     n  u
 ///       activity  FilterActivity      of the last tick
-///       solution  FilterSolution      what the filter would do at this instant
 /// state c         n  u
 ///       u         n  u/s
 ///       l         n  u
@@ -139,49 +109,25 @@ class SafetyFilter final : public System {
 
   SafetyFilter(const Params& params, const ModelSet& models);
 
-  /// How far below safe_distance ticks may lead, m: what the curvature of the way costs within a
-  /// period, divided by the share of it that is won back in the next one. For joint speeds that add
-  /// up to `turn` rad/s, a nearest point at most `reach` m from every joint and obstacles up to
-  /// `obstacle_speed` m/s that do not turn. Holds between balls and convex bodies while no row
-  /// takes slack; derivation in docs/explanation/safety_filter.md.
-  double TickMargin(double turn, double reach, double obstacle_speed) const;
-  /// No point of the arm is farther than this from a joint before it, m.
-  double Reach() const;
-
  private:
   using OptionalVector = std::optional<VectorView>;
-  using Poses = std::span<const Eigen::Isometry3d>;
   const Params params_;
   const std::shared_ptr<const robot::RobotModel> model_;
-  const Eigen::VectorXd least_entries_;  ///< of a row that is not all rounding, one a joint
+  const robot::BarrierFilter filter_;
   const DiscreteState<Vector> c_;
   const DiscreteState<Vector> u_;
   const DiscreteState<Vector> l_;
   const DiscreteState<FilterActivity> activity_;
 
+  struct Solution;
   std::string DescribeMargin() const;
-  double Approach(double headroom) const;
-  int FindLink(models::Name name) const;
-  void FillBox(FilterSolution& result) const;
-  void FillWish(VectorView request, OptionalVector rate, OptionalVector rate_rate, VectorView l,
-                FilterSolution& result) const;
-  void FillRows(const ProximitySet& set, Poses X_WL, const ClearMotion* clear_motion,
-                FilterSolution& result) const;
-  bool Moves(const Eigen::VectorXd& row) const;
-  void AddRow(const FilterRow& source, double bound, FilterSolution& result) const;
-  void LeaveOut(const Proximity& proximity, double lack, FilterSolution& result) const;
-  void Brake(FilterSolution& result) const;
-  void FillGuess(const ProximitySet& set, const FilterActivity& last, FilterSolution& result) const;
-  void Report(const ProximitySet& set, Poses X_WL, FilterSolution& result) const;
-
   void Start(VectorView measured, MutableVectorView c) const;
   void CalcSolution(const ProximitySet& set, const LinkPoses& poses, VectorView request,
                     OptionalVector rate, OptionalVector rate_rate, OptionalVector sent,
                     const ClearMotion* clear_motion, VectorView c, VectorView u, VectorView l,
-                    const FilterActivity& last, FilterSolution& result) const;
-  void Update(const FilterSolution& result, OptionalVector sent, OptionalVector rate,
-              MutableVectorView c, MutableVectorView u, MutableVectorView l,
-              FilterActivity& last) const;
+                    const FilterActivity& last, Solution& result) const;
+  void Update(const Solution& result, OptionalVector sent, OptionalVector rate, MutableVectorView c,
+              MutableVectorView u, MutableVectorView l, FilterActivity& last) const;
   void CalcDelta(VectorView request, VectorView c, VectorView u, MutableVectorView out) const;
 
  public:
@@ -193,21 +139,13 @@ class SafetyFilter final : public System {
   const Input<Vector> measured_position;
   const OptionalInput<Vector> command;
   const OptionalInput<ClearMotion> clear;
-  const Output<FilterSolution> solution;
+
+ private:
+  const Cached<Solution> solution_;
+
+ public:
   const Output<Vector> delta;
   const Output<FilterActivity> activity;
 };
 
 }  // namespace oca::systems
-
-namespace oca {
-
-template <>
-struct Signal<systems::FilterSolution> {
-  static constexpr const char* kName = "FilterSolution";
-  static Fault Check(const systems::FilterSolution& value, Look look);
-  static void WriteJson(const systems::FilterSolution& value, std::string& out);
-  static systems::FilterSolution ReadJson(std::string_view text);
-};
-
-}  // namespace oca

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/robot/robot_model.h"
@@ -20,6 +21,11 @@ const double kFallOff = std::log(1000.0);  // the law at contact is 1/1000
 constexpr double kFullApproach = 0.02;
 
 }  // namespace
+
+struct ServoScaling::Slowed {
+  double share{0.0};  ///< of the request that is held back
+  std::vector<Eigen::Isometry3d> reordered;
+};
 
 void ServoScaling::Params::Describe(Fields<Params>& fields) {
   fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
@@ -44,9 +50,8 @@ ServoScaling::ServoScaling(const Params& params, const ModelSet& models)
       links(DeclareInput<LinkPoses>("links")),
       ahead(DeclareInput<RequestAhead>("ahead")),
       position(DeclareInput<Vector>("position", DeltaSpec(*model_))),
-      solution(DeclareOutput<AvoidanceVelocity, &ServoScaling::CalcSolution>(
-          "solution", {}, proximities, links, ahead, s_)),
-      scale(DeclareOutput<Vector, &ServoScaling::CalcScale>("scale", {1, Unit::Any()}, solution)),
+      slowed_(DeclareCached<&ServoScaling::CalcSlowed>(proximities, links, ahead, s_)),
+      scale(DeclareOutput<Vector, &ServoScaling::CalcScale>("scale", {1, Unit::Any()}, slowed_)),
       delta(DeclareOutput<Vector, &ServoScaling::CalcDelta>("delta", DeltaSpec(*model_), ahead,
                                                             position, s_)),
       path_time(DeclareStateOutput("path_time", s_)) {
@@ -65,8 +70,8 @@ double ServoScaling::Law(double distance, bool own) const {
   return distance > 0.0 ? std::exp(kFallOff * (distance / slow - 1.0)) : 0.0;
 }
 
-const Trajectory* ServoScaling::Known(const RequestAhead& request) const {
-  const Trajectory* known = request.trajectory.get();
+const motion::Trajectory* ServoScaling::Known(const RequestAhead& request) const {
+  const motion::Trajectory* known = request.trajectory.get();
   if (known == nullptr || known->size() == model_->num_positions()) return known;
   throw ConfigError(fmt::format("ahead: length; got {} joints; expected {}", known->size(),
                                 model_->num_positions()));
@@ -74,19 +79,16 @@ const Trajectory* ServoScaling::Known(const RequestAhead& request) const {
 
 void ServoScaling::Start(double time, MutableVectorView s) const { s[0] = time; }
 
-void ServoScaling::CalcSolution(const ProximitySet& set, const LinkPoses& poses,
-                                const RequestAhead& request, VectorView s,
-                                AvoidanceVelocity& result) const {
+void ServoScaling::CalcSlowed(const ProximitySet& set, const LinkPoses& poses,
+                              const RequestAhead& request, VectorView s, Slowed& result) const {
   const auto X_WL = PosesInOrder(*model_, poses, result.reordered);
   robot::JointVector rate = robot::JointVector::Zero(model_->num_positions());
-  const Trajectory* known = Known(request);
+  const motion::Trajectory* known = Known(request);
   if (known != nullptr) known->Evaluate(s[0], 1, rate);
   double least = known != nullptr ? 1.0 : 0.0;
-  result.rows = 0;
   for (const Proximity& proximity : set.proximities) {
     const double law = Law(proximity.distance, !proximity.own_link.empty());
     if (law >= 1.0) continue;
-    ++result.rows;
     double counts = 1.0;
     if (params_.approach_only) {
       const double approach = -RowOf(*model_, X_WL, proximity).dot(rate);
@@ -95,16 +97,15 @@ void ServoScaling::CalcSolution(const ProximitySet& set, const LinkPoses& poses,
     least = std::min(least, 1.0 - counts * (1.0 - law));
   }
   result.share = 1.0 - least;
-  result.velocity = least * rate;
 }
 
-void ServoScaling::CalcScale(const AvoidanceVelocity& result, MutableVectorView out) const {
+void ServoScaling::CalcScale(const Slowed& result, MutableVectorView out) const {
   out[0] = 1.0 - result.share;
 }
 
 void ServoScaling::CalcDelta(const RequestAhead& request, VectorView now, VectorView s,
                              MutableVectorView out) const {
-  const Trajectory* known = Known(request);
+  const motion::Trajectory* known = Known(request);
   if (known == nullptr) {
     out.setZero();
     return;

@@ -7,7 +7,6 @@
 #include "oca/framework/dataflow/params.h"
 #include "oca/framework/dataflow/system.h"
 #include "oca/models/robot/filtered_inverse.h"
-#include "oca/systems/signals/avoidance_velocity.h"
 #include "oca/systems/signals/model_set.h"
 #include "oca/systems/signals/request_ahead.h"
 #include "oca/systems/signals/signals.h"
@@ -37,7 +36,6 @@ namespace oca::systems {
 ///       ahead        RequestAhead    the whole motion; while nobody knows it delta and scale are 0
 ///       position     n  u            requested, as an overlay adds delta to it
 /// out   delta        n  u
-///       solution     AvoidanceVelocity  velocity scale dr/ds, share is 1 - scale
 ///       scale        1
 ///       path_time    1  s            s
 /// state s            1  s            starting at the time of the start
@@ -72,11 +70,12 @@ class ServoScaling final : public System {
   const std::shared_ptr<const robot::RobotModel> model_;
   const DiscreteState<Vector> s_;
 
-  const Trajectory* Known(const RequestAhead& request) const;
+  const motion::Trajectory* Known(const RequestAhead& request) const;
   void Start(double time, MutableVectorView s) const;
-  void CalcSolution(const ProximitySet& set, const LinkPoses& poses, const RequestAhead& request,
-                    VectorView s, AvoidanceVelocity& result) const;
-  void CalcScale(const AvoidanceVelocity& result, MutableVectorView out) const;
+  struct Slowed;
+  void CalcSlowed(const ProximitySet& set, const LinkPoses& poses, const RequestAhead& request,
+                  VectorView s, Slowed& result) const;
+  void CalcScale(const Slowed& result, MutableVectorView out) const;
   void CalcDelta(const RequestAhead& request, VectorView now, VectorView s,
                  MutableVectorView out) const;
   void Update(double time, VectorView scale_value, MutableVectorView s) const;
@@ -86,7 +85,11 @@ class ServoScaling final : public System {
   const Input<LinkPoses> links;
   const Input<RequestAhead> ahead;
   const Input<Vector> position;
-  const Output<AvoidanceVelocity> solution;
+
+ private:
+  const Cached<Slowed> slowed_;
+
+ public:
   const Output<Vector> scale;
   const Output<Vector> delta;
   const Output<Vector> path_time;

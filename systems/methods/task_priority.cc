@@ -22,9 +22,8 @@ constexpr double kClose = 0.05;
 constexpr double kContact = 0.01;
 
 TaskPriority::Params Checked(const TaskPriority::Params& params) {
-  Validated(params);
+  WithDamping(params);
   RequireAbove("swap_distance", params.swap_distance, params.contact_distance);
-  RequireAtLeast("damping_threshold", params.damping_threshold, params.most_damping);
   return params;
 }
 
@@ -38,8 +37,7 @@ struct TaskPriority::Rows {
 };
 
 void TaskPriority::Params::Describe(Fields<Params>& fields) {
-  fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
-  fields.Add("tip", &Params::tip, "", "link whose motion is kept; may be left out if one is last");
+  AddModelAndTip(fields, "link whose motion is kept; may be left out if one is last");
   fields.Add("tip_task", &Params::tip_task, "", "what of it is kept: position or pose");
   fields.Add("safe_distance", &Params::safe_distance, "m", "distance that is aimed at").AtLeast(0);
   fields
@@ -60,12 +58,7 @@ void TaskPriority::Params::Describe(Fields<Params>& fields) {
       .Above(0.0);
   fields.Add("contact_distance", &Params::contact_distance, "m", "where they have swapped")
       .AtLeast(0.0);
-  fields.Add("most_damping", &Params::most_damping, "m/rad", "damping of a singular direction")
-      .Above(0.0);
-  fields
-      .Add("damping_threshold", &Params::damping_threshold, "m/rad",
-           "singular value below which there is damping; at least most_damping")
-      .Above(0.0);
+  AddDamping(fields);
 }
 
 TaskPriority::TaskPriority(const Params& params, const ModelSet& models)
@@ -76,15 +69,13 @@ TaskPriority::TaskPriority(const Params& params, const ModelSet& models)
       proximities(DeclareInput<ProximitySet>("proximities")),
       links(DeclareInput<LinkPoses>("links")),
       wish(DeclareInput<Vector>("wish", RateSpec(*model_))),
-      solution(DeclareOutput<AvoidanceVelocity, &TaskPriority::CalcSolution>(
-          "solution", {}, proximities, links, wish)),
-      velocity(DeclareOutput<Vector, &TaskPriority::CalcVelocity>("velocity", RateSpec(*model_),
-                                                                  solution)) {
-  DeclareRole(Limits{.shown = Limits::Shown::kAbove,
-                     .signal = solution,
-                     .bound = {0.0},
-                     .member = "rows",
-                     .how = "evading"});
+      solution_(DeclareCached<&TaskPriority::CalcSolution>(proximities, links, wish)),
+      velocity(DeclareOutput<Vector, &AvoidanceVelocity::velocity>("velocity", RateSpec(*model_),
+                                                                   solution_)),
+      share(DeclareOutput<Vector, &AvoidanceVelocity::share>("share", {1, Unit::Any()}, solution_)),
+      rows(DeclareOutput<Vector, &AvoidanceVelocity::rows>("rows", {1, Unit::Any()}, solution_)) {
+  DeclareRole(
+      Limits{.shown = Limits::Shown::kAbove, .signal = rows, .bound = {0.0}, .how = "evading"});
 }
 
 robot::JointMatrix TaskPriority::TipTaskMatrix(std::span<const Eigen::Isometry3d> X_WL) const {
@@ -96,9 +87,9 @@ robot::JointMatrix TaskPriority::TipTaskMatrix(std::span<const Eigen::Isometry3d
 }
 
 void TaskPriority::AddRow(const Proximity& proximity, std::span<const Eigen::Isometry3d> X_WL,
-                          VectorView request, Rows& rows) const {
+                          VectorView request, Rows& sums) const {
   const double d = proximity.distance;
-  rows.swap = std::max(rows.swap, robot::Fade(d, params_.contact_distance, params_.swap_distance));
+  sums.swap = std::max(sums.swap, robot::Fade(d, params_.contact_distance, params_.swap_distance));
   const double near =
       robot::Fade(d, kFullShare * params_.activation_distance, params_.activation_distance);
   if (near <= 0.0) return;
@@ -110,34 +101,30 @@ void TaskPriority::AddRow(const Proximity& proximity, std::span<const Eigen::Iso
   if (e <= 0.0) return;
   const double closeness = kClose / (std::max(d, 0.0) + kContact);
   const double weight = near * std::min(1.0, e / kFullShortfall) * (1.0 + closeness * closeness);
-  rows.M += (weight * J).lazyProduct(J.transpose());
-  rows.b += weight * e * J;
-  ++rows.count;
+  sums.M += (weight * J).lazyProduct(J.transpose());
+  sums.b += weight * e * J;
+  ++sums.count;
 }
 
 void TaskPriority::CalcSolution(const ProximitySet& set, const LinkPoses& poses, VectorView request,
                                 AvoidanceVelocity& result) const {
   const auto X_WL = PosesInOrder(*model_, poses, result.reordered);
   const Eigen::Index n = request.size();
-  Rows rows{robot::JointMatrix::Zero(n, n), robot::JointVector::Zero(n)};
-  for (const Proximity& proximity : set.proximities) AddRow(proximity, X_WL, request, rows);
+  Rows sums{robot::JointMatrix::Zero(n, n), robot::JointVector::Zero(n)};
+  for (const Proximity& proximity : set.proximities) AddRow(proximity, X_WL, request, sums);
   result.velocity = request;
-  result.share = rows.swap;
-  result.rows = rows.count;
-  if (rows.count == 0) return;
-  if (rows.swap < 1.0) {
+  result.share = sums.swap;
+  result.rows = sums.count;
+  if (sums.count == 0) return;
+  if (sums.swap < 1.0) {
     const robot::JointMatrix N = robot::FilteredNullspace(TipTaskMatrix(X_WL), damping_);
-    const robot::JointMatrix NM = N.lazyProduct(rows.M);
-    const robot::JointVector aside = robot::SolveFiltered(NM.lazyProduct(N), N * rows.b, damping_);
-    result.velocity += (1.0 - rows.swap) * (N * aside);
+    const robot::JointMatrix NM = N.lazyProduct(sums.M);
+    const robot::JointVector aside = robot::SolveFiltered(NM.lazyProduct(N), N * sums.b, damping_);
+    result.velocity += (1.0 - sums.swap) * (N * aside);
   }
-  if (rows.swap > 0.0) {
-    result.velocity += rows.swap * robot::SolveFiltered(rows.M, rows.b, damping_);
+  if (sums.swap > 0.0) {
+    result.velocity += sums.swap * robot::SolveFiltered(sums.M, sums.b, damping_);
   }
-}
-
-void TaskPriority::CalcVelocity(const AvoidanceVelocity& result, MutableVectorView out) const {
-  out = result.velocity;
 }
 
 }  // namespace oca::systems

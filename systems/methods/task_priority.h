@@ -9,7 +9,7 @@
 #include "oca/framework/dataflow/params.h"
 #include "oca/framework/dataflow/system.h"
 #include "oca/models/robot/filtered_inverse.h"
-#include "oca/systems/signals/avoidance_velocity.h"
+#include "oca/systems/methods/velocity_methods.h"
 #include "oca/systems/signals/model_set.h"
 #include "oca/systems/signals/signals.h"
 
@@ -39,13 +39,14 @@ namespace oca::systems {
 /// in both (weighted, damped) pseudo-inverses, so that the answer is continuous as rows enter and
 /// leave, of any number. Rows that contradict each other share what cannot be had, the nearest has
 /// most of it: an average, where a SafetyFilter keeps each row. fade goes from 1 at its second
-/// argument to 0 at its third; damping is Chiaverini's, models::Damping.
+/// argument to 0 at its third; damping is Chiaverini's, robot::Damping.
 ///
-/// in    proximities  ProximitySet       with the velocities of obstacles
+/// in    proximities  ProximitySet  with the velocities of obstacles
 ///       links        LinkPoses
 ///       wish         n  u/s
-/// out   velocity     n  u/s             u
-///       solution     AvoidanceVelocity  share is beta
+/// out   velocity     n  u/s        u
+///       share        1             of avoidance: beta
+///       rows         1             number of proximities that take part
 /// state -
 /// throws ConfigError if there is no such model or link, it has more than 32 joints, or a parameter
 ///        is out of its bounds; while running if a proximity or a pose is of no link of the model
@@ -93,14 +94,19 @@ class TaskPriority final : public System {
               Rows& rows) const;
   void CalcSolution(const ProximitySet& set, const LinkPoses& poses, VectorView wish_value,
                     AvoidanceVelocity& result) const;
-  void CalcVelocity(const AvoidanceVelocity& result, MutableVectorView out) const;
 
  public:
   const Input<ProximitySet> proximities;
   const Input<LinkPoses> links;
   const Input<Vector> wish;
-  const Output<AvoidanceVelocity> solution;
+
+ private:
+  const Cached<AvoidanceVelocity> solution_;
+
+ public:
   const Output<Vector> velocity;
+  const Output<Vector> share;
+  const Output<Vector> rows;
 };
 
 }  // namespace oca::systems

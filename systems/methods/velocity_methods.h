@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
+#include "oca/framework/dataflow/params.h"
 #include "oca/models/robot/filtered_inverse.h"
+#include "oca/systems/basics/require.h"
 #include "oca/systems/signals/model_set.h"
 #include "oca/systems/signals/signals.h"
 
@@ -13,7 +18,43 @@ namespace oca::systems {
 
 // What methods that choose joint velocities share.
 
-/// throws ConfigError as MovableModel, and if it has more joints than models::JointVector holds
+/// Describes the parameters model and tip, `tip_meaning` being that of the latter.
+template <class P>
+void AddModelAndTip(Fields<P>& fields, const char* tip_meaning) {
+  fields.Add("model", &P::model, "", "name of the robot; may be left out if there is but one");
+  fields.Add("tip", &P::tip, "", tip_meaning);
+}
+
+/// Describes the parameters most_damping and damping_threshold.
+template <class P>
+void AddDamping(Fields<P>& fields) {
+  fields.Add("most_damping", &P::most_damping, "m/rad", "damping of a singular direction")
+      .Above(0.0);
+  fields
+      .Add("damping_threshold", &P::damping_threshold, "m/rad",
+           "singular value below which there is damping; at least most_damping")
+      .Above(0.0);
+}
+
+/// The parameters. throws ConfigError if one is out of its bounds or most_damping exceeds
+/// damping_threshold
+template <class P>
+P WithDamping(const P& params) {
+  Validated(params);
+  RequireAtLeast("damping_threshold", params.damping_threshold, params.most_damping);
+  return params;
+}
+
+/// The joint velocity that a method chose, how much say avoidance had, and the memory that it was
+/// computed in.
+struct AvoidanceVelocity {
+  Eigen::VectorXd velocity{};
+  double share{0.0};  ///< 0: the request's alone, 1: avoidance goes first
+  int rows{0};        ///< proximities that took part
+  std::vector<Eigen::Isometry3d> reordered{};
+};
+
+/// throws ConfigError as MovableModel, and if it has more joints than robot::JointVector holds
 std::shared_ptr<const robot::RobotModel> FilteredModel(const ModelSet& models,
                                                        const std::string& name);
 
@@ -21,10 +62,7 @@ std::shared_ptr<const robot::RobotModel> FilteredModel(const ModelSet& models,
 /// several are last and none is named
 int TipNumber(const robot::RobotModel& model, const std::string& tip);
 
-/// The number of a link. throws ConfigError if the model has no such link
-int NumberOfLink(const robot::RobotModel& model, models::Name link);
-
-/// d(distance)/d(position) of every joint. throws ConfigError if it is of no link of the model
+/// d(distance)/d(position) of every joint. throws ModelError if it is of no link of the model
 robot::JointVector RowOf(const robot::RobotModel& model, std::span<const Eigen::Isometry3d> X_WL,
                          const Proximity& proximity);
 

@@ -2,7 +2,6 @@
 #include "oca/systems/sensing/bullet_distance.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -21,24 +20,6 @@ constexpr std::size_t kMostMoving = 8;
 
 template <std::size_t>
 using PosesOfOne = LinkPoses;  // as many as there are indices
-
-// `others: ["*"]`
-bool LooksAtAll(const BulletDistance::Params& params) {
-  return params.others.size() == 1 && params.others.front() == "*";
-}
-
-// Of an entry of `ignore`: the model's full name before the link's; an obstacle's id as it is.
-std::string FullLinkName(const ModelSet& models, const std::string& name) {
-  const std::size_t slash = name.find('/');
-  if (slash == std::string::npos) return name;
-  return models.FullName(name.substr(0, slash)) + name.substr(slash);
-}
-
-bool Moves(const robot::RobotModel& model) { return model.num_positions() > 0; }
-
-int LowestMovable(const robot::RobotModel& model) {
-  return model.bodies().empty() ? -1 : model.bodies().front();
-}
 
 Proximity ToProximity(models::Name link, models::Name obstacle,
                       const geometry::SignedDistance& found) {
@@ -95,15 +76,16 @@ BulletDistance::BulletDistance(const Params& params, const ModelSet& models)
       movable_(MakeMovable()),
       own_(self_collision_ ? MakeNeighbours(name_, *model_) : std::vector<Neighbour>()),
       others_(MakeOthers(params, models)),
-      moving_others_(std::count_if(others_.begin(), others_.end(),
-                                   [](const Other& other) { return Moves(*other.model); })),
+      moving_others_(
+          std::count_if(others_.begin(), others_.end(),
+                        [](const Other& other) { return other.model->num_positions() > 0; })),
       ignored_(MakeIgnored(params, models)),
       at_links_(LooksAtLinks()),
       links(DeclareInput<LinkPoses>("links")),
       obstacles(DeclareInput<ObstacleSet>("obstacles")),
       links_of_others(DeclareOtherLinks()),
-      scene(DeclareOutput<ObstacleScene, &BulletDistance::CalcScene>("scene", {}, obstacles)),
-      near(DeclareOutput<NearObstacles, &BulletDistance::CalcNear>("near", {}, links, scene)),
+      scene_(DeclareCached<&BulletDistance::CalcScene>(obstacles)),
+      near_(DeclareCached<&BulletDistance::CalcNear>(links, scene_)),
       proximities(DeclareProximities(link_forces_ ? moving_others_ : 0)) {
   DeclareRoles(params, models);
 }
@@ -136,89 +118,6 @@ void BulletDistance::DeclareRoles(const Params& params, const ModelSet& models) 
   DeclareRole(Plots{.id = "distance", .title = "Distances", .signal = proximities, .unit = "m"});
 }
 
-std::vector<BulletDistance::Neighbour> BulletDistance::MakeNeighbours(
-    const std::string& name, const robot::RobotModel& model) {
-  std::vector<Neighbour> neighbours;
-  std::vector<Eigen::Isometry3d> X_WL;
-  if (!Moves(model)) X_WL = robot::LinkPoses(model, Eigen::VectorXd(0));
-  for (LinkCollider& collider : MakeLinkColliders(model)) {
-    const int link = collider.number;
-    const models::Name full_name(name + "/" + collider.link.text());
-    const bool lowest =
-        Moves(model) && (model.body(link) < 0 || model.body(link) == LowestMovable(model));
-    neighbours.push_back({std::move(collider), full_name, lowest,
-                          X_WL.empty() ? Eigen::Isometry3d::Identity() : X_WL[link]});
-  }
-  return neighbours;
-}
-
-std::vector<BulletDistance::Other> BulletDistance::MakeOthers(const Params& params,
-                                                              const ModelSet& models) {
-  const std::string own = models.FullName(params.model);
-  ModelSet::Models all = models.all();
-  all.erase(own);
-  if (params.calculate_link_forces && params.others.empty()) {
-    std::vector<std::string> names;
-    for (const auto& entry : all) names.push_back(entry.first);
-    throw ConfigError(fmt::format(
-        "calculate_link_forces: got true without `others`; expected the models whose links push{}",
-        names.empty()
-            ? "; the file has no other model (self_collision is for the robot's own links)"
-            : fmt::format(", of: {}", fmt::join(names, ", "))));
-  }
-  std::vector<Other> others;
-  const auto add = [&others](const std::string& name,
-                             const std::shared_ptr<const robot::RobotModel>& model) {
-    others.push_back({name, model, MakeNeighbours(name, *model)});
-  };
-  if (LooksAtAll(params)) {
-    for (const auto& [name, model] : all) add(name, model);
-  } else {
-    for (const std::string& given : params.others) {
-      const auto model = models.Get(given);
-      const std::string name = models.FullName(given);
-      const bool again = std::any_of(others.begin(), others.end(),
-                                     [&](const Other& other) { return other.name == name; });
-      if (given.empty() || again || name == own) {
-        throw ConfigError(
-            fmt::format("others: got '{}'; expected each other model once by its name", given));
-      }
-      add(name, model);
-    }
-  }
-  std::stable_partition(others.begin(), others.end(),
-                        [](const Other& other) { return Moves(*other.model); });
-  return others;
-}
-
-std::vector<std::pair<models::Name, models::Name>> BulletDistance::MakeIgnored(
-    const Params& params, const ModelSet& models) const {
-  std::vector<std::pair<models::Name, models::Name>> ignored;
-  for (std::size_t i = 0; i < params.ignore.size(); ++i) {
-    const auto& pair = params.ignore[i];
-    if (pair.size() != 2) {
-      throw ConfigError(
-          fmt::format("ignore[{}]: got {} names; expected 2: [link, obstacle]", i, pair.size()));
-    }
-    const std::size_t slash = pair[1].find('/');
-    const std::string model = pair[1].substr(0, slash);
-    try {
-      model_->FindLink(pair[0]);
-      if (pair[1].empty() || slash == 0) {
-        throw ConfigError(
-            fmt::format("obstacle; got '{}'; expected the id of one or model/link", pair[1]));
-      }
-      if (slash != std::string::npos) models.Get(model)->FindLink(pair[1].substr(slash + 1));
-    } catch (const std::runtime_error& error) {
-      throw ConfigError(fmt::format("ignore[{}]: {}", i, error.what()));
-    }
-    ignored.emplace_back(pair[0], FullLinkName(models, pair[1]));
-    if (slash == std::string::npos || models.FullName(model) != name_) continue;
-    ignored.emplace_back(pair[1].substr(slash + 1), name_ + "/" + pair[0]);
-  }
-  return ignored;
-}
-
 std::vector<Input<LinkPoses>> BulletDistance::DeclareOtherLinks() {
   if (moving_others_ > kMostMoving) {
     throw ConfigError(
@@ -241,7 +140,7 @@ Output<ProximitySet> BulletDistance::DeclareProximities(std::size_t moving) {
   }
   return [this]<std::size_t... I>(std::index_sequence<I...>) {
     return DeclareOutput<ProximitySet, &BulletDistance::CalcProximities<PosesOfOne<I>...>>(
-        "proximities", {}, links, obstacles, scene, near, links_of_others[I]...);
+        "proximities", {}, links, obstacles, scene_, near_, links_of_others[I]...);
   }
   (std::make_index_sequence<kMoving>());
 }
@@ -336,7 +235,7 @@ void BulletDistance::AddOwnLinks(const LinkCollider& link, const LinkPoses& pose
 void BulletDistance::AddLinksOfOthers(const LinkCollider& link, const Eigen::Isometry3d& X_WL,
                                       std::span<const LinkPoses* const> others,
                                       ProximitySet& result) const {
-  const bool lowest = model_->body(link.number) == LowestMovable(*model_);
+  const bool lowest = model_->body(link.number) == model_->bodies().front();
   for (std::size_t i = 0; i < others_.size(); ++i) {
     for (const Neighbour& other : others_[i].links) {
       if (lowest && other.lowest) continue;

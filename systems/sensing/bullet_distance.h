@@ -45,8 +45,6 @@ namespace oca::systems {
 /// in    links_<name>  LinkPoses    for each of `others` that has movable joints; with velocities;
 ///                                  by its full name, `_` for a dot
 /// out   proximities   ProximitySet
-/// out   scene         ObstacleScene  the obstacles, arranged for searches
-/// out   near          NearObstacles  of each movable link that has solids, in the model's order
 /// state -
 /// throws ConfigError if a model or a link of `ignore` does not exist, no movable link of the model
 ///        has a collision shape, a pair is no pair, max_distance is not positive,
@@ -85,6 +83,10 @@ class BulletDistance final : public System {
     std::shared_ptr<const robot::RobotModel> model;
     std::vector<Neighbour> links;
   };
+  /// `others: ["*"]`
+  static bool LooksAtAll(const Params& params);
+  /// Of an entry of `ignore`: the model's full name before the link's; an obstacle's id as it is.
+  static std::string FullLinkName(const ModelSet& models, const std::string& name);
   static std::vector<Neighbour> MakeNeighbours(const std::string& name,
                                                const robot::RobotModel& model);
   static std::vector<Other> MakeOthers(const Params& params, const ModelSet& models);
@@ -135,8 +137,12 @@ class BulletDistance final : public System {
   const Input<LinkPoses> links;
   const Input<ObstacleSet> obstacles;
   const std::vector<Input<LinkPoses>> links_of_others;
-  const Output<ObstacleScene> scene;
-  const Output<NearObstacles> near;
+
+ private:
+  const Cached<ObstacleScene> scene_;
+  const Cached<NearObstacles> near_;
+
+ public:
   const Output<ProximitySet> proximities;
 };
 

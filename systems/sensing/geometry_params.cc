@@ -13,7 +13,8 @@
 #include "oca/models/geometry/mesh_surface.h"
 #include "oca/models/geometry/octree.h"
 #include "oca/models/geometry/point_cloud.h"
-#include "oca/systems/sensing/rotation.h"
+#include "oca/models/geometry/rotation.h"
+#include "oca/systems/signals/config_errors.h"
 
 namespace oca::systems {
 namespace {
@@ -245,13 +246,15 @@ Eigen::Isometry3d PoseParams::Pose(const std::string& where) const {
   CheckFinite(xyz.allFinite() && (!rpy || rpy->allFinite()), where);
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.translation() = xyz;
-  if (rpy) pose.linear() = FromRollPitchYaw(*rpy).toRotationMatrix();
+  if (rpy) pose.linear() = geometry::FromRollPitchYaw(*rpy).toRotationMatrix();
   if (quaternion) {
     if (quaternion->size() != 4) {
       throw ConfigError(fmt::format("{}.quaternion: got {} numbers; expected 4: [x, y, z, w]",
                                     where, quaternion->size()));
     }
-    pose.linear() = FromQuaternion(*quaternion, where + ".quaternion").toRotationMatrix();
+    pose.linear() = WithConfigErrors([&] {
+                      return geometry::FromQuaternion(*quaternion, where + ".quaternion");
+                    }).toRotationMatrix();
   }
   return pose;
 }

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oca/systems/sensing/near_obstacles.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-
-#include "oca/framework/dataflow/error.h"
-#include "oca/systems/signals/json_fields.h"
 
 namespace oca::systems {
 namespace {
@@ -91,46 +86,3 @@ void NearObstacles::Add(const geometry::BallTree& balls, const Eigen::Vector3d& 
 }
 
 }  // namespace oca::systems
-
-namespace oca {
-
-using systems::Json;
-using systems::JsonReader;
-using systems::NearObstacles;
-using systems::ObstacleScene;
-
-Fault Signal<ObstacleScene>::Check(const ObstacleScene& /*value*/, Look /*look*/) { return {}; }
-
-void Signal<ObstacleScene>::WriteJson(const ObstacleScene& value, std::string& out) {
-  out += fmt::format(R"({{"obstacles":{}}})", value.balls().size());
-}
-
-ObstacleScene Signal<ObstacleScene>::ReadJson(std::string_view /*text*/) {
-  throw ConfigError("scene: got one to read; expected none, it follows from the obstacles");
-}
-
-Fault Signal<NearObstacles>::Check(const NearObstacles& /*value*/, Look /*look*/) { return {}; }
-
-void Signal<NearObstacles>::WriteJson(const NearObstacles& value, std::string& out) {
-  Json list = Json::array();
-  for (std::size_t link = 0; link < value.links(); ++link) list.push_back(value.of(link));
-  out += list.dump();
-}
-
-NearObstacles Signal<NearObstacles>::ReadJson(std::string_view text) {
-  const Json json = systems::ParseJson(text);
-  NearObstacles near;
-  JsonReader(json, "near").ForEach([&](const JsonReader& link) {
-    link.ForEach([&](const JsonReader& item) {
-      const double index = item.Number();
-      if (!(index >= 0.0 && index < 1e9 && index == static_cast<double>(static_cast<int>(index)))) {
-        item.Fail(fmt::format("{}", index), "a place in the list of obstacles");
-      }
-      near.obstacles_.push_back(static_cast<int>(index));
-    });
-    near.AddNone();
-  });
-  return near;
-}
-
-}  // namespace oca

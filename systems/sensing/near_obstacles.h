@@ -3,11 +3,8 @@
 
 #include <cstdint>
 #include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
-#include "oca/framework/dataflow/signal.h"
 #include "oca/models/geometry/ball_tree.h"
 #include "oca/systems/sensing/link_colliders.h"
 #include "oca/systems/signals/signals.h"
@@ -15,7 +12,7 @@
 namespace oca::systems {
 
 /// Balls around the obstacles of a set, arranged for searches, which follow the set: only what
-/// moved is touched, unless bodies come or go. JSON: {"obstacles"}, their number.
+/// moved is touched, unless bodies come or go.
 class ObstacleScene {
  public:
   /// Takes over the set. No heap up to the largest capacity that a set had.
@@ -37,8 +34,7 @@ class ObstacleScene {
   double fastest_{0.0};
 };
 
-/// For each link the obstacles that may be near, by their place in the set, ascending. JSON: a list
-/// of lists.
+/// For each link the obstacles that may be near, by their place in the set, ascending.
 class NearObstacles {
  public:
   /// Starts anew, with room for all pairs so that nothing that comes near allocates.
@@ -55,7 +51,6 @@ class NearObstacles {
   }
 
  private:
-  friend struct Signal<NearObstacles>;
   std::vector<int> ends_;  // of the links' lists in obstacles_
   std::vector<int> obstacles_;
 };
@@ -68,22 +63,3 @@ double SpeedBound(const Eigen::Vector3d& linear, const Eigen::Vector3d& angular,
 double SpeedBound(const Obstacle& obstacle);
 
 }  // namespace oca::systems
-
-namespace oca {
-
-template <>
-struct Signal<systems::ObstacleScene> {
-  static constexpr const char* kName = "ObstacleScene";
-  static Fault Check(const systems::ObstacleScene& value, Look look);
-  static void WriteJson(const systems::ObstacleScene& value, std::string& out);
-  static systems::ObstacleScene ReadJson(std::string_view text);
-};
-template <>
-struct Signal<systems::NearObstacles> {
-  static constexpr const char* kName = "NearObstacles";
-  static Fault Check(const systems::NearObstacles& value, Look look);
-  static void WriteJson(const systems::NearObstacles& value, std::string& out);
-  static systems::NearObstacles ReadJson(std::string_view text);
-};
-
-}  // namespace oca

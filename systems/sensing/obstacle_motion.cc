@@ -4,19 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
+#include <utility>
 
-#include "oca/framework/dataflow/error.h"
-#include "oca/systems/sensing/rotation.h"
+#include "oca/systems/signals/config_errors.h"
 
 namespace oca::systems {
 namespace {
 
 using Eigen::Isometry3d;
-using Eigen::Quaterniond;
 using Eigen::Vector3d;
+using motion::ScriptedMotion;
 
 /// Refuses keys that a motion's type does not have, and the lack of those that it needs.
 class Keys {
@@ -59,31 +56,8 @@ class Keys {
   std::string where_;
 };
 
-void CheckAllFinite(bool finite, const std::string& where) {
-  if (!finite) throw ConfigError(where + ": got a NaN or an infinity; expected finite numbers");
-}
-
-double FiniteOr(const std::optional<double>& value, double otherwise, const std::string& where) {
-  if (!value) return otherwise;
-  CheckAllFinite(std::isfinite(*value), where);
-  return *value;
-}
-
-Quaterniond Turned(const Vector3d& rotation_vector) {
-  const double angle = rotation_vector.norm();
-  if (angle == 0.0) return Quaterniond::Identity();
-  return Quaterniond(Eigen::AngleAxisd(angle, rotation_vector / angle));
-}
-
-Isometry3d PoseOf(const Vector3d& p, const Quaterniond& rotation) {
-  Isometry3d pose = Isometry3d::Identity();
-  pose.translation() = p;
-  pose.linear() = rotation.toRotationMatrix();
-  return pose;
-}
-
-Motion MakeLinear(const MotionParams& params, const Isometry3d& X_0, const std::string& where) {
-  const Vector3d velocity = *params.velocity;
+ScriptedMotion MakeLinear(const MotionParams& params, const Isometry3d& X_0,
+                          const std::string& where) {
   Vector3d angular = Vector3d::Zero();
   if (params.angular_velocity) {
     const Eigen::VectorXd& given = params.angular_velocity->values();
@@ -93,128 +67,60 @@ Motion MakeLinear(const MotionParams& params, const Isometry3d& X_0, const std::
     }
     angular = given;
   }
-  CheckAllFinite(velocity.allFinite() && angular.allFinite(), where);
-  const double start = FiniteOr(params.start, 0.0, where + ".start");
-  const double stop =
-      FiniteOr(params.stop, std::numeric_limits<double>::infinity(), where + ".stop");
-  if (!(start < stop)) {
-    throw ConfigError(
-        fmt::format("{}.stop: got {} s; expected more than start, {} s", where, stop, start));
-  }
-  const Quaterniond R_0(X_0.linear());
-  const auto state = [=, p_0 = Vector3d(X_0.translation())](double time) -> MotionState {
-    const double elapsed = std::clamp(time, start, stop) - start;
-    const bool moves = time >= start && time < stop;
-    return {PoseOf(p_0 + velocity * elapsed, Turned(angular * elapsed) * R_0),
-            moves ? velocity : Vector3d::Zero(), moves ? angular : Vector3d::Zero()};
-  };
-  return {state, velocity.norm(), angular.norm()};
+  const motion::LinearScript script{*params.velocity, angular, params.start.value_or(0.0),
+                                    params.stop};
+  return motion::MakeMotion(script, X_0, where);
 }
 
-Motion MakeSinusoidal(const MotionParams& params, const Isometry3d& X_0, const std::string& where) {
-  const Vector3d amplitude = *params.amplitude;
-  const double frequency = *params.frequency;
-  const double phase = FiniteOr(params.phase, 0.0, where + ".phase");
-  CheckAllFinite(amplitude.allFinite() && std::isfinite(frequency), where);
-  if (!(frequency > 0.0)) {
-    throw ConfigError(fmt::format("{}.frequency: got {} Hz; expected > 0", where, frequency));
-  }
-  const double rate = 2.0 * std::numbers::pi * frequency;
-  const auto state = [=](double time) -> MotionState {
-    MotionState now;
-    now.X_FO = X_0;
-    now.X_FO.translation() += amplitude * std::sin(rate * time + phase);
-    now.linear = amplitude * (rate * std::cos(rate * time + phase));
-    return now;
-  };
-  return {state, rate * amplitude.norm(), 0.0};
-}
-
-Motion MakeCircular(const MotionParams& params, const Isometry3d& X_0, const std::string& where) {
+ScriptedMotion MakeCircular(const MotionParams& params, const Isometry3d& X_0,
+                            const std::string& where) {
   const PerComponent& given = *params.angular_velocity;
   if (!given.scalar()) {
     throw ConfigError(where + ".angular_velocity: got a list; expected a number, about the axis");
   }
-  const Vector3d center = *params.center;
-  CheckAllFinite(center.allFinite() && params.axis->allFinite() && std::isfinite(given[0]), where);
-  if (params.axis->norm() == 0.0) {
-    throw ConfigError(where + ".axis: got length 0; expected a direction");
-  }
-  const Vector3d angular = given[0] * params.axis->normalized();
-  const Quaterniond R_0(X_0.linear());
-  const Vector3d arm = X_0.translation() - center;
-  const auto state = [=](double time) -> MotionState {
-    const Quaterniond turn = Turned(angular * time);
-    const Vector3d arm_now = turn * arm;
-    return {PoseOf(center + arm_now, turn * R_0), angular.cross(arm_now), angular};
-  };
-  return {state, angular.cross(arm).norm(), angular.norm()};
+  return motion::MakeMotion(motion::CircularScript{*params.center, *params.axis, given[0]}, X_0,
+                            where);
 }
 
-/// A straight piece of a path, from one waypoint on.
-struct Piece {
-  double time;
-  Vector3d p;
-  Quaterniond rotation;
-  Vector3d velocity;
-  Vector3d angular;
-};
-
-std::vector<Piece> MakePieces(const std::vector<WaypointParams>& waypoints,
-                              const Quaterniond& rotation, const std::string& where) {
-  if (waypoints.empty()) {
-    throw ConfigError(where + ": got an empty list; expected at least one waypoint");
-  }
-  std::vector<Piece> pieces;
-  for (std::size_t i = 0; i < waypoints.size(); ++i) {
-    const WaypointParams& point = waypoints[i];
-    const std::string at = fmt::format("{}[{}]", where, i);
-    CheckAllFinite(std::isfinite(point.time) && point.xyz.allFinite() &&
-                       (!point.rpy || point.rpy->allFinite()),
-                   at);
-    if (point.rpy.has_value() != waypoints[0].rpy.has_value()) {
-      throw ConfigError(at + ".rpy: got it in some waypoints; expected it in all or in none");
-    }
-    if (i > 0 && !(point.time > pieces.back().time)) {
-      throw ConfigError(fmt::format("{}.time: got {} s; expected more than {} s, the one before",
-                                    at, point.time, pieces.back().time));
-    }
-    pieces.push_back({point.time, point.xyz, point.rpy ? FromRollPitchYaw(*point.rpy) : rotation,
-                      Vector3d::Zero(), Vector3d::Zero()});
-  }
-  for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
-    const double span = pieces[i + 1].time - pieces[i].time;
-    pieces[i].velocity = (pieces[i + 1].p - pieces[i].p) / span;
-    Quaterniond turn = pieces[i + 1].rotation * pieces[i].rotation.conjugate();
-    if (turn.w() < 0.0) turn.coeffs() = -turn.coeffs();  // the shorter way round
-    const Eigen::AngleAxisd arc(turn);
-    pieces[i].angular = arc.axis() * (arc.angle() / span);
-  }
-  return pieces;
+ScriptedMotion MakeSinusoidal(const MotionParams& params, const Isometry3d& X_0,
+                              const std::string& where) {
+  const motion::SinusoidalScript script{*params.amplitude, *params.frequency,
+                                        params.phase.value_or(0.0)};
+  return motion::MakeMotion(script, X_0, where);
 }
 
-Motion MakePath(const std::vector<WaypointParams>& waypoints, const Isometry3d& X_0,
-                const std::string& where) {
-  const auto pieces = MakePieces(waypoints, Quaterniond(X_0.linear()), where);
-  double fastest = 0.0, turning = 0.0;
-  for (const Piece& piece : pieces) {
-    fastest = std::max(fastest, piece.velocity.norm());
-    turning = std::max(turning, piece.angular.norm());
+std::vector<motion::Waypoint> WaypointsOf(const std::vector<WaypointParams>& params) {
+  std::vector<motion::Waypoint> waypoints;
+  for (const WaypointParams& point : params) {
+    waypoints.push_back({point.time, point.xyz, point.rpy});
   }
-  const auto state = [pieces](double time) {
-    const auto after =
-        std::upper_bound(pieces.begin(), pieces.end(), time,
-                         [](double t, const Piece& piece) { return t < piece.time; });
-    if (after == pieces.begin()) {
-      return MotionState{PoseOf(after->p, after->rotation), Vector3d::Zero(), Vector3d::Zero()};
-    }
-    const Piece& piece = *(after - 1);
-    const double elapsed = time - piece.time;
-    return MotionState{PoseOf(piece.p + piece.velocity * elapsed,
-                              Turned(piece.angular * elapsed) * piece.rotation),
-                       piece.velocity, piece.angular};
-  };
-  return {state, fastest, turning};
+  return waypoints;
+}
+
+ScriptedMotion MakeOfType(const MotionParams& params, const Isometry3d& X_0,
+                          const std::string& where) {
+  const Keys keys(params, where);
+  switch (params.type) {
+    case MotionType::kStatic:
+      keys.Check({});
+      break;
+    case MotionType::kLinear:
+      keys.Check({"velocity"}, {"angular_velocity", "start", "stop"});
+      return MakeLinear(params, X_0, where);
+    case MotionType::kSinusoidal:
+      keys.Check({"amplitude", "frequency"}, {"phase"});
+      return MakeSinusoidal(params, X_0, where);
+    case MotionType::kCircular:
+      keys.Check({"center", "axis", "angular_velocity"});
+      return MakeCircular(params, X_0, where);
+    case MotionType::kWaypoints:
+      keys.Check({"waypoints"});
+      return motion::MakeMotion(WaypointsOf(*params.waypoints), X_0, where + ".waypoints");
+    case MotionType::kCsv:
+      keys.Check({"file"});
+      return motion::MakeMotion(motion::ReadWaypoints(*params.file), X_0, *params.file);
+  }
+  return motion::StandingMotion(X_0);
 }
 
 }  // namespace
@@ -243,32 +149,9 @@ void MotionParams::Describe(Fields<MotionParams>& fields) {
   fields.Add("file", &P::file, "", "csv: table with columns time,x,y,z[,roll,pitch,yaw]");
 }
 
-Motion MakeMotion(const MotionParams& params, const Isometry3d& X_0, const std::string& where) {
-  const Keys keys(params, where);
-  switch (params.type) {
-    case MotionType::kStatic:
-      keys.Check({});
-      break;
-    case MotionType::kLinear:
-      keys.Check({"velocity"}, {"angular_velocity", "start", "stop"});
-      return MakeLinear(params, X_0, where);
-    case MotionType::kSinusoidal:
-      keys.Check({"amplitude", "frequency"}, {"phase"});
-      return MakeSinusoidal(params, X_0, where);
-    case MotionType::kCircular:
-      keys.Check({"center", "axis", "angular_velocity"});
-      return MakeCircular(params, X_0, where);
-    case MotionType::kWaypoints:
-      keys.Check({"waypoints"});
-      return MakePath(*params.waypoints, X_0, where + ".waypoints");
-    case MotionType::kCsv:
-      keys.Check({"file"});
-      return MakePath(ReadWaypoints(*params.file), X_0, *params.file);
-  }
-  return {[X_0](double) -> MotionState {
-            return {X_0, Vector3d::Zero(), Vector3d::Zero()};
-          },
-          0.0, 0.0};
+ScriptedMotion MakeMotion(const MotionParams& params, const Isometry3d& X_0,
+                          const std::string& where) {
+  return WithConfigErrors([&] { return MakeOfType(params, X_0, where); });
 }
 
 }  // namespace oca::systems

@@ -155,12 +155,4 @@ Fault Signal<systems::SensorLine>::Check(const systems::SensorLine& line, Look l
   return Signal<systems::ObstacleSet>::Check(line.held, look);
 }
 
-void Signal<systems::SensorLine>::WriteJson(const systems::SensorLine& line, std::string& out) {
-  Signal<systems::ObstacleSet>::WriteJson(line.held, out);
-}
-
-systems::SensorLine Signal<systems::SensorLine>::ReadJson(std::string_view /*text*/) {
-  throw ConfigError("SensorLine: internal state; got JSON; expected none");
-}
-
 }  // namespace oca

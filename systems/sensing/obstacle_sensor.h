@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "oca/framework/dataflow/params.h"
@@ -82,13 +81,10 @@ class ObstacleSensor final : public System {
 
 namespace oca {
 
-/// As JSON what it shows; it is never read.
 template <>
 struct Signal<systems::SensorLine> {
   static constexpr const char* kName = "SensorLine";
   static Fault Check(const systems::SensorLine& line, Look look);
-  static void WriteJson(const systems::SensorLine& line, std::string& out);
-  static systems::SensorLine ReadJson(std::string_view text);
 };
 
 }  // namespace oca

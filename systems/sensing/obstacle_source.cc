@@ -55,19 +55,20 @@ std::uint64_t NewLayouts(std::size_t count) {
   return next.fetch_add(count);
 }
 
-void Place(Obstacle& obstacle, const Eigen::Isometry3d& X_WF, const MotionState& state) {
+void Place(Obstacle& obstacle, const Eigen::Isometry3d& X_WF, const motion::BodyState& state) {
   obstacle.X_WO = X_WF * state.X_FO;
   obstacle.linear = X_WF.linear() * state.linear;
   obstacle.angular = X_WF.linear() * state.angular;
 }
 
 // The body, and how fast any of its points ever gets.
-std::shared_ptr<const ObstacleBody> WithSpeed(const ObstacleBody& body, const Motion& motion) {
+std::shared_ptr<const ObstacleBody> WithSpeed(const ObstacleBody& body,
+                                              const motion::ScriptedMotion& script) {
   const auto fast = std::make_shared<ObstacleBody>(body);
-  fast->fastest = motion.fastest;
-  if (motion.turning > 0.0) {  // what has no end does not turn
+  fast->fastest = script.fastest;
+  if (script.turning > 0.0) {  // what has no end does not turn
     fast->fastest +=
-        motion.turning * (body.collider->centre().norm() + body.collider->bounding_radius());
+        script.turning * (body.collider->centre().norm() + body.collider->bounding_radius());
   }
   return fast;
 }

@@ -71,7 +71,7 @@ class ObstacleSource final : public System {
     std::shared_ptr<const ObstacleBody> body;
     std::shared_ptr<const ObstacleBody> free_body;  ///< the same, of any speed
     Eigen::Isometry3d X_WF;
-    Motion motion;
+    motion::ScriptedMotion motion;
     double appear;
     double disappear;
     bool stands;

@@ -22,7 +22,7 @@ namespace oca::systems {
 /// out   links     LinkPoses      all links, parents first
 /// state -
 /// throws ConfigError if there is no such model or it has no movable joint; at the start of a run
-///        if `position` is no state of the robot: see models::ImpossibleState
+///        if `position` is no state of the robot: see robot::ImpossibleState
 class RobotKinematics final : public System {
  public:
   static constexpr SystemDoc kDoc{"computes the poses of a robot's links",

@@ -1,20 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oca/systems/signals/clear_motion.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "oca/framework/dataflow/fixed_text.h"
 #include "oca/systems/signals/json_fields.h"
-
-namespace oca::systems {
-
-bool ClearMotion::Knows(models::Name obstacle, bool own_link) const {
-  if (own_link) return own_links;
-  return std::find(bodies.begin(), bodies.end(), obstacle) != bodies.end();
-}
-
-}  // namespace oca::systems
 
 namespace oca {
 

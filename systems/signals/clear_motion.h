@@ -3,22 +3,14 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "oca/framework/dataflow/signal.h"
-#include "oca/models/name.h"
+#include "oca/models/robot/clear_motion.h"
 
 namespace oca::systems {
 
-/// How long a planned motion is known to be clear, and of what: not of anything else.
 /// JSON: {"clear_for", "bodies", "own_links"}
-struct ClearMotion {
-  double clear_for{0.0};               ///< s; from now on, 0: not known to be
-  std::vector<models::Name> bodies{};  ///< obstacles that it was planned with
-  bool own_links{false};               ///< and the links of the robot itself
-
-  bool Knows(models::Name obstacle, bool own_link) const;
-};
+using robot::ClearMotion;
 
 }  // namespace oca::systems
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oca/systems/signals/filter_activity.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,15 +13,6 @@ namespace {
 
 constexpr std::array kStatusNames{"optimal", "iteration_limit", "not_proven", "invalid"};
 constexpr std::array kKindNames{"distance", "recovery", "lower", "upper", "unmovable"};
-
-/// The number of a text among `names`.
-template <class Names>
-int Find(const JsonReader& reader, const Names& names, const char* expected) {
-  const std::string text = reader.Text();
-  const auto found = std::find(names.begin(), names.end(), text);
-  if (found == names.end()) reader.Fail("'" + text + "'", expected);
-  return static_cast<int>(found - names.begin());
-}
 
 bool OfJoint(FilterBound::Kind kind) {
   return kind == FilterBound::Kind::kLower || kind == FilterBound::Kind::kUpper;
@@ -42,24 +31,6 @@ Json BoundToJson(const FilterBound& bound) {
           {"obstacle", bound.obstacle.text()},
           {"multiplier", bound.multiplier},
           {"slack", bound.slack}};
-}
-
-FilterBound ReadBound(const JsonReader& item) {
-  FilterBound bound;
-  bound.kind = static_cast<FilterBound::Kind>(
-      Find(item.At("kind"), kKindNames, "distance, recovery, lower, upper or unmovable"));
-  if (OfJoint(bound.kind)) {
-    item.CheckKeys({"kind", "joint", "limit", "multiplier"});
-    bound.link = models::Name(item.At("joint").Label());
-    bound.limit = MotionLimitNamed(item.At("limit").Text());
-  } else {
-    item.CheckKeys({"kind", "link", "obstacle", "multiplier", "slack"});
-    bound.link = models::Name(item.At("link").Label());
-    bound.obstacle = models::Name(item.At("obstacle").Label());
-    bound.slack = item.At("slack").Number();
-  }
-  bound.multiplier = item.At("multiplier").Number();
-  return bound;
 }
 
 }  // namespace
@@ -92,31 +63,6 @@ void Signal<FilterActivity>::WriteJson(const FilterActivity& value, std::string&
   for (int i = 0; i < value.num_bounds; ++i)
     json["bounds"].push_back(systems::BoundToJson(value.bounds[i]));
   out += json.dump();
-}
-
-FilterActivity Signal<FilterActivity>::ReadJson(std::string_view text) {
-  const systems::Json json = systems::ParseJson(text);
-  const systems::JsonReader reader(json, "activity");
-  reader.CheckKeys(
-      {"status", "rows", "dropped", "yields", "slack", "margin", "kkt_residual", "gap", "bounds"});
-  FilterActivity value;
-  value.status =
-      static_cast<qp::QpStatus>(systems::Find(reader.At("status"), systems::kStatusNames,
-                                              "optimal, iteration_limit, not_proven or invalid"));
-  value.rows = static_cast<int>(reader.At("rows").Number());
-  value.dropped = static_cast<int>(reader.At("dropped").Number());
-  value.yields = static_cast<int>(reader.At("yields").Number());
-  value.slack = reader.At("slack").Number();
-  value.margin = reader.At("margin").Number();
-  value.kkt_residual = reader.At("kkt_residual").Number();
-  value.gap = reader.At("gap").Number();
-  reader.At("bounds").ForEach([&](const systems::JsonReader& item) {
-    if (value.num_bounds == FilterActivity::kMostBounds) {
-      item.Fail("one more", fmt::format("at most {}", FilterActivity::kMostBounds));
-    }
-    value.bounds[value.num_bounds++] = systems::ReadBound(item);
-  });
-  return value;
 }
 
 }  // namespace oca

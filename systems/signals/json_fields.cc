@@ -10,7 +10,8 @@
 
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/nearest.h"
-#include "oca/systems/sensing/rotation.h"
+#include "oca/models/geometry/rotation.h"
+#include "oca/systems/signals/config_errors.h"
 
 namespace oca::systems {
 
@@ -79,14 +80,18 @@ Eigen::Vector3d JsonReader::Vector3() const {
   return vector;
 }
 
-Eigen::Vector3d JsonReader::UnitVector() const { return CheckedUnitVector(Vector3(), where_); }
+Eigen::Vector3d JsonReader::UnitVector() const {
+  const Eigen::Vector3d vector = Vector3();
+  return WithConfigErrors([&] { return geometry::CheckedUnitVector(vector, where_); });
+}
 
 Eigen::Isometry3d JsonReader::Pose() const {
   CheckKeys({"xyz"}, {"rpy", "quaternion"});
   if (Has("rpy") && Has("quaternion")) Fail("rpy and quaternion", "one of the two");
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.translation() = At("xyz").Vector3();
-  if (Has("rpy")) pose.linear() = FromRollPitchYaw(At("rpy").Vector3()).toRotationMatrix();
+  if (Has("rpy"))
+    pose.linear() = geometry::FromRollPitchYaw(At("rpy").Vector3()).toRotationMatrix();
   if (!Has("quaternion")) return pose;
 
   const JsonReader quaternion = At("quaternion");
@@ -97,7 +102,9 @@ Eigen::Isometry3d JsonReader::Pose() const {
   for (int i = 0; i < 4; ++i) {
     xyzw[i] = JsonReader(quaternion.json_[i], quaternion.ItemName(i)).Number();
   }
-  pose.linear() = FromQuaternion(xyzw, quaternion.where_).toRotationMatrix();
+  pose.linear() = WithConfigErrors([&] {
+                    return geometry::FromQuaternion(xyzw, quaternion.where_);
+                  }).toRotationMatrix();
   return pose;
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oca/systems/signals/motion_metrics_value.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 
@@ -11,9 +9,7 @@
 namespace oca {
 
 using systems::Json;
-using systems::JsonReader;
 using systems::MotionMetricsValue;
-using systems::MotionTally;
 
 namespace {
 
@@ -45,19 +41,94 @@ constexpr std::array kNumbers{
 constexpr const char* kPair = "min_distance_pair";
 constexpr const char* kStuckPair = "stuck_pair";
 
-void ReadPair(const JsonReader& pair, models::Name& link, models::Name& obstacle) {
-  std::array<std::string, 2> names;
-  std::size_t count = 0;
-  pair.ForEach([&](const JsonReader& item) {
-    if (count < names.size()) names[count] = item.Label();
-    ++count;
-  });
-  if (count != names.size()) pair.Fail("another length", "[link, obstacle]");
-  link = models::Name(names[0]);
-  obstacle = models::Name(names[1]);
+Json ToJson(const systems::Metric::Value& value) {
+  if (const double* const number = std::get_if<double>(&value)) return Json(*number);
+  const auto* const pair = std::get_if<std::array<models::Name, 2>>(&value);
+  return pair == nullptr ? Json() : Json{(*pair)[0].text(), (*pair)[1].text()};
 }
 
 }  // namespace
+
+namespace systems {
+
+std::optional<double> Metric::number() const {
+  const double* const one = std::get_if<double>(&value);
+  return one == nullptr ? std::nullopt : std::optional(*one);
+}
+
+std::vector<Metric> MetricsIn(const MotionMetricsValue& value) {
+  std::vector<Metric> metrics;
+  const auto add_pair = [&](const char* name, bool known, models::Name link,
+                            models::Name obstacle) {
+    metrics.push_back({name});
+    if (known) metrics.back().value = std::array{link, obstacle};
+  };
+  for (const auto& [key, member] : kNumbers) {
+    metrics.push_back({key});
+    if (const auto& number = value.*member) metrics.back().value = *number;
+    if (member == &MotionMetricsValue::min_distance) {
+      add_pair(kPair, value.min_distance.has_value(), value.min_distance_link,
+               value.min_distance_obstacle);
+    }
+  }
+  add_pair(kStuckPair, !value.stuck_link.empty(), value.stuck_link, value.stuck_obstacle);
+  return metrics;
+}
+
+std::optional<double> NumberIn(const MotionMetricsValue& value, std::string_view name) {
+  const auto found = std::find_if(kNumbers.begin(), kNumbers.end(),
+                                  [name](const NumberField& field) { return field.key == name; });
+  return found == kNumbers.end() ? std::nullopt : value.*found->member;
+}
+
+bool SetMetric(MotionMetricsValue& value, const Metric& metric) {
+  const bool nothing = std::holds_alternative<std::monostate>(metric.value);
+  for (const auto& [key, member] : kNumbers) {
+    if (metric.name != key) continue;
+    value.*member = metric.number();
+    return nothing || metric.number();
+  }
+  const bool nearest = metric.name == kPair;
+  if (!nearest && metric.name != kStuckPair) return false;
+  const auto* const pair = std::get_if<std::array<models::Name, 2>>(&metric.value);
+  (nearest ? value.min_distance_link : value.stuck_link) =
+      pair == nullptr ? models::Name() : (*pair)[0];
+  (nearest ? value.min_distance_obstacle : value.stuck_obstacle) =
+      pair == nullptr ? models::Name() : (*pair)[1];
+  return nothing || pair != nullptr;
+}
+
+MotionMetricsValue WorstOf(const MotionMetricsValue& one, const MotionMetricsValue& other) {
+  MotionMetricsValue worst = one;
+  for (const auto& [key, member] : kNumbers) {
+    const auto& a = one.*member;
+    const auto& b = other.*member;
+    if (b && (!a || *b > *a)) worst.*member = b;
+  }
+  const bool nearer =
+      other.min_distance && (!one.min_distance || *other.min_distance < *one.min_distance);
+  const MotionMetricsValue& nearest = nearer ? other : one;
+  worst.min_distance = nearest.min_distance;
+  worst.min_distance_link = nearest.min_distance_link;
+  worst.min_distance_obstacle = nearest.min_distance_obstacle;
+  worst.min_distance_time = nearest.min_distance_time;
+  if (worst.stuck_time != one.stuck_time) {
+    worst.stuck_link = other.stuck_link;
+    worst.stuck_obstacle = other.stuck_obstacle;
+  }
+  const auto least_of_both = [](const std::optional<double>& a, const std::optional<double>& b) {
+    return a && b ? std::optional(std::min(*a, *b)) : std::nullopt;
+  };
+  if (one.first_contact_time && other.first_contact_time) {
+    worst.first_contact_time = least_of_both(one.first_contact_time, other.first_contact_time);
+  }
+  if (!one.time_to_goal || !other.time_to_goal) worst.time_to_goal.reset();
+  worst.certified_min_distance =
+      least_of_both(one.certified_min_distance, other.certified_min_distance);
+  return worst;
+}
+
+}  // namespace systems
 
 Fault Signal<MotionMetricsValue>::Check(const MotionMetricsValue& value, Look /*look*/) {
   return Fault::UnlessFinite(
@@ -69,75 +140,14 @@ Fault Signal<MotionMetricsValue>::Check(const MotionMetricsValue& value, Look /*
 
 void Signal<MotionMetricsValue>::WriteJson(const MotionMetricsValue& value, std::string& out) {
   Json json;
-  for (const auto& [key, member] : kNumbers) {
-    const auto& number = value.*member;
-    json[key] = number ? Json(*number) : Json();
-    if (member != &MotionMetricsValue::min_distance) continue;
-    json[kPair] =
-        number ? Json{value.min_distance_link.text(), value.min_distance_obstacle.text()} : Json();
+  for (const systems::Metric& metric : systems::MetricsIn(value)) {
+    json[std::string(metric.name)] = ToJson(metric.value);
   }
-  json[kStuckPair] = value.stuck_link.empty()
-                         ? Json()
-                         : Json{value.stuck_link.text(), value.stuck_obstacle.text()};
   out += json.dump();
 }
 
-MotionMetricsValue Signal<MotionMetricsValue>::ReadJson(std::string_view text) {
-  const Json json = systems::ParseJson(text);
-  const JsonReader reader(json, "metrics");
-  reader.CheckKeys({"min_distance", kPair, "min_distance_time", "certified_min_distance",
-                    "contact_time", "first_contact_time", "max_abs_delta", "final_error",
-                    "time_to_goal", "delta_sign_changes_per_second", "total_variation_ratio",
-                    "max_joint_speed", "max_joint_acceleration", "limit_violations", "stuck_time",
-                    kStuckPair});
-  MotionMetricsValue value;
-  for (const auto& [key, member] : kNumbers) {
-    if (!json[key].is_null()) value.*member = reader.At(key).Number();
-  }
-  if (!json[kPair].is_null()) {
-    ReadPair(reader.At(kPair), value.min_distance_link, value.min_distance_obstacle);
-  }
-  if (!json[kStuckPair].is_null()) {
-    ReadPair(reader.At(kStuckPair), value.stuck_link, value.stuck_obstacle);
-  }
-  return value;
-}
-
-Fault Signal<MotionTally>::Check(const MotionTally& value, Look /*look*/) {
-  const auto finite = [](const std::vector<double>& vector) {
-    return AllFinite(vector.data(), static_cast<std::size_t>(vector.size()));
-  };
-  const std::array numbers{value.certified_,
-                           value.reach_,
-                           value.fastest_,
-                           value.last_time_,
-                           value.min_distance_.value_or(0.0),
-                           value.contact_time_,
-                           value.max_abs_delta_,
-                           value.position_path_,
-                           value.request_path_,
-                           value.max_speed_,
-                           value.max_acceleration_,
-                           value.limit_violations_,
-                           value.goal_time_.value_or(0.0),
-                           value.stuck_time_};
-  return Fault::UnlessFinite(AllFinite(numbers.data(), numbers.size()) && finite(value.position_) &&
-                             finite(value.velocity_) && finite(value.request_) &&
-                             finite(value.delta_));
-}
-
-void Signal<MotionTally>::WriteJson(const MotionTally& value, std::string& out) {
-  out += fmt::format(R"({{"samples":{},"time":{}}})", value.samples_, value.last_time_);
-}
-
-MotionTally Signal<MotionTally>::ReadJson(std::string_view text) {
-  const Json json = systems::ParseJson(text);
-  const JsonReader reader(json, "tally");
-  reader.CheckKeys({"samples", "time"});
-  MotionTally tally;
-  tally.samples_ = static_cast<int>(reader.At("samples").Number());
-  tally.last_time_ = reader.At("time").Number();
-  return tally;
+Fault Signal<robot::MotionTally>::Check(const robot::MotionTally& value, Look /*look*/) {
+  return Fault::UnlessFinite(value.finite());
 }
 
 }  // namespace oca

@@ -1,137 +1,40 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "oca/framework/dataflow/signal.h"
-#include "oca/models/name.h"
-#include "oca/models/robot/travel_bound.h"
-#include "oca/systems/signals/signals.h"
+#include "oca/models/robot/motion_tally.h"
 
 namespace oca::systems {
 
-/// What a run has been like so far; a metric without a source has no value. JSON: an object with
-/// every metric, null where there is no value; min_distance_pair and stuck_pair are [link,
-/// obstacle].
-struct MotionMetricsValue {
-  std::optional<double> min_distance;  ///< signed, m
-  models::Name min_distance_link;
-  models::Name min_distance_obstacle;
-  std::optional<double> min_distance_time;       ///< s
-  std::optional<double> certified_min_distance;  ///< not above the distance at any time, m
-  std::optional<double> contact_time;            ///< total time at distance <= 0, s
-  std::optional<double> first_contact_time;      ///< s; none if there was no contact
-  std::optional<double> max_abs_delta;           ///< of the applied delta; rad, m
-  std::optional<double> final_error;             ///< max norm against the goal; rad, m
-  std::optional<double> time_to_goal;  ///< since the first sample, s; none unless it is there
-  std::optional<double> delta_sign_changes_per_second;  ///< mean over joints; 1/s
-  std::optional<double> total_variation_ratio;  ///< path of q over path of the request, joint space
-  std::optional<double> max_joint_speed;        ///< rad/s, m/s
-  std::optional<double> max_joint_acceleration;  ///< rad/s^2, m/s^2
-  std::optional<double> limit_violations;        ///< joints beyond a limit, summed over samples
-  std::optional<double> stuck_time;              ///< longest standstill off the goal, s; 0: none
-  models::Name stuck_link;                       ///< nearest then; empty if nothing was near
-  models::Name stuck_obstacle;
+/// JSON: an object with every metric, null where there is no value; min_distance_pair and
+/// stuck_pair are [link, obstacle].
+using robot::MotionMetricsValue;
+
+/// A metric by its name: a number, a pair [link, obstacle], or nothing.
+struct Metric {
+  using Value = std::variant<std::monostate, double, std::array<models::Name, 2>>;
+  std::string_view name;
+  Value value{};
+  /// The number; none if it is something else.
+  std::optional<double> number() const;
 };
-
-/// What the signals were at one instant; those that do not exist are empty.
-struct MotionSample {
-  double time;
-  std::optional<VectorView> position;
-  std::optional<VectorView> request;
-  std::optional<VectorView> goal;
-  std::optional<VectorView> delta;
-  const ProximitySet* proximities;
-  /// The robot that `position` is of, and how far it travels; both or none.
-  const robot::RobotModel* model{nullptr};
-  const robot::TravelBound* travel{nullptr};
-};
-
-/// The sums behind the metrics, sample by sample in the order of time. Nothing allocates after the
-/// first samples. JSON: {"samples", "time"}, which is all that is read back.
-class MotionTally {
- public:
-  int samples() const { return samples_; }
-  double last_time() const { return last_time_; }
-
-  void Add(const MotionSample& sample);
-  /// The metrics at `now`, which is not before the last sample; only the final error reads more of
-  /// it than the time.
-  MotionMetricsValue At(const MotionSample& now) const;
-
- private:
-  friend struct Signal<MotionTally>;
-  void AddDistance(const MotionSample& sample);
-
-  /// What a proximity leaves for the next sample.
-  struct Pair {
-    models::Name link;
-    models::Name obstacle;
-    models::Name own_link;
-    double distance;
-    double obstacle_speed;
-    bool found;  ///< listed in the next sample too
-  };
-  /// Takes over the capacity too, so that a list that grows later does not allocate.
-  struct PairList : std::vector<Pair> {
-    PairList() = default;
-    // NOLINTNEXTLINE(bugprone-copy-constructor-init): assigning takes the capacity over
-    PairList(const PairList& other) : vector() { *this = other; }
-    PairList& operator=(const PairList& other);
-  };
-  void Certify(const MotionSample& sample, double step);
-  void CalcTravel(const MotionSample& sample);
-  double LeastInStep(const MotionSample& sample, double step);
-  Pair* FindPair(const Proximity& proximity, std::size_t& place);
-  double TravelOf(const robot::RobotModel& model, models::Name link) const;
-  void AddPosition(VectorView position, const robot::RobotModel* model, double step);
-  void CountViolations(VectorView position, const robot::RobotModel& model, double step);
-  void AddDelta(VectorView delta);
-  void AddStandstill(const MotionSample& sample);
-
-  int samples_{0};
-  double first_time_{0.0};
-  double last_time_{0.0};
-  std::optional<double> min_distance_;
-  models::Name min_distance_link_;
-  models::Name min_distance_obstacle_;
-  double min_distance_time_{0.0};
-  bool looked_{false};   // a sample had a pair that was looked at
-  bool certain_{false};  // all of every sample so far was known
-  double certified_{0.0};
-  double reach_{0.0};    // max_distance of the last sample
-  double fastest_{0.0};  // of the last sample
-  PairList pairs_;       // of the last sample
-  std::vector<Eigen::Isometry3d> poses_;
-  std::vector<double> path_;
-  std::vector<double> travel_;
-  bool in_contact_{false};
-  double contact_time_{0.0};
-  std::optional<double> first_contact_time_;
-  double max_abs_delta_{0.0};
-  double reversals_{0.0};
-  double position_path_{0.0};
-  double request_path_{0.0};
-  double max_speed_{0.0};
-  double max_acceleration_{0.0};
-  double limit_violations_{0.0};
-  std::vector<double> still_;  // where the arm has stood since still_since_
-  double still_since_{0.0};
-  double stuck_time_{0.0};
-  models::Name stuck_link_;
-  models::Name stuck_obstacle_;
-  std::optional<double> goal_time_;      // when it came to the goal, if it is there
-  std::vector<double> position_;         // of the last sample
-  std::vector<double> velocity_;         // between the last two samples
-  std::vector<double> request_;          // of the last sample
-  std::vector<double> delta_;            // of the last sample
-  std::vector<double> delta_direction_;  // sign of the last change of each delta; 0 none yet
-};
+/// All of them, in the order of the JSON.
+std::vector<Metric> MetricsIn(const MotionMetricsValue& value);
+/// The metric of a name as a number; none if it has none, or there is no such metric.
+std::optional<double> NumberIn(const MotionMetricsValue& value, std::string_view name);
+/// Sets a metric. Returns false if there is none of that name that is such a value.
+bool SetMetric(MotionMetricsValue& value, const Metric& metric);
+/// The metrics of two judges as one: the nearest approach with its pair and time, the earliest
+/// contact, and of everything else the largest; what both must have (time_to_goal,
+/// certified_min_distance) only if both do.
+MotionMetricsValue WorstOf(const MotionMetricsValue& one, const MotionMetricsValue& other);
 
 }  // namespace oca::systems
 
@@ -142,14 +45,11 @@ struct Signal<systems::MotionMetricsValue> {
   static constexpr const char* kName = "MotionMetrics";
   static Fault Check(const systems::MotionMetricsValue& value, Look look);
   static void WriteJson(const systems::MotionMetricsValue& value, std::string& out);
-  static systems::MotionMetricsValue ReadJson(std::string_view text);
 };
 template <>
-struct Signal<systems::MotionTally> {
+struct Signal<robot::MotionTally> {
   static constexpr const char* kName = "MotionTally";
-  static Fault Check(const systems::MotionTally& value, Look look);
-  static void WriteJson(const systems::MotionTally& value, std::string& out);
-  static systems::MotionTally ReadJson(std::string_view text);
+  static Fault Check(const robot::MotionTally& value, Look look);
 };
 
 }  // namespace oca

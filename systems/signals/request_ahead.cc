@@ -2,6 +2,7 @@
 #include "oca/systems/signals/request_ahead.h"
 
 #include "oca/framework/dataflow/error.h"
+#include "oca/systems/signals/config_errors.h"
 #include "oca/systems/signals/json_fields.h"
 
 namespace oca {
@@ -30,7 +31,7 @@ RequestAhead Signal<RequestAhead>::ReadJson(std::string_view text) {
   const Json json = systems::ParseJson(text);
   const JsonReader reader(json, "ahead");
   reader.CheckKeys({"points"});
-  std::vector<systems::KeyPoint> points;
+  std::vector<motion::KeyPoint> points;
   const auto vector = [](const JsonReader& item) {
     std::vector<double> numbers;
     item.ForEach([&](const JsonReader& number) { numbers.push_back(number.Number()); });
@@ -44,14 +45,14 @@ RequestAhead Signal<RequestAhead>::ReadJson(std::string_view text) {
   });
   if (points.empty()) return {};
   const auto n = points.front().position.size();
-  for (const systems::KeyPoint& point : points) {
+  for (const motion::KeyPoint& point : points) {
     if (point.position.size() != n || point.velocity->size() != n ||
         point.acceleration->size() != n) {
       throw ConfigError("ahead.points: lengths differ; got several; expected one");
     }
   }
-  systems::KeyPointsFrom(points, "");  // refuses times that do not increase
-  return {std::make_shared<const systems::Trajectory>(systems::Trajectory::QuinticHermite(points))};
+  systems::WithConfigErrors([&] { motion::CheckKeyPoints(points, "ahead.points"); });
+  return {std::make_shared<const motion::Trajectory>(motion::Trajectory::QuinticHermite(points))};
 }
 
 }  // namespace oca

@@ -5,16 +5,19 @@
 #include <string>
 #include <string_view>
 
+#include "oca/framework/dataflow/period.h"
 #include "oca/framework/dataflow/signal.h"
-#include "oca/systems/commands/trajectory.h"
+#include "oca/models/motion/trajectory.h"
 
 namespace oca::systems {
 
 /// The whole requested motion, for systems that plan ahead; null if nobody knows it. Copies share
-/// it. JSON: {"points": [{"time", "position", "velocity", "acceleration"}]}, the motion at its key
-/// points; read back it is the quintic spline through them.
+/// it. If `period` is positive the request follows it in samples, from each tick t_k to the next
+/// that for t_k + period. JSON: {"points": [{"time", "position", "velocity", "acceleration"}]}, the
+/// motion at its key points; read back it is the quintic spline through them, not sampled.
 struct RequestAhead {
-  std::shared_ptr<const Trajectory> trajectory{};
+  std::shared_ptr<const motion::Trajectory> trajectory{};
+  Period period{};
 };
 
 }  // namespace oca::systems

@@ -153,7 +153,7 @@ struct Remarks {
 };
 
 // The loop of an avoidance by forces, kinematics -> ... -> MapsForces -> CarriesDelta -> ... ->
-// AddsDelta, so that its gain can be estimated (diagrams/chatter_check.h).
+// AddsDelta, so that its gain can be estimated (diagrams/runs/chatter_check.h).
 
 /// It maps forces on links to a delta of the joints.
 struct MapsForces {

@@ -13,6 +13,7 @@
 #include "oca/models/geometry/collider.h"
 #include "oca/models/name.h"
 #include "oca/models/robot/kinematics.h"
+#include "oca/models/robot/proximity.h"
 
 namespace oca::systems {
 
@@ -73,35 +74,10 @@ struct LinkPoses {
   }
 };
 
-/// Nearest points of one link and one obstacle. `distance` is signed (negative: penetration);
-/// `normal` is the unit vector from the obstacle to the link.
-struct Proximity {
-  models::Name link{};
-  models::Name obstacle{};
-  double distance{0.0};
-  Eigen::Vector3d point_on_link{Eigen::Vector3d::Zero()};
-  Eigen::Vector3d point_on_obstacle{Eigen::Vector3d::Zero()};
-  Eigen::Vector3d normal{Eigen::Vector3d::UnitX()};
-  /// Velocity of the obstacle at point_on_obstacle, m/s. JSON: optional on input, never written.
-  Eigen::Vector3d obstacle_velocity{Eigen::Vector3d::Zero()};
-  /// The link that the obstacle is, if it is one of the same robot, else empty. Its motion is that
-  /// of the robot's own joints, so obstacle_velocity is 0 and the row of the distance takes two
-  /// links: see models::DistanceRow. JSON: as obstacle_velocity.
-  models::Name own_link{};
-  /// Bound on the speed of all points of the obstacle, m/s; 0 for an own link. JSON: as
-  /// obstacle_velocity.
-  double obstacle_speed{0.0};
-};
-
-/// What is not listed is farther than `max_distance` (m; 0: unknown) and no faster than `fastest`
-/// (m/s). `compared` says whether any pair was looked at, listed or not: if none was, the set tells
-/// nothing. JSON: the list of proximities.
-struct ProximitySet {
-  std::vector<Proximity> proximities{};
-  double max_distance{0.0};
-  double fastest{0.0};
-  bool compared{false};
-};
+/// Nearest points; normals lead from obstacle to link. JSON: the list of proximities; what is
+/// optional on input and never written is obstacle_velocity, own_link and obstacle_speed.
+using robot::Proximity;
+using robot::ProximitySet;
 
 /// A force (N) that acts on `link` at `point`, because of `obstacle`.
 struct LinkForce {

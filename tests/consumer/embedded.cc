@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <oca/diagrams/runs/in_memory.h>
 #include <oca/diagrams/runs/run.h>
 #include <oca/framework/simulation/simulator.h>
 
@@ -25,9 +26,12 @@ double ChargeLeft() {
 int main(int argc, char** argv) {
   try {
     const auto loaded = oca::loading::LoadDiagram(argc > 1 ? argv[1] : "", {}, acme::Catalogue());
-    const bool kept = oca::runs::Run(loaded, {}).ExpectationsMet();
+    oca::runs::InMemory series({"monitor.power"}, oca::Period(1, 10));
+    const auto result = oca::runs::Run(loaded, {.outputs = {&series}});
+    if (result.failure) std::fprintf(stderr, "%s\n", result.failure->message.c_str());
+    std::printf("largest power: %.1f %s\n", series.Matrix().maxCoeff(), series.units()[0].c_str());
     std::printf("charge left: %.3f\n", ChargeLeft());
-    return kept ? 0 : 1;
+    return !result.failure && result.ExpectationsMet() ? 0 : 1;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 2;

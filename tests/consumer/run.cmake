@@ -29,7 +29,7 @@ set(simulator ${WORK}/build/acme_simulator)
 set(battery ${files}/battery.yaml)
 
 # It runs, alone and in the program, and the same program runs our own files.
-run(0 "charge left: 0.5" ${WORK}/build/embedded ${battery})
+run(0 "largest power: 9[0-9.]* W.charge left: 0.5" ${WORK}/build/embedded ${battery})
 run(0 "met monitor.battery.charge" ${simulator} run ${battery})
 run(0 "reached" ${simulator} run ${installed}/share/oca/diagrams/static_test.yaml)
 run(0 "reached" ${installed}/bin/simulator run ${installed}/share/oca/diagrams/static_test.yaml)

@@ -175,6 +175,16 @@ check_ports_are_members_of_their_names() { # an input that shares its name with 
   [ "$seen" -ge 100 ] || problem "systems: $seen ports found; expected at least 100"
 }
 
+check_one_name_is_one_class() { # of all headers, whatever the namespace
+  local names name
+  names=$(cat {framework,models,systems,diagrams}/*/*.h models/*.h tools/simulator/*.h |
+    grep -oP '^(class|struct|enum class) \K\w+(?=( final)?( : [^{]*)? \{)')
+  for name in $(sort <<< "$names" | uniq -d); do
+    problem "headers: class $name twice; expected one name for one thing"
+  done
+  [ "$(wc -l <<< "$names")" -ge 250 ] || problem "headers: $(wc -l <<< "$names") classes found; expected at least 250"
+}
+
 all=$(declare -F | awk '{ print $3 }' | grep '^check_' | sed 's/^check_//')
 for name in ${*:-$all}; do
   declare -F "check_$name" > /dev/null || { echo "no such check: $name; there are: $(tr '\n' ' ' <<< "$all")" >&2; exit 2; }

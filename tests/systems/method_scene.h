@@ -8,7 +8,6 @@
 #include "oca/models/robot/kinematics.h"
 #include "oca/models/robot/robot_model.h"
 #include "oca/systems/sensing/model_links.h"
-#include "oca/systems/signals/avoidance_velocity.h"
 #include "oca/systems/signals/signals.h"
 #include "tests/systems/system_bench.h"
 #include "tests/systems/test_models.h"
@@ -81,7 +80,8 @@ class MethodBench {
     bench_->proximities.Fix(bench_.context(), set);
     return bench_->velocity.Eval(bench_.context());
   }
-  const AvoidanceVelocity& solution() { return bench_->solution.Eval(bench_.context()); }
+  double share() { return bench_->share.Eval(bench_.context())[0]; }
+  double rows() { return bench_->rows.Eval(bench_.context())[0]; }
   const robot::RobotModel& model() const { return *model_; }
   SystemBench<S>& bench() { return bench_; }
 

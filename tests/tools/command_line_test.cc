@@ -8,33 +8,13 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "tests/tools/program.h"
+#include "tests/tools/small_diagram.h"
 
 namespace oca::tools {
 namespace command_line_test {
 
 using nlohmann::json;
 using testing::HasSubstr;
-
-const char* const kSmall =
-    "name: small\n"
-    "simulator: {duration: 0.5, seed: 7}\n"
-    "systems:\n"
-    "  source: {type: Constant, value: [1, 2]}\n"
-    "  lag: {type: FirstOrderLag, time_constant: 0.1}\n"
-    "connections: [source.value -> lag.in]\n"
-    "record: {signals: {lag.out: 10}}\n"
-    "expect: {'lag.out[1]': {at_most: 2}}\n";
-
-class CommandLineTest : public testing::Test {
- protected:
-  std::string Small(const std::string& from = "", const std::string& to = "") {
-    std::string text = kSmall;
-    if (!from.empty()) text.replace(text.find(from), from.size(), to);
-    return run.folder().Write("small.yaml", text).string();
-  }
-  Program run;
-};
 
 TEST_F(CommandLineTest, ARunThatMeetsItsExpectationsEndsWithZero) {
   const Ran ran = run("$S run diagrams/static_test.yaml -s parameters.relaxation_time=0.4");
@@ -307,107 +287,6 @@ TEST_F(CommandLineTest, CheckSaysALineAFile) {
   EXPECT_THAT(other.out, HasSubstr("filter"));  // and the margin that it keeps
   EXPECT_EQ(run("$S check diagrams/static_test.yaml -s parameters.avoidance=safty_filter").status,
             2);
-}
-
-TEST_F(CommandLineTest, ListAndDescribeKnowTheSameTypes) {
-  const Ran list = run("$S list");
-  EXPECT_EQ(list.status, 0);
-  std::istringstream lines(list.out);
-  int types = 0;
-  for (std::string line; std::getline(lines, line); ++types) {
-    const std::string type = line.substr(0, line.find(' '));
-    EXPECT_GT(line.size(), type.size() + 10) << line;
-    const Ran described = run("$S describe " + type);
-    EXPECT_EQ(described.status, 0) << type << described.err;
-    for (const char* part : {"ports\n", "parameters\n"})
-      EXPECT_THAT(described.out, HasSubstr(part));
-  }
-  EXPECT_GE(types, 25);
-  const std::string limiter = run("$S describe DeltaLimiter").out;
-  for (const char* part : {"max_joint_velocity", "rad/s", "limited_delta", "default"}) {
-    EXPECT_THAT(limiter, HasSubstr(part));
-  }
-}
-
-TEST_F(CommandLineTest, TheReferenceHasEveryTypeWithItsPortsAndParameters) {
-  const Ran page = run("$S docs systems");
-  EXPECT_EQ(page.status, 0);
-  const Ran list = run("$S list");
-  std::istringstream types(list.out);
-  for (std::string line; std::getline(types, line);) {
-    EXPECT_THAT(page.out, HasSubstr("\n## " + line.substr(0, line.find(' ')) + "\n")) << line;
-  }
-  EXPECT_THAT(page.out, HasSubstr("| input | `delta` | Vector, u |\n"));
-  EXPECT_THAT(page.out, HasSubstr("| `force_gain` | number | N m^3 | `1` | >= 0 | gain eta of eq. "
-                                  "(3.1) |\n"));
-}
-
-TEST_F(CommandLineTest, TheReferenceOfTheFileHasEverySection) {
-  const Ran page = run("$S docs diagram_file");
-  EXPECT_EQ(page.status, 0);
-  for (const char* key :
-       {"name", "include", "simulator", "models", "systems", "record", "expect"}) {
-    EXPECT_THAT(page.out, HasSubstr("\n## " + std::string(key) + "\n"));
-  }
-  EXPECT_THAT(page.out, HasSubstr("| `NAME.attached[].shape.radius` | number | m |  | > 0 |"));
-  EXPECT_EQ(run("$S docs nothing").status, 64);
-}
-
-TEST_F(CommandLineTest, TheSchemaIsJsonAndKnowsEveryTypeAndKey) {
-  const Ran ran = run("$S schema");
-  EXPECT_EQ(ran.status, 0);
-  const json schema = json::parse(ran.out);
-  EXPECT_THAT(schema["$schema"].get<std::string>(), HasSubstr("draft-07"));
-  for (const char* key : {"name", "include", "parameters", "simulator", "models", "systems",
-                          "connections", "record", "expect", "packages"}) {
-    EXPECT_TRUE(schema["properties"].contains(key)) << key;
-  }
-  for (const char* part : {"DeltaLimiter", "max_joint_velocity", "at_least"}) {
-    EXPECT_THAT(ran.out, HasSubstr(part));
-  }
-}
-
-TEST_F(CommandLineTest, TheSchemaRequiresOfMapsOnlyWhatNoOtherFileCanSay) {
-  const json schema = json::parse(run("$S schema").out);
-  EXPECT_FALSE(schema["properties"]["systems"]["additionalProperties"].contains("required"));
-  EXPECT_FALSE(schema["properties"]["models"]["additionalProperties"].contains("required"));
-  // A file with a name that includes nothing is whole.
-  EXPECT_EQ(schema["if"], json::parse(R"({"required":["name"],"not":{"required":["include"]}})"));
-  const json& whole = schema["then"]["properties"];
-  EXPECT_EQ(whole["systems"]["additionalProperties"]["required"], json::parse(R"(["type"])"));
-  EXPECT_EQ(whole["models"]["additionalProperties"]["required"], json::parse(R"(["urdf"])"));
-}
-
-TEST_F(CommandLineTest, TheSchemaBoundsNumbersBesideTheExpressionsThatMayStandForThem) {
-  const json schema = json::parse(run("$S schema").out);
-  const json& duration = schema["properties"]["simulator"]["properties"]["duration"];
-  EXPECT_EQ(duration["type"], json::parse(R"(["number","string"])"));
-  EXPECT_EQ(duration["minimum"], 0.0);
-  EXPECT_EQ(duration["pattern"], R"(\$\{.*\})");
-}
-
-TEST_F(CommandLineTest, GraphsDrawEverySystemAndConnection) {
-  const std::string file = Small();
-  const Ran dot = run("$S graph " + file);
-  EXPECT_EQ(dot.status, 0);
-  EXPECT_THAT(dot.out, testing::StartsWith("digraph \"small\" {"));
-  EXPECT_THAT(dot.out, HasSubstr("\"source\" -> \"lag\""));
-  const Ran mermaid = run("$S graph " + file + " --format mermaid");
-  EXPECT_EQ(mermaid.status, 0);
-  EXPECT_THAT(mermaid.out, testing::StartsWith("flowchart LR\n"));
-  EXPECT_THAT(mermaid.out, HasSubstr("s_source -->|value → in| s_lag"));
-}
-
-TEST_F(CommandLineTest, GraphsAreDrawnBySvgWhereGraphvizIs) {
-  if (run("command -v dot").status != 0) GTEST_SKIP() << "no graphviz here";
-  std::string text = kSmall;
-  text.replace(text.find("name: small"), 11, "name: 'a \"quoted\" \\ name'");
-  for (auto at = text.find("source"); at != std::string::npos; at = text.find("source", at + 1)) {
-    text.replace(at, 6, "graph");  // a word of the DOT language
-  }
-  const Ran ran = run("$S graph " + run.folder().Write("g.yaml", text).string() + " --format svg");
-  EXPECT_EQ(ran.status, 0) << ran.err;
-  EXPECT_THAT(ran.out, HasSubstr("<svg"));
 }
 
 }  // namespace command_line_test

@@ -195,13 +195,13 @@ TEST_F(PlanCommandTest, RefusesByNameWhatNobodyCanKnowBeforehand) {
     return ran.err;
   };
   EXPECT_THAT(refusal("diagrams/scenarios/fault_latency.yaml -s parameters.judge=distance"),
-              HasSubstr("distance.obstacles: driver; got 'sensor', a ObstacleSensor"));
+              HasSubstr("distance.obstacles: driver; got 'sensor', which depends on the run"));
   EXPECT_THAT(refusal("diagrams/attractive_goal.yaml"),
               HasSubstr("metrics.request: driver; got nothing"));
   EXPECT_THAT(refusal("diagrams/dual_arm.yaml"),
               HasSubstr("'left' by left_metrics, 'right' by right_metrics"));
   EXPECT_THAT(refusal("diagrams/dual_arm.yaml --model middle"),
-              HasSubstr("plan: judge; got none; expected one of the model 'middle'"));
+              HasSubstr("judge; got none; expected one of the model 'middle'"));
   EXPECT_THAT(refusal(TwoArms() + "-t 0"), HasSubstr("duration; got 0 s"));
 }
 

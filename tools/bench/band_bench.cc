@@ -16,11 +16,11 @@
 namespace oca::bench {
 namespace {
 
-namespace band_scene = models::test;
+namespace band_scene = planning::test;
 
 constexpr int kScenes = 20;
 constexpr int kMostSteps = 60;
-constexpr double kLeastGain = 2e-3;  // as in elastic_band_steps.cc
+constexpr double kLeastGain = 2e-3;  // as in band_optimizer_steps.cc
 constexpr int kSamples = 104;        // of a band, each a configuration to look at
 
 /// relax(scene, curve, steps) returns the cost before and after.
@@ -43,7 +43,7 @@ void OverScenes(benchmark::State& state, const Relax& relax) {
 
 void Band(benchmark::State& state) {
   OverScenes(state, [](const auto& scene, planning::BandCurve& curve, double& steps) {
-    planning::ElasticBand band(scene.model, {});
+    planning::BandOptimizer band(scene.model, {});
     band.Prepare(curve, scene.request, scene.bodies, true);
     const double before = band.Cost(curve);
     const long looked = band.evaluations();

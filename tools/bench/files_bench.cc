@@ -26,7 +26,7 @@ void Load(benchmark::State& state) {
   int n = 0;
   for (auto _ : state) {
     benchmark::DoNotOptimize(
-        loading::LoadDiagram(kFile, Variation("parameters.max_distance", n++)));
+        loading::LoadDiagram(kFile, Variation("parameters.test_obstacle_height", n++)));
   }
 }
 
@@ -38,7 +38,7 @@ void Build(benchmark::State& state, const char* path) {
 }
 
 BENCHMARK(Load)->Name("files/load")->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(Build, parameter, "parameters.max_distance")
+BENCHMARK_CAPTURE(Build, parameter, "parameters.test_obstacle_height")
     ->Name("files/build")
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(Build, pose, "models.arm.base_pose.xyz.2")

@@ -13,8 +13,7 @@
 #include "oca/diagrams/runs/run.h"
 
 int main(int argc, char** argv) {
-  const oca::loading::Blueprint file(argc > 1 ? argv[1]
-                                              : "diagrams/scenarios/random_static.yaml");
+  const oca::loading::Blueprint file(argc > 1 ? argv[1] : "diagrams/scenarios/random_static.yaml");
   const int runs = argc > 2 ? std::atoi(argv[2]) : 1000;
 
   std::atomic<int> next{0}, met{0}, unmet{0}, failed{0};

@@ -18,9 +18,9 @@ double Milliseconds(int times, const Make& make) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   for (int i = 0; i < times; ++i) {
-    // Meshes instead of capsules, and every time another kept distance.
-    const std::string margin = std::to_string(0.2 + 1e-4 * i);
-    make(Overrides{{"parameters.arm_meshes", "true"}, {"parameters.max_distance", margin}});
+    // Meshes instead of capsules, and every time the obstacle at another height.
+    const std::string height = std::to_string(0.9 + 1e-4 * i);
+    make(Overrides{{"parameters.arm_meshes", "true"}, {"parameters.test_obstacle_height", height}});
   }
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count() / times;
 }

@@ -3,6 +3,6 @@
 # How many lines parse JSON that our own code wrote just before. Left out are readers of what comes from
 # outside the program: inputs of eval and live clients, records, results of sweeps.
 set -euo pipefail
-exec "$(dirname "$0")/matches.sh" 'json::parse\(' ':!*/json_reader.cc' ':!*/eval_command.cc' \
+exec "$(dirname "$0")/matches.sh" 'json::parse\(' ':!*/json_reader.cc' ':!*/evaluator.cc' \
   ':!*/live_client.h' ':!*/comparison.cc' ':!*/csv_export.cc' ':!*/run_metadata.cc' ':!*/series.cc' \
-  ':!*/campaign.cc' ':!*/sample_row.cc' ':!*/signal.cc' ':!*/report_figures.cc'
+  ':!*/campaign.cc' ':!*/sample_row.cc' ':!*/signal.cc' ':!*/signal_shape.cc'

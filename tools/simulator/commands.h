@@ -9,10 +9,6 @@
 
 #include "oca/tools/simulator/simulator_main.h"
 
-namespace oca::loading {
-struct LoadedDiagram;
-}  // namespace oca::loading
-
 namespace oca::tools {
 
 struct RunArguments {
@@ -35,9 +31,6 @@ struct RunArguments {
 };
 /// `catalogue` has the types of the systems, here and below.
 int RunCommand(const RunArguments& arguments, const files::Catalogue& catalogue);
-/// Before anything is written: that no file of the run is one that it is made from, or two of them
-/// are one. throws ConfigError
-void CheckRunOutputs(const RunArguments& arguments, const loading::LoadedDiagram& loaded);
 
 struct ViewArguments {
   std::string file;

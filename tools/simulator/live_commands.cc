@@ -9,8 +9,6 @@
 #include <cstdio>
 #include <fstream>
 #include <iterator>
-#include <optional>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -19,12 +17,11 @@
 #include "oca/diagrams/live/access.h"
 #include "oca/diagrams/live/live_run.h"
 #include "oca/diagrams/live/live_server.h"
-#include "oca/diagrams/live/page.h"
-#include "oca/diagrams/record/csv_export.h"
-#include "oca/diagrams/record/mcap_reader.h"
-#include "oca/diagrams/record/record_sink.h"
+#include "oca/diagrams/record/extracted_record.h"
+#include "oca/diagrams/record/page.h"
 #include "oca/framework/dataflow/error.h"
-#include "oca/version.h"
+#include "tools/simulator/interrupt.h"
+#include "tools/simulator/run_files.h"
 #include "tools/simulator/terminal.h"
 
 namespace oca::tools {
@@ -48,7 +45,7 @@ void SayWhere(const std::string& what, const live::LiveServer& server, const std
 
 void SayForbidden(const std::string& why) { Tell("warning: a request was refused: {}\n", why); }
 
-std::string ReadRecord(const std::string& file) {
+std::string RecordBytes(const std::string& file) {
   constexpr std::string_view kMagic("\x89MCAP", 5);
   std::ifstream stream(file, std::ios::binary);
   std::string bytes{std::istreambuf_iterator<char>(stream), {}};
@@ -58,62 +55,20 @@ std::string ReadRecord(const std::string& file) {
   return bytes;
 }
 
-/// What is kept of a live run: a record in memory or in its file, and what is made of it at the
-/// end.
-class LiveFiles {
- public:
-  /// throws ConfigError if a file cannot be written.
-  explicit LiveFiles(const RunArguments& arguments) : arguments_(arguments) {
-    if (!arguments.report.empty()) page_ = live::LoadPage();
-    for (const std::string& file : {arguments.record, arguments.report}) {
-      if (!file.empty() && !std::ofstream(file, std::ios::binary | std::ios::app)) {
-        throw ConfigError(fmt::format("{}: cannot be written", file));
-      }
-    }
-    if (!arguments.record.empty()) {
-      stream_.open(arguments.record,
-                   std::ios::in | std::ios::out | std::ios::binary | std::ios::trunc);
-      sink_.emplace(stream_, record::ParseCompression(arguments.record_compression));
-    } else if (!arguments.report.empty() || !arguments.csv_folder.empty()) {
-      sink_.emplace(memory_, record::Compression::kZstd);
-    }
+live::LiveOptions ServerOptions(const RunArguments& arguments) {
+  live::LiveOptions options;
+  options.address = arguments.live_address;
+  options.port = arguments.live.value_or(options.port);
+  try {
+    options.page = record::PageWithSource(record::LoadPage(), "live");
+  } catch (const ConfigError& error) {  // Foxglove and Lichtblick need no page of ours
+    Tell("warning: {}\n", error.what());
+    options.page = kNoPage;
   }
-
-  std::vector<record::RecordSink*> sinks() {
-    return sink_ ? std::vector<record::RecordSink*>{&*sink_} : std::vector<record::RecordSink*>{};
-  }
-
-  /// After the run. throws ConfigError if a file could not be written to the end.
-  void Finish() {
-    if (!sink_) return;
-    sink_->End();
-    std::string bytes;
-    if (arguments_.record.empty()) {
-      bytes = memory_.str();
-    } else {
-      stream_.close();
-      bytes = ReadRecord(arguments_.record);
-    }
-    if (!arguments_.csv_folder.empty()) {
-      record::ExportCsv(record::McapFile::Parse(bytes, "live"), arguments_.csv_folder);
-    }
-    if (arguments_.report.empty()) return;
-    std::ofstream report(arguments_.report, std::ios::binary | std::ios::trunc);
-    report << live::PageWithRecord(page_, bytes);
-    report.close();
-    if (!report) {
-      throw ConfigError(
-          fmt::format("{}: could not be written to the end (disk full?)", arguments_.report));
-    }
-  }
-
- private:
-  const RunArguments& arguments_;
-  std::string page_;
-  std::fstream stream_;
-  std::ostringstream memory_;
-  std::optional<record::McapSink> sink_;
-};
+  options.origins = arguments.live_origins;
+  options.forbidden = SayForbidden;
+  return options;
+}
 
 std::atomic<bool> ended{false};
 void End(int) { ended = true; }
@@ -121,48 +76,39 @@ void End(int) { ended = true; }
 }  // namespace
 
 int RunLiveCommand(const RunArguments& arguments, const std::vector<files::Override>& overrides,
-                   const files::Catalogue& catalogue, Log* log,
-                   const std::function<bool()>& interrupted) {
-  live::LiveOptions server_options;
-  server_options.address = arguments.live_address;
-  server_options.port = arguments.live.value_or(server_options.port);
-  try {
-    server_options.page = live::PageWithSource(live::LoadPage(), "live");
-  } catch (const ConfigError& error) {  // Foxglove and Lichtblick need no page of ours
-    Tell("warning: {}\n", error.what());
-    server_options.page = kNoPage;
+                   const files::Catalogue& catalogue, Log* log) {
+  if (record::IsRecord(arguments.file)) {
+    throw ConfigError(
+        fmt::format("--live: file; got the record {}; expected a diagram file, or "
+                    "`simulator view` to look at a record",
+                    arguments.file));
   }
-  server_options.origins = arguments.live_origins;
-  server_options.forbidden = SayForbidden;
-  if (!(arguments.record + arguments.report + arguments.csv_folder).empty()) {
-    CheckRunOutputs(arguments, loading::LoadDiagram(arguments.file, overrides, catalogue));
-  }
-  live::LiveServer server(server_options);
-  LiveFiles files(arguments);
+  CatchInterrupts();
+  live::LiveServer server(ServerOptions(arguments));
+  RunFiles files(arguments, overrides);
   live::LiveRunOptions options;
   options.file = arguments.file;
   options.catalogue = catalogue;
   options.overrides = overrides;
   options.duration = arguments.duration;
   options.realtime_factor = arguments.realtime.value_or(1.0);
-  options.version = Version();
   options.log = log;
-  options.sinks = files.sinks();
-  options.interrupted = interrupted;
+  options.outputs = files.outputs();
+  options.interrupted = Interrupted;
   options.refused = [](const std::string& why) { Tell("warning: change refused: {}\n", why); };
   options.warned = [](const std::string& warning) { Tell("{}\n", warning); };
   SayWhere("live, in a browser, Foxglove or Lichtblick; Ctrl-C ends it", server,
            arguments.live_address, "change the run");
   const live::LiveRunResult result = live::RunLive(options, server);
-  files.Finish();
+  files.TellDropped();
   const live::LiveStatistics statistics = server.statistics();
-  Print("{:.2f} s simulated, {} changes of parameters, {} messages sent\n", result.duration,
+  Print("{:.2f} s simulated, {} changes of parameters, {} messages sent\n", result.run.duration,
         result.changes, statistics.sent);
   if (statistics.dropped > 0) {
     Tell("warning: {} messages left out for clients that were too slow\n", statistics.dropped);
   }
-  if (result.failure.empty()) return kFine;
-  Tell("error: {}\n", result.failure);
+  if (!result.run.failure) return kFine;
+  Tell("error: {}\n", result.run.failure->message);
   return kRunFailed;
 }
 
@@ -170,8 +116,8 @@ int ViewCommand(const ViewArguments& arguments) {
   live::LiveOptions options;
   options.address = arguments.address;
   options.port = arguments.port;
-  options.record = ReadRecord(arguments.file);
-  options.page = live::PageWithSource(live::LoadPage(), "record.mcap");
+  options.record = RecordBytes(arguments.file);
+  options.page = record::PageWithSource(record::LoadPage(), "record.mcap");
   options.forbidden = SayForbidden;
   const live::LiveServer server(options);
   std::signal(SIGINT, End);

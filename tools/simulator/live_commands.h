@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <functional>
-#include <string>
 #include <vector>
 
 #include "oca/diagrams/files/document.h"
@@ -11,9 +9,8 @@
 
 namespace oca::tools {
 
-/// `run --live`: runs in step with the clock for whoever looks on, until `interrupted`.
+/// `run --live`: runs in step with the clock for whoever looks on, until it is interrupted.
 int RunLiveCommand(const RunArguments& arguments, const std::vector<files::Override>& overrides,
-                   const files::Catalogue& catalogue, Log* log,
-                   const std::function<bool()>& interrupted);
+                   const files::Catalogue& catalogue, Log* log);
 
 }  // namespace oca::tools

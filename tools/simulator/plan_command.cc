@@ -4,13 +4,13 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "oca/diagrams/foresight/foresight.h"
 #include "oca/diagrams/loading/loader.h"
 #include "oca/diagrams/runs/blind_spots.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/error.h"
 #include "oca/models/planning/clairvoyant.h"
 #include "tools/simulator/commands.h"
-#include "tools/simulator/plan_scene.h"
 
 namespace oca::tools {
 namespace {
@@ -57,8 +57,9 @@ ordered_json Plan(const PlanArguments& arguments, const files::Catalogue& catalo
     for (const std::string& warning : loaded.warnings) std::cerr << warning << '\n';
   }
   const double duration = arguments.duration.value_or(loaded.simulator.duration);
-  const PlanScene scene(loaded, arguments.model, duration);
+  const foresight::Foresight scene(*loaded.diagram, loaded.models, arguments.model, duration);
   planning::ClairvoyantTask task = scene.Task();
+  task.seed = static_cast<std::uint64_t>(loaded.simulator.seed);
   task.starts = arguments.starts;
   const auto plan = planning::PlanClairvoyantly(scene.model(), task);
   ordered_json json{{"seed", loaded.simulator.seed}};

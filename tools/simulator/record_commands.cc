@@ -9,9 +9,9 @@
 
 #include "oca/diagrams/record/comparison.h"
 #include "oca/diagrams/record/csv_export.h"
+#include "oca/diagrams/record/report_figures.h"
+#include "oca/diagrams/runs/output_files.h"
 #include "tools/simulator/commands.h"
-#include "tools/simulator/output_files.h"
-#include "tools/simulator/report_figures.h"
 #include "tools/simulator/terminal.h"
 
 namespace oca::tools {
@@ -26,11 +26,11 @@ record::McapFile ReadRecord(const std::string& file) {
 
 int ExportCommand(const std::string& file, const std::string& folder) {
   const record::McapFile record = ReadRecord(file);
-  std::vector<OutputFile> outputs{{"--csv", folder}};
+  std::vector<runs::OutputFile> outputs{{"--csv", folder}};
   for (const auto& output : record::ExportedFiles(record, folder)) {
     outputs.push_back({"--csv", output});
   }
-  CheckOutputs(outputs, {{file, "what is exported"}});
+  runs::CheckOutputs(outputs, {{file, "what is exported"}});
   const int files = record::ExportCsv(record, folder);
   Print("{}: {} signals\n", folder, files);
   return kFine;
@@ -69,7 +69,7 @@ void AddPlot(CLI::App& app, std::function<int()>& command) {
   plot->add_option("--signal", arguments->signals,
                    "system.port or system.port.joint with * and ?; a panel each")
       ->allow_extra_args(false);
-  std::vector<std::string> figures = FigureNames();
+  std::vector<std::string> figures = record::FigureNames();
   figures.push_back("method-comparison");
   plot->add_option("--figure", arguments->figure,
                    "a figure of the report, from runs of our own, or what sweeps reached")

@@ -9,7 +9,7 @@
 
 #include "oca/diagrams/files/catalogue.h"
 #include "oca/diagrams/files/diagram_file.h"
-#include "oca/diagrams/loading/diagram_schema.h"
+#include "oca/diagrams/loading/schema_tree.h"
 #include "tools/simulator/catalogue_text.h"
 #include "tools/simulator/schema_table.h"
 
@@ -83,7 +83,7 @@ std::string DiagramFilePage(const files::Catalogue& catalogue) {
       "an item of a list; a number may be given as `\"${...}\"`. How sections are merged, and "
       "what\n"
       "expressions know: [write a diagram](../how-to/write_a_diagram.md).\n";
-  const ordered_json schema = ordered_json::parse(loading::DiagramSchema(catalogue));
+  const ordered_json schema = loading::DiagramSchemaTree(catalogue);
   for (const files::Section& section : files::Sections()) {
     page += fmt::format("\n## {}\n\n{}\n", section.key, Sentence(section.meaning));
     const ordered_json& keys = schema["properties"][section.key];

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "oca/diagrams/files/package_paths.h"
+#include "oca/diagrams/runs/output_files.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/opened_files.h"
 #include "oca/models/robot/collision_check.h"
@@ -15,7 +16,6 @@
 #include "oca/models/robot/unseen_links.h"
 #include "oca/models/robot/urdf.h"
 #include "tools/simulator/commands.h"
-#include "tools/simulator/output_files.h"
 #include "tools/simulator/terminal.h"
 
 namespace oca::tools {
@@ -106,8 +106,8 @@ int CheckCollisionsCommand(const CheckCollisionsArguments& arguments) {
   models::OpenedFiles opened;
   const robot::RobotModel model =
       robot::LoadUrdf(files::ResolvePath(arguments.urdf, {}, {}), options);
-  CheckOutputs({{"--write-srdf", arguments.write_srdf}},
-               InputsOf(opened.files(), "what the robot is read from"));
+  runs::CheckOutputs({{"--write-srdf", arguments.write_srdf}},
+                     runs::InputsOf(opened.files(), "what the robot is read from"));
   if (const std::string unseen = robot::DescribeUnseen(model, "--visual-as-collision missing");
       !unseen.empty())
     warn(unseen);

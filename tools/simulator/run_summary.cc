@@ -5,7 +5,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "oca/diagrams/runs/blind_spots.h"
@@ -14,53 +15,54 @@
 namespace oca::tools {
 namespace {
 
-using nlohmann::ordered_json;
+using systems::MotionMetricsValue;
 
 /// An arm that ends nearer than this to its goal has arrived, rad.
-constexpr double kArrived = 0.01;
+constexpr double kAtGoal = 0.01;
 
 std::string Line(const char* label, const std::string& text) {
   return fmt::format("  {:<13}{}\n", label, text);
 }
 
 /// What is known of the times between the samples.
-std::string Certificate(const ordered_json& metrics, double duration) {
+std::string Certificate(const MotionMetricsValue& metrics, double duration) {
   if (duration == 0.0) return "; looked at once, at the start";
-  const auto& certified = metrics.value("certified_min_distance", ordered_json());
-  if (!certified.is_number()) return "; between the samples nothing is known";
-  if (certified.get<double>() <= 0.0) return "; between the samples a contact is not ruled out";
-  return fmt::format("; {:.3f} m or more at every time", certified.get<double>());
+  const auto& certified = metrics.certified_min_distance;
+  if (!certified) return "; between the samples nothing is known";
+  if (*certified <= 0.0) return "; between the samples a contact is not ruled out";
+  return fmt::format("; {:.3f} m or more at every time", *certified);
 }
 
 /// What stands where nothing was found within reach; `judged`: distances were asked for.
-std::string NothingNear(const ordered_json& metrics, double duration, bool judged, bool colour) {
-  if (metrics.value("contact_time", ordered_json()).is_number()) {
+std::string NothingNear(const MotionMetricsValue& metrics, double duration, bool judged,
+                        bool colour) {
+  if (metrics.contact_time) {
     return Line("clearance", Good("clear", colour) +
                                  ": nothing came within reach of the distance measurement" +
                                  Certificate(metrics, duration));
   }
-  if (!judged || !metrics.contains("contact_time")) return "";
+  if (!judged) return "";
   return Line("clearance",
               Bad("NOT KNOWN", colour) + ": there was nothing to compare the arm with");
 }
 
-std::string ClearanceLine(const ordered_json& metrics, double duration, bool judged, bool colour) {
-  const auto& distance = metrics.value("min_distance", ordered_json());
-  if (!distance.is_number()) return NothingNear(metrics, duration, judged, colour);
-  const auto& pair = metrics["min_distance_pair"];
+std::string ClearanceLine(const MotionMetricsValue& metrics, double duration, bool judged,
+                          bool colour) {
+  if (!metrics.min_distance) return NothingNear(metrics, duration, judged, colour);
+  const double nearest = *metrics.min_distance;
   std::string where;
-  if (pair.is_array()) {
-    where = fmt::format(", {} to {} at {:.2f} s", pair[0].get<std::string>(),
-                        pair[1].get<std::string>(), metrics["min_distance_time"].get<double>());
+  if (!metrics.min_distance_link.empty()) {
+    where =
+        fmt::format(", {} to {} at {:.2f} s", metrics.min_distance_link.text(),
+                    metrics.min_distance_obstacle.text(), metrics.min_distance_time.value_or(0));
   }
-  const double nearest = distance.get<double>();
   if (nearest > 0.0) {
     return Line("clearance", Good("clear", colour) + fmt::format(": nearest {:.3f} m", nearest) +
                                  where + Certificate(metrics, duration));
   }
   return Line("clearance",
               Bad("CONTACT", colour) + fmt::format(": {:.3f} m deep", -nearest) + where +
-                  fmt::format("; {:.2f} s in contact", metrics.value("contact_time", 0.0)));
+                  fmt::format("; {:.2f} s in contact", metrics.contact_time.value_or(0.0)));
 }
 
 /// What "clear" does not speak of.
@@ -70,40 +72,38 @@ std::string NotSeenLine(const loading::LoadedDiagram& loaded) {
 }
 
 /// Where the arm stood for long, if it did: at the goal it need not have ended.
-std::string Standstill(const ordered_json& metrics, bool reached) {
-  const auto& time = metrics.value("stuck_time", ordered_json());
-  if (!time.is_number() || time.get<double>() == 0.0) return "";
-  const auto& pair = metrics["stuck_pair"];
-  return fmt::format("; {} for {:.3g} s, {}", reached ? "held up" : "STUCK", time.get<double>(),
-                     pair.is_array() ? fmt::format("nearest {} to {}", pair[0].get<std::string>(),
-                                                   pair[1].get<std::string>())
-                                     : std::string("nothing within reach"));
+std::string Standstill(const MotionMetricsValue& metrics, bool reached) {
+  if (metrics.stuck_time.value_or(0.0) == 0.0) return "";
+  const std::string nearest = metrics.stuck_link.empty()
+                                  ? "nothing within reach"
+                                  : fmt::format("nearest {} to {}", metrics.stuck_link.text(),
+                                                metrics.stuck_obstacle.text());
+  return fmt::format("; {} for {:.3g} s, {}", reached ? "held up" : "STUCK", *metrics.stuck_time,
+                     nearest);
 }
 
-std::string GoalLine(const ordered_json& metrics, bool colour) {
-  const auto& error = metrics.value("final_error", ordered_json());
-  if (!error.is_number()) return "";
-  const double off = error.get<double>();
+std::string GoalLine(const MotionMetricsValue& metrics, bool colour) {
+  if (!metrics.final_error) return "";
+  const double off = *metrics.final_error;
   const std::string arrival =
-      off < kArrived ? Good("reached", colour) + fmt::format(": {:.2g} rad off", off)
+      off < kAtGoal ? Good("reached", colour) + fmt::format(": {:.2g} rad off", off)
                      : Bad("NOT REACHED", colour) + fmt::format(": {:.3g} rad off", off);
-  return Line("goal", arrival + Standstill(metrics, off < kArrived));
+  return Line("goal", arrival + Standstill(metrics, off < kAtGoal));
 }
 
-std::string MotionLine(const ordered_json& metrics) {
+std::string MotionLine(const MotionMetricsValue& metrics) {
   std::string text;
-  const auto add = [&](const char* key, const char* pattern) {
-    const auto& value = metrics.value(key, ordered_json());
-    if (!value.is_number()) return;
-    text += (text.empty() ? "" : ", ") + fmt::format(fmt::runtime(pattern), value.get<double>());
+  const auto add = [&text](const std::optional<double>& value, const char* pattern) {
+    if (!value) return;
+    text += (text.empty() ? "" : ", ") + fmt::format(fmt::runtime(pattern), *value);
   };
-  add("max_abs_delta", "largest delta {:.3g} rad");
-  add("total_variation_ratio", "path {:.3g} times the request's");
-  add("delta_sign_changes_per_second", "{:.1f} delta reversals a second");
+  add(metrics.max_abs_delta, "largest delta {:.3g} rad");
+  add(metrics.total_variation_ratio, "path {:.3g} times the request's");
+  add(metrics.delta_sign_changes_per_second, "{:.1f} delta reversals a second");
   std::string lines = text.empty() ? "" : Line("alteration", text);
   text.clear();
-  add("max_joint_speed", "joint speed up to {:.3g} rad/s");
-  add("max_joint_acceleration", "acceleration up to {:.3g} rad/s^2");
+  add(metrics.max_joint_speed, "joint speed up to {:.3g} rad/s");
+  add(metrics.max_joint_acceleration, "acceleration up to {:.3g} rad/s^2");
   return lines + (text.empty() ? "" : Line("motion", text));
 }
 
@@ -130,15 +130,15 @@ std::string PaceText(const SimulatorStatistics& statistics) {
 
 std::string RunSummary(const loading::LoadedDiagram& loaded, const runs::RunResult& result,
                        bool colour) {
-  const auto metrics = ordered_json::parse(result.metrics);
   std::string text = loaded.name;
   if (!loaded.description.empty()) text += Dim(": " + loaded.description, colour);
   text += '\n';
-  if (!result.failure.empty()) text += Line("run", Bad("FAILED", colour) + ": " + result.failure);
+  if (result.failure) text += Line("run", Bad("FAILED", colour) + ": " + result.failure->message);
   if (result.interrupted) text += Line("run", Bad("INTERRUPTED", colour));
-  text += ClearanceLine(metrics, result.duration, runs::JudgesDistances(loaded), colour) +
-          NotSeenLine(loaded) + GoalLine(metrics, colour) + MotionLine(metrics) +
-          ExpectationLines(result, colour);
+  const bool judged = result.metrics && runs::JudgesDistances(loaded);
+  const MotionMetricsValue metrics = result.metrics.value_or(MotionMetricsValue());
+  text += ClearanceLine(metrics, result.duration, judged, colour) + NotSeenLine(loaded) +
+          GoalLine(metrics, colour) + MotionLine(metrics) + ExpectationLines(result, colour);
   text += Line("time", fmt::format("{:g} s in {:.3g} s, {:.0f} times real time; {} steps",
                                    result.duration, result.wall_seconds,
                                    result.duration / result.wall_seconds, result.statistics.steps));

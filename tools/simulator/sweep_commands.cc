@@ -18,16 +18,17 @@
 #include <string_view>
 #include <thread>
 
+#include "oca/diagrams/runs/output_files.h"
 #include "oca/diagrams/sweep/merge.h"
 #include "oca/diagrams/sweep/results_database.h"
 #include "oca/diagrams/sweep/summary.h"
+#include "oca/diagrams/sweep/summary_json.h"
 #include "oca/diagrams/sweep/sweep_run.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/opened_files.h"
 #include "oca/version.h"
 #include "tools/simulator/commands.h"
 #include "tools/simulator/interrupt.h"
-#include "tools/simulator/output_files.h"
 #include "tools/simulator/sweep_report.h"
 #include "tools/simulator/terminal.h"
 
@@ -128,7 +129,7 @@ enum class Form { kTable, kJson, kMarkdown };
 int Report(const Results& results, Form form, bool colour) {
   const sweep::Summary summary = sweep::Summarize(results);
   if (form == Form::kJson) {
-    std::cout << SweepJson(results, summary) << '\n';
+    std::cout << sweep::SummaryJson(results, summary) << '\n';
   } else if (form == Form::kMarkdown) {
     std::cout << SweepMarkdown(results, summary);
   } else {
@@ -154,13 +155,13 @@ int SweepCommand(const SweepArguments& arguments, const files::Catalogue& catalo
   models::OpenedFiles opened;
   const loading::Blueprint blueprint(campaign.file, catalogue);
   for (const std::string& warning : Inspect(campaign, blueprint)) Tell("{}\n", warning);
-  std::vector<OutputFile> outputs{{"-o", folder}, {"-o", folder / "results.db"}};
+  std::vector<runs::OutputFile> outputs{{"-o", folder}, {"-o", folder / "results.db"}};
   for (const char* const end : {".jsonl", ".jsonl.part", ".timings.jsonl"}) {
     outputs.push_back({"-o", folder / (shard.Stem() + end)});
   }
-  std::vector<InputFile> inputs = InputsOf(opened.files(), "read by what is run");
+  std::vector<runs::InputFile> inputs = runs::InputsOf(opened.files(), "read by what is run");
   inputs.insert(inputs.begin(), {campaign.file, "what is run"});
-  CheckOutputs(outputs, inputs);
+  runs::CheckOutputs(outputs, inputs);
   sweep::ResultFile file(folder, campaign, shard);
   const std::int64_t before = std::ssize(file.results().rows);
   if (before > 0) {
@@ -205,7 +206,7 @@ int MergeCommand(const MergeArguments& arguments) {
   const Results results = sweep::MergeShards(arguments.folder);
   const fs::path database = arguments.database.empty() ? fs::path(arguments.folder) / "results.db"
                                                        : fs::path(arguments.database);
-  std::vector<InputFile> inputs;
+  std::vector<runs::InputFile> inputs;
   for (const auto& entry : fs::directory_iterator(arguments.folder)) {
     const std::string name = entry.path().filename().string();
     if (!name.starts_with("shard-") && !name.starts_with("results.jsonl") &&
@@ -214,7 +215,7 @@ int MergeCommand(const MergeArguments& arguments) {
     }
     inputs.push_back({entry.path(), "what is merged"});
   }
-  CheckOutputs({{"--jsonl", arguments.lines}, {"-o", database}}, inputs);
+  runs::CheckOutputs({{"--jsonl", arguments.lines}, {"-o", database}}, inputs);
   RequireDatabase(database);
   if (!arguments.lines.empty()) {
     sweep::WriteResults(arguments.lines, results.campaign, results.rows);

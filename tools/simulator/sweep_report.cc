@@ -6,16 +6,15 @@
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <string_view>
 #include <vector>
 
+#include "oca/diagrams/sweep/summary_json.h"
 #include "tools/simulator/terminal.h"
 
 namespace oca::tools {
 namespace {
 
-using nlohmann::ordered_json;
 using sweep::CombinationSummary;
 using sweep::Share;
 using sweep::Spread;
@@ -123,61 +122,7 @@ std::string FailureLines(const sweep::Summary& summary, bool colour) {
   return text;
 }
 
-ordered_json ToJson(const Share& share) {
-  if (share.of == 0) return {};
-  const auto [low, high] = share.interval();
-  return {{"count", share.count},
-          {"of", share.of},
-          {"share", static_cast<double>(share.count) / static_cast<double>(share.of)},
-          {"low", low},
-          {"high", high}};
-}
-
-ordered_json ToJson(const Spread& spread) {
-  if (spread.count == 0) return {};
-  return {{"count", spread.count},      {"median", spread.median},
-          {"low", spread.interval.low}, {"high", spread.interval.high},
-          {"worst", spread.worst},      {"worst_sample", spread.worst_sample}};
-}
-
-ordered_json ToJson(const CombinationSummary& one) {
-  ordered_json set = ordered_json::object();
-  for (const auto& [path, value] : one.settings) set[path] = value;
-  ordered_json steps;
-  if (one.steps.count() > 0) {
-    steps = {{"p50", one.steps.Quantile(0.5)},
-             {"p99", one.steps.Quantile(0.99)},
-             {"max", one.steps.max()}};
-  }
-  return {{"set", set},
-          {"runs", one.runs},
-          {"unfinished", one.unfinished},
-          {"clear", ToJson(one.clear)},
-          {"sampled_clear", ToJson(one.sampled_clear)},
-          {"arrived", ToJson(one.arrived)},
-          {"clear_and_arrived", ToJson(one.both)},
-          {"expectations_met", ToJson(one.met)},
-          {"min_distance", ToJson(one.min_distance)},
-          {"final_error", ToJson(one.final_error)},
-          {"delta_sign_changes_per_second", ToJson(one.reversals)},
-          {"total_variation_ratio", ToJson(one.path_ratio)},
-          {"time_to_goal", ToJson(one.time_to_goal)},
-          {"max_abs_delta", ToJson(one.max_delta)},
-          {"within_limits", ToJson(one.within_limits)},
-          {"limit_violations", ToJson(one.limit_violations)},
-          {"step_seconds", steps}};
-}
-
 }  // namespace
-
-std::string TitleOf(const sweep::Settings& settings) {
-  std::string title;
-  for (const auto& [path, value] : settings) {
-    const std::string name = path.substr(path.rfind('.') + 1);
-    title += fmt::format("{}{}={}", title.empty() ? "" : " ", name, value);
-  }
-  return title;
-}
 
 std::string SweepMarkdown(const sweep::Results& results, const sweep::Summary& summary) {
   // What no one asks of a comparison, or each run's expectations say of it already.
@@ -186,7 +131,7 @@ std::string SweepMarkdown(const sweep::Results& results, const sweep::Summary& s
   std::string header = "| |", rule = "|---|";
   std::vector<std::string> lines;
   for (const CombinationSummary& one : summary.combinations) {
-    const std::string title = TitleOf(one.settings);
+    const std::string title = sweep::TitleOf(one.settings);
     lines.push_back(fmt::format("| {} |", title.empty() ? results.campaign.name : title));
   }
   const std::vector<Measure> measures = Measures();
@@ -229,7 +174,7 @@ std::string SweepTable(const sweep::Results& results, const sweep::Summary& summ
     if (all.size() > 1) {
       text += fmt::format("  {:<24}", "");
       for (const CombinationSummary& one : columns)
-        text += fmt::format("{:<28}", TitleOf(one.settings));
+        text += fmt::format("{:<28}", sweep::TitleOf(one.settings));
       text.erase(text.find_last_not_of(' ') + 1);
       text += '\n';
     }
@@ -239,24 +184,6 @@ std::string SweepTable(const sweep::Results& results, const sweep::Summary& summ
   text += fmt::format("{} of {} runs not clear, not arrived, not as expected or not finished:\n",
                       summary.failures.size(), results.rows.size());
   return text + FailureLines(summary, colour);
-}
-
-std::string SweepJson(const sweep::Results& results, const sweep::Summary& summary) {
-  ordered_json json = ordered_json::parse(results.campaign.Header());
-  json["runs"] = results.rows.size();
-  json["combinations"] = ordered_json::array();
-  for (const CombinationSummary& one : summary.combinations) {
-    json["combinations"].push_back(ToJson(one));
-  }
-  json["failures"] = ordered_json::array();
-  for (const sweep::Failure& failure : summary.failures) {
-    json["failures"].push_back({{"sample", failure.sample},
-                                {"combination", failure.combination},
-                                {"seed", failure.seed},
-                                {"why", failure.why},
-                                {"command", failure.command}});
-  }
-  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace);
 }
 
 }  // namespace oca::tools

@@ -15,10 +15,4 @@ std::string SweepTable(const sweep::Results& results, const sweep::Summary& summ
 /// The measures as a table of Markdown, a line a combination.
 std::string SweepMarkdown(const sweep::Results& results, const sweep::Summary& summary);
 
-/// What tells a combination from the others, as `avoidance=report`.
-std::string TitleOf(const sweep::Settings& settings);
-
-/// The same as one JSON object, with all failures.
-std::string SweepJson(const sweep::Results& results, const sweep::Summary& summary);
-
 }  // namespace oca::tools

@@ -7,9 +7,9 @@
 #include <sstream>
 #include <thread>
 
-#include "oca/diagrams/live/continued_sink.h"
 #include "oca/diagrams/live/live_run.h"
 #include "oca/diagrams/record/mcap_reader.h"
+#include "oca/diagrams/record/recording.h"
 #include "tests/diagrams/live/ws_client.h"
 #include "tests/temporary_folder.h"
 
@@ -41,7 +41,7 @@ class LiveChangeTest : public testing::Test {
     options_.file = folder_.path() / "ball.yaml";
     std::ofstream(options_.file) << kBall;
     options_.interrupted = [this] { return stop_.load(); };
-    options_.sinks = {&sink_};
+    options_.outputs = {&recording_};
     run_ = std::thread([this] { result_ = RunLive(options_, server_); });
   }
   ~LiveChangeTest() override {
@@ -69,13 +69,13 @@ class LiveChangeTest : public testing::Test {
   record::McapFile Stop() {
     stop_ = true;
     run_.join();
-    sink_.End();
     return record::McapFile::Parse(bytes_.str(), "live");
   }
 
   test::TemporaryFolder folder_;
   std::ostringstream bytes_;
   record::McapSink sink_;
+  record::Recording recording_{{&sink_}};
   std::atomic<bool> stop_{false};
   LiveServer server_;
   LiveRunOptions options_;
@@ -97,7 +97,7 @@ TEST_F(LiveChangeTest, AMovedObstacleIsAnInputAndKeepsItsPlaceWhenAParameterMake
   WaitFor(client, R"([7.25])");
   WaitFor(client, R"("translation":{"x":0.5,"y":2,"z":3})");
   const record::McapFile file = Stop();
-  EXPECT_EQ(result_.failure, "");
+  EXPECT_FALSE(result_.run.failure);
   EXPECT_EQ(result_.changes, 2);
   // One record of it all.
   EXPECT_TRUE(file.complete()) << file.problem();
@@ -134,7 +134,7 @@ TEST_F(LiveChangeTest, SaysWhyAChangeIsRefusedAndShowsTheValueThatCounts) {
   client.Send(R"({"op": "setParameters", "parameters": [{"name": "tick", "value": true}]})");
   EXPECT_THAT(client.ReadOp("status")["message"].get<std::string>(), HasSubstr("change refused: "));
   Stop();
-  EXPECT_EQ(result_.failure, "");
+  EXPECT_FALSE(result_.run.failure);
   EXPECT_EQ(result_.changes, 0);
 }
 
@@ -164,32 +164,6 @@ TEST_F(LiveChangeTest, TellsWhoLooksOnWhatChangedOfTheDiagram) {
   json after = late.ReadOp("serverInfo");
   EXPECT_EQ(after["metadata"]["oca.parameters/slope"], "7.25");
   EXPECT_EQ(after["sessionId"], before["sessionId"]);  // the run goes on
-}
-
-/// Notes where messages go.
-class NotingSink final : public record::RecordSink {
- public:
-  void Begin(const std::vector<record::RecordChannel>& channels) override {
-    notes += "begin " + std::to_string(channels.size()) + ";";
-  }
-  void Write(int channel, std::uint64_t, std::string_view json) override {
-    notes += std::to_string(channel) + " " + std::string(json) + ";";
-  }
-  void End() override { notes += "end;"; }
-  std::string notes;
-};
-
-TEST(ContinuedSinkTest, GivesLaterRecordersTheChannelsOfTheFirst) {
-  NotingSink noting;
-  ContinuedSink sink(noting);
-  sink.Begin({{"/a", "", ""}, {"/b", "", ""}});
-  sink.Write(1, 0, "x");
-  sink.End();
-  sink.Begin({{"/new", "", ""}, {"/b", "", ""}, {"/a", "", ""}});
-  sink.Write(0, 0, "nowhere");
-  sink.Write(1, 0, "y");
-  sink.Write(2, 0, "z");
-  EXPECT_EQ(noting.notes, "begin 2;1 x;1 y;0 z;");
 }
 
 }  // namespace live_change_test

@@ -7,10 +7,7 @@
 #include <atomic>
 #include <fstream>
 
-#include "oca/diagrams/live/adopt_state.h"
-#include "oca/framework/dataflow/dynamic_port.h"
 #include "oca/framework/dataflow/error.h"
-#include "oca/framework/simulation/simulator.h"
 #include "tests/temporary_folder.h"
 
 namespace oca::live {
@@ -89,31 +86,6 @@ TEST_F(LiveRunTest, KnowsTheOverrideThatAChangeMeans) {
   EXPECT_THROW(OverrideOf(loaded, {"beta", 1.0}), ConfigError);
 }
 
-TEST_F(LiveRunTest, StatesGoOnInADiagramWithOtherParameters) {
-  const auto path = Write(kRamp);
-  const LoadedDiagram slow = LoadDiagram(path);
-  const LoadedDiagram fast = LoadDiagram(path, {{"parameters.slope", "4"}});
-  Simulator before(*slow.diagram, slow.simulator.integration);
-  before.AdvanceTo(1.0);
-  Simulator after(*fast.diagram, fast.simulator.integration);
-  after.context().SetTime(1.0);
-  AdoptStates(*slow.diagram, before.context(), *fast.diagram, after.context());
-  after.AdvanceTo(1.5);
-  // 2 * 1 s + 4 * 0.5 s
-  EXPECT_NEAR(EvalVector(fast.record[0].output, after.context())[0], 4.0, 1e-9);
-}
-
-TEST_F(LiveRunTest, RefusesToGoOnInADiagramWithOtherStates) {
-  const auto path = Write(kRamp);
-  const LoadedDiagram one = LoadDiagram(path);
-  const LoadedDiagram two = LoadDiagram(path, {{"systems.x.initial", "[0, 0]"},
-                                               {"systems.rate.value", "[1, 1]"},
-                                               {"systems.hold.initial", "[0, 0]"}});
-  const Simulator from(*one.diagram);
-  Simulator to(*two.diagram);
-  EXPECT_THROW(AdoptStates(*one.diagram, from.context(), *two.diagram, to.context()), ConfigError);
-}
-
 TEST_F(LiveRunTest, RunsInStepWithTheClockForAsLongAsItIsTold) {
   LiveServer server(AnyPort());
   LiveRunOptions options;
@@ -121,7 +93,7 @@ TEST_F(LiveRunTest, RunsInStepWithTheClockForAsLongAsItIsTold) {
   options.duration = 0.2;
   const auto start = std::chrono::steady_clock::now();
   const LiveRunResult result = RunLive(options, server);
-  EXPECT_EQ(result.duration, 0.2);
+  EXPECT_EQ(result.run.duration, 0.2);
   EXPECT_EQ(result.changes, 0);
   EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(190));
 }
@@ -132,7 +104,7 @@ TEST_F(LiveRunTest, EndsWhenItIsInterrupted) {
   options.file = Write(kRamp);
   int steps = 0;
   options.interrupted = [&steps] { return ++steps == 5; };
-  EXPECT_LT(RunLive(options, server).duration, 0.06);
+  EXPECT_LT(RunLive(options, server).run.duration, 0.06);
 }
 
 TEST_F(LiveRunTest, RefusesAFileThatCannotBeLoaded) {

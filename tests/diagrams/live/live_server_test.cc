@@ -165,8 +165,8 @@ TEST(LiveServerTest, SendsWhatAClientSubscribedToAndNothingElse) {
   Client client(server.port());
   client.Subscribe(2, 77);
   client.Settle();
-  server.Write(0, 1, R"({"not": "wanted"})");
-  server.Write(2, 0x0102030405060708, R"({"a1": 0.5})");
+  server.Write(0, {R"({"not": "wanted"})", 1});
+  server.Write(2, {R"({"a1": 0.5})", 0x0102030405060708});
   const std::string message = client.Read();
   // Opcode 1, subscription 77, then the time, least byte first.
   EXPECT_EQ(message.substr(0, 13),
@@ -177,8 +177,8 @@ TEST(LiveServerTest, SendsWhatAClientSubscribedToAndNothingElse) {
 TEST(LiveServerTest, ShowsTheRobotsToWhoComesLate) {
   LiveServer server(AnyPort());
   server.Begin(kChannels);
-  server.Write(1, 5, R"({"entities": []})");
-  server.Write(2, 6, R"({"a1": 0.5})");
+  server.Write(1, {R"({"entities": []})", 5});
+  server.Write(2, {R"({"a1": 0.5})", 6});
   Client client(server.port());
   client.Subscribe(2, 2);
   client.Subscribe(1, 1);
@@ -194,8 +194,8 @@ TEST(LiveServerTest, StopsWhenAClientUnsubscribes) {
   client.Subscribe(2, 2);
   client.Send(R"({"op": "unsubscribe", "subscriptionIds": [1]})");
   client.Settle();
-  server.Write(0, 1, "{}");
-  server.Write(2, 1, R"({"a1": 1})");
+  server.Write(0, {"{}", 1});
+  server.Write(2, {R"({"a1": 1})", 1});
   EXPECT_THAT(client.Read(), HasSubstr("a1"));
 }
 
@@ -311,7 +311,7 @@ TEST(LiveServerTest, OutlivesAHundredThatComeAndGo) {
   std::atomic<bool> done{false};
   std::thread writer([&] {
     for (std::uint64_t time = 0; !done; ++time) {
-      server.Write(static_cast<int>(time % 3), time, R"({"a1": 0.5})");
+      server.Write(static_cast<int>(time % 3), {R"({"a1": 0.5})", time});
       std::this_thread::sleep_for(100us);
     }
   });
@@ -340,13 +340,13 @@ TEST(LiveServerTest, NeverWaitsForAClientThatStopsReading) {
   std::chrono::steady_clock::duration longest{};
   for (int i = 0; i < 500; ++i) {  // 50 MB that nobody reads
     const auto start = std::chrono::steady_clock::now();
-    server.Write(0, 1, large);
+    server.Write(0, {large, 1});
     longest = std::max(longest, std::chrono::steady_clock::now() - start);
     std::this_thread::sleep_for(1ms);
   }
   EXPECT_LT(longest, 500ms);  // a write that waited for the sleeper would never end
   EXPECT_TRUE(Eventually([&] { return server.statistics().dropped > 300; }));
-  server.Write(2, 1, R"({"a1": 0.5})");
+  server.Write(2, {R"({"a1": 0.5})", 1});
   EXPECT_THAT(reader.Read(), HasSubstr("a1"));
   // Awake again, it is told what it missed.
   EXPECT_THAT(sleeper.ReadOp("status")["message"].get<std::string>(), HasSubstr("left out"));

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "oca/diagrams/files/load_models.h"
-#include "oca/diagrams/runs/run_series.h"
+#include "oca/diagrams/runs/run.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/function.h"
 #include "oca/models/error.h"
@@ -67,36 +67,6 @@ TEST(LoadModelsTest, RefusesWhatNoFileCouldSay) {
   EXPECT_THROW(LoadModels({{"arm", {.urdf = "missing.urdf"}}}), models::ModelError);
 }
 
-constexpr const char* kRamp = R"(
-name: ramp
-description: A ramp.
-simulator: {duration: 1}
-systems:
-  ramp: {type: RampSource, slope: [1, -2], unit: rad}
-)";
-
-TEST(RunSeriesTest, KeepsSignalsOfARunAsAMatrix) {
-  test::TemporaryFolder folder;
-  const auto loaded = loading::LoadDiagram(folder.Write("d.yaml", kRamp));
-  runs::RunSeries series(loaded, {"ramp.value"}, Period(1, 2));
-  EXPECT_THROW(series.log(), ConfigError);
-  for (int run = 0; run < 2; ++run) {  // the second takes the place of the first
-    runs::Run(loaded, {.observers = {&series}});
-    EXPECT_EQ(series.log().times(), Eigen::Vector3d(0.0, 0.5, 1.0));
-    EXPECT_EQ(series.log().Matrix(),
-              (Eigen::MatrixXd(3, 2) << 0.0, 0.0, 0.5, -1.0, 1.0, -2.0).finished());
-  }
-  EXPECT_THAT(series.log().names(), ElementsAre("ramp.value[0]", "ramp.value[1]"));
-  EXPECT_THAT(series.log().units(), ElementsAre("rad", "rad"));
-}
-
-TEST(RunSeriesTest, NamesTheOutputsIfThereIsNoneOfAName) {
-  test::TemporaryFolder folder;
-  const auto loaded = loading::LoadDiagram(folder.Write("d.yaml", kRamp));
-  EXPECT_THAT(Refusal([&] { runs::RunSeries(loaded, {"ramp.valu"}, Period(1, 2)); }),
-              HasSubstr("value"));
-}
-
 TEST(StructsTest, CanBeFilledMemberByMember) {
   const files::Override change{.value = "1"};
   const files::ExpectParams bound{.at_most = 1.0};
@@ -116,7 +86,7 @@ TEST(StructsTest, CanBeFilledMemberByMember) {
   EXPECT_EQ(set.obstacles[0].body, nullptr);
   EXPECT_EQ(pair.link.text(), "");
   EXPECT_TRUE(ports.inputs.empty());
-  EXPECT_TRUE(run.observers.empty());
+  EXPECT_TRUE(run.outputs.empty());
 }
 
 }  // namespace cpp_program_test

@@ -203,7 +203,7 @@ TEST(ForeignBlockTest, IsPlottedBesideOurs) {
 TEST(ForeignBlockTest, JudgesARunAndSaysWhatItDoesNotSee) {
   const auto loaded = Foreign();
   const auto result = runs::Run(loaded, {.duration = 0.1});
-  EXPECT_EQ(json::parse(result.metrics)["min_distance"], 0.25);
+  EXPECT_EQ(result.metrics->min_distance, 0.25);
   EXPECT_TRUE(runs::JudgesDistances(loaded));
   EXPECT_THAT(runs::BlindSpots(loaded), ElementsAre("glass (lidar is a lidar)"));
 }
@@ -219,8 +219,8 @@ TEST(ForeignBlockTest, IsRecordedAndDrawn) {
   RecorderOptions options;
   options.start_epoch = test::kEpoch;
   options.attach_files = false;
-  RunRecorder recorder(loaded, options, {&sink}, nullptr);
-  runs::Run(loaded, {.duration = 0.5, .observers = {&recorder}});
+  Recording recorder({&sink}, options);
+  runs::Run(loaded, {.duration = 0.5, .outputs = {&recorder}});
   const McapFile file = McapFile::Parse(stream.str(), "memory");
   EXPECT_EQ(file.MessagesOf("/governor/command").size(), 51u);  // its limit, at 100 Hz
   EXPECT_GT(file.MessagesOf("/camera/obstacles").size(), 25u);  // its plot, at the picture's 60 Hz

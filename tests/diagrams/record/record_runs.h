@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "oca/diagrams/record/mcap_reader.h"
-#include "oca/diagrams/record/run_recorder.h"
+#include "oca/diagrams/record/recording.h"
+#include "oca/diagrams/runs/run.h"
 
 namespace oca::record::test {
 
@@ -30,9 +31,9 @@ inline Recorded RunRecorded(const loading::LoadedDiagram& loaded, runs::RunOptio
   McapSink sink(stream, Compression::kZstd);
   RecorderOptions settings;
   settings.start_epoch = kEpoch;
-  RunRecorder recorder(loaded, settings, {&sink}, log);
-  options.observers.push_back(&recorder);
-  options.log = &recorder;
+  Recording recording({&sink}, settings);
+  options.outputs.push_back(&recording);
+  options.log = log;
   runs::RunResult result = runs::Run(loaded, options);
   return {std::move(result), McapFile::Parse(stream.str(), "memory")};
 }

@@ -13,6 +13,7 @@
 #include "oca/diagrams/record/run_metadata.h"
 #include "oca/diagrams/record/series.h"
 #include "oca/diagrams/runs/blind_spots.h"
+#include "oca/diagrams/runs/result_json.h"
 #include "tests/allocation_count.h"
 #include "tests/diagrams/record/record_runs.h"
 #include "tests/temporary_folder.h"
@@ -118,7 +119,7 @@ TEST(RunRecorderTest, DrawsALineForEachProximity) {
 TEST(RunRecorderTest, SaysOfALineWhetherItIsADistanceOrADepth) {
   const Recorded recorded =
       RunRecorded(Load("static_test.yaml", {{"parameters.avoid", "false"}}), {.duration = 6.0});
-  const json metrics = json::parse(recorded.result.metrics);
+  const json metrics = json::parse(runs::MetricsJson(recorded.result.metrics));
   ASSERT_LT(metrics["min_distance"].get<double>(), -0.12);
   double least = 1.0;
   for (const json& message : MessagesOf(recorded.file, "/scene/forces")) {
@@ -177,7 +178,7 @@ TEST(RunRecorderTest, AddsWhatPlotsNeedAndNobodyRecords) {
 TEST(RunRecorderTest, EndsWithTheMetricsOfTheRun) {
   const auto metrics = StaticTest().file.MessagesOf("/metrics");
   ASSERT_EQ(metrics.size(), 1u);
-  EXPECT_EQ(metrics[0]->data, StaticTest().result.metrics);
+  EXPECT_EQ(metrics[0]->data, runs::MetricsJson(StaticTest().result.metrics));
   EXPECT_EQ(StaticTest().file.FindMetadata("oca")->at("outcome"), "done");
   EXPECT_EQ(StaticTest().file.FindMetadata("oca")->at("dropped_messages"), "0");
 }
@@ -244,7 +245,11 @@ connections: [ramp.value -> gain.in]
 record: {signals: {"ramp.value": 100, "gain.out": 100}}
 )");
   const Recorded recorded = RunRecorded(loading::LoadDiagram(file));
-  EXPECT_THAT(recorded.result.failure, HasSubstr("gain"));
+  ASSERT_TRUE(recorded.result.failure);
+  EXPECT_EQ(recorded.result.failure->system, "gain");
+  EXPECT_EQ(recorded.result.failure->port, "out");
+  EXPECT_NEAR(recorded.result.failure->time, 1.8, 0.01);
+  EXPECT_THAT(recorded.result.failure->message, HasSubstr("gain"));
   EXPECT_TRUE(recorded.file.complete()) << recorded.file.problem();
   const auto values = ReadSeries(recorded.file, "gain.out");
   ASSERT_EQ(values.size(), 1u);
@@ -274,23 +279,23 @@ TEST(RunRecorderTest, KeepsTheLogAndPassesItOn) {
 }
 
 /// Counts what the thread of the run takes from the heap between two instants.
-class HeapWatch final : public runs::RunObserver {
+class HeapWatch final : public runs::RunOutput {
  public:
-  void Attach(Simulator& simulator, bool /*paced*/, double /*duration*/) override {
-    simulator.AddMonitor([this](const Context& context) {
+  void Begin(const runs::RunStart& run) override {
+    run.simulator.AddMonitor([this](const Context& context) {
       if (context.time() < 0.05) before = AllocationCount();
       after = AllocationCount();
       return true;
     });
   }
-  void Finish(const runs::RunResult& /*result*/) override {}
+  void End(const runs::RunResult& /*result*/) override {}
   std::int64_t before{0}, after{0};
 };
 
 TEST(RunRecorderTest, TakesNothingFromTheHeapInATick) {
   if (!kCountsAllocations) GTEST_SKIP() << "allocations are not counted here";
   HeapWatch watch;
-  RunRecorded(Load("static_test.yaml"), {.duration = 5.0, .observers = {&watch}});
+  RunRecorded(Load("static_test.yaml"), {.duration = 5.0, .outputs = {&watch}});
   EXPECT_EQ(watch.after - watch.before, 0);
 }
 

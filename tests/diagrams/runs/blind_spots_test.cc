@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "oca/diagrams/runs/result_json.h"
 #include "oca/diagrams/runs/run.h"
 #include "oca/framework/dataflow/error.h"
 #include "tests/temporary_folder.h"
@@ -62,7 +63,7 @@ class BlindSpotsTest : public testing::Test {
     return loading::LoadDiagram(folder.Write("d.yaml", text + expect), overrides);
   }
   static nlohmann::json MetricsOf(const RunResult& result) {
-    return nlohmann::json::parse(result.metrics);
+    return nlohmann::json::parse(MetricsJson(result.metrics));
   }
   test::TemporaryFolder folder;
 };

@@ -36,7 +36,7 @@ TEST_P(EveryDiagramTest, LoadsRunsToItsEndAndMeetsItsExpectations) {
   EXPECT_FALSE(loaded.expectations.empty());
   EXPECT_EQ(loaded.name, fs::path(GetParam()).stem().string());
   const RunResult result = runs::Run(loaded, {});
-  EXPECT_EQ(result.failure, "");
+  EXPECT_FALSE(result.failure) << result.failure->message;
   EXPECT_FALSE(result.interrupted);
   EXPECT_DOUBLE_EQ(result.duration, loaded.simulator.duration);
   for (const ExpectationResult& expectation : result.expectations) {

@@ -59,7 +59,7 @@ TEST_P(PromiseTest, IsMetWithoutAWarningOrTheReasonIsNamed) {
       loading::LoadDiagram(kFolder / (file + ".yaml"), {{"parameters.avoidance", method}});
   EXPECT_THAT(loaded.warnings, testing::IsEmpty());
   const RunResult result = runs::Run(loaded, {});
-  EXPECT_EQ(result.failure, "");
+  EXPECT_FALSE(result.failure) << result.failure->message;
   for (const ExpectationResult& expectation : result.expectations) {
     const bool met = std::none_of(std::begin(kUnmet), std::end(kUnmet), [&](const Unmet& unmet) {
       return unmet.method == method && unmet.file == file && unmet.expectation == expectation.name;

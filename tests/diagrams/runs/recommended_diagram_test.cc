@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "oca/diagrams/loading/loader.h"
+#include "oca/diagrams/runs/result_json.h"
 #include "oca/diagrams/runs/run.h"
 
 namespace oca::runs {
@@ -14,8 +15,8 @@ nlohmann::json MetricsOf(const std::string& name, std::vector<files::Override> o
   overrides.push_back({"parameters.avoidance", "recommended"});
   const RunResult result =
       Run(loading::LoadDiagram(OCA_SOURCE_DIR "/diagrams/" + name + ".yaml", overrides), {});
-  EXPECT_EQ(result.failure, "");
-  return nlohmann::json::parse(result.metrics);
+  EXPECT_FALSE(result.failure) << result.failure->message;
+  return nlohmann::json::parse(MetricsJson(result.metrics));
 }
 
 double Number(const nlohmann::json& metrics, const char* key) {

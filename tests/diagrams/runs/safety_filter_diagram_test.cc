@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "oca/diagrams/loading/loader.h"
+#include "oca/diagrams/runs/result_json.h"
 #include "oca/diagrams/runs/run.h"
 #include "oca/framework/dataflow/port_access.h"
 #include "oca/framework/simulation/simulator.h"
@@ -19,8 +20,8 @@ std::string FileOf(const std::string& name) { return OCA_SOURCE_DIR "/diagrams/"
 
 nlohmann::json MetricsOf(const std::string& name, const std::vector<files::Override>& overrides) {
   const RunResult result = Run(loading::LoadDiagram(FileOf(name), overrides), {});
-  EXPECT_EQ(result.failure, "");
-  return nlohmann::json::parse(result.metrics);
+  EXPECT_FALSE(result.failure) << result.failure->message;
+  return nlohmann::json::parse(MetricsJson(result.metrics));
 }
 
 const files::Override kFilter{"parameters.avoidance", "safety_filter"};

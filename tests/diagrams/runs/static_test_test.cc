@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "oca/diagrams/loading/loader.h"
+#include "oca/diagrams/runs/result_json.h"
 #include "oca/diagrams/runs/run.h"
 #include "tests/allocation_count.h"
 
@@ -20,8 +21,8 @@ struct Outcome {
                    const std::string& file = "static_test") {
     const RunResult result =
         Run(loading::LoadDiagram(OCA_SOURCE_DIR "/diagrams/" + file + ".yaml", overrides), {});
-    EXPECT_EQ(result.failure, "");
-    text = result.metrics;
+    EXPECT_FALSE(result.failure) << result.failure->message;
+    text = MetricsJson(result.metrics);
     metrics = nlohmann::json::parse(text);
   }
   double operator[](const char* metric) const { return metrics.at(metric).get<double>(); }

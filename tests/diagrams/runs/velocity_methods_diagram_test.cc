@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "oca/diagrams/loading/loader.h"
+#include "oca/diagrams/runs/result_json.h"
 #include "oca/diagrams/runs/run.h"
 
 namespace oca::runs {
@@ -13,8 +14,8 @@ namespace velocity_methods_diagram_test {
 nlohmann::json MetricsOf(const std::string& name, const std::vector<files::Override>& overrides) {
   const RunResult result =
       Run(loading::LoadDiagram(OCA_SOURCE_DIR "/diagrams/" + name + ".yaml", overrides), {});
-  EXPECT_EQ(result.failure, "");
-  return nlohmann::json::parse(result.metrics);
+  EXPECT_FALSE(result.failure) << result.failure->message;
+  return nlohmann::json::parse(MetricsJson(result.metrics));
 }
 
 double Metric(const nlohmann::json& metrics, const char* key) {

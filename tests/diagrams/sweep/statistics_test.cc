@@ -21,7 +21,7 @@ TEST(WilsonIntervalTest, GivesThePublishedValues) {
                    {0, 20, 0.0, 0.1611},
                    {1, 29, 0.0061, 0.1718}};
   for (const auto& [count, of, low, high] : published) {
-    const Interval interval = WilsonInterval(count, of);
+    const ConfidenceInterval interval = WilsonInterval(count, of);
     EXPECT_NEAR(interval.low, low, 5e-5) << count << " of " << of;
     EXPECT_NEAR(interval.high, high, 5e-5) << count << " of " << of;
   }

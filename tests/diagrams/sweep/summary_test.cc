@@ -3,44 +3,53 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+#include <vector>
+
 namespace oca::sweep {
 namespace summary_test {
 
-SampleRow Row(std::int64_t sample, const char* metrics) {
+SampleRow Row(std::int64_t sample,
+              const std::optional<systems::MotionMetricsValue>& metrics = std::nullopt) {
   SampleRow row;
   row.sample = sample;
   row.metrics = metrics;
   return row;
 }
 
+/// Metrics with a value each.
+systems::MotionMetricsValue With(const std::vector<systems::Metric>& values) {
+  systems::MotionMetricsValue metrics;
+  for (const systems::Metric& value : values) EXPECT_TRUE(SetMetric(metrics, value)) << value.name;
+  return metrics;
+}
+
 TEST(JudgeTest, BelievesTheCertificateBeforeTheSamples) {
   const Judgement sure =
-      Judge(Row(0, R"({"min_distance": 0.1, "certified_min_distance": 0.05})"), 0.01);
+      Judge(Row(0, With({{"min_distance", 0.1}, {"certified_min_distance", 0.05}})), 0.01);
   EXPECT_EQ(sure.clear, true);
   const Judgement unsure =
-      Judge(Row(0, R"({"min_distance": 0.1, "certified_min_distance": -0.05})"), 0.01);
+      Judge(Row(0, With({{"min_distance", 0.1}, {"certified_min_distance", -0.05}})), 0.01);
   EXPECT_EQ(unsure.clear, false);
   EXPECT_EQ(unsure.sampled_clear, true);
-  EXPECT_EQ(Judge(Row(0, R"({"min_distance": 0.1})"), 0.01).clear, true);
-  EXPECT_EQ(Judge(Row(0, R"({"min_distance": 0})"), 0.01).clear, false) << "touch is contact";
+  EXPECT_EQ(Judge(Row(0, With({{"min_distance", 0.1}})), 0.01).clear, true);
+  EXPECT_EQ(Judge(Row(0, With({{"min_distance", 0.0}})), 0.01).clear, false) << "touch is contact";
 }
 
 TEST(JudgeTest, TakesNothingWithinReachForClearAndNoMetricForUnknown) {
-  EXPECT_EQ(Judge(Row(0, R"({"min_distance": null, "contact_time": 0})"), 0.01).clear, true);
+  EXPECT_EQ(Judge(Row(0, With({{"contact_time", 0.0}})), 0.01).clear, true);
   // Nothing was there to compare: not clear, not unclear.
-  EXPECT_EQ(Judge(Row(0, R"({"min_distance": null, "contact_time": null})"), 0.01).clear,
-            std::nullopt);
-  EXPECT_FALSE(Judge(Row(0, R"({"min_distance": null})"), 0.01).clear.has_value());
-  EXPECT_FALSE(Judge(Row(0, "{}"), 0.01).both.has_value());
+  EXPECT_FALSE(Judge(Row(0, With({})), 0.01).clear.has_value());
+  EXPECT_FALSE(Judge(Row(0), 0.01).both.has_value());
 }
 
 TEST(JudgeTest, ArrivesWithinTheArrivalFromBothSides) {
-  EXPECT_EQ(Judge(Row(0, R"({"final_error": 0.01})"), 0.01).arrived, true);
-  EXPECT_EQ(Judge(Row(0, R"({"final_error": 0.0100001})"), 0.01).arrived, false);
+  EXPECT_EQ(Judge(Row(0, With({{"final_error", 0.01}})), 0.01).arrived, true);
+  EXPECT_EQ(Judge(Row(0, With({{"final_error", 0.0100001}})), 0.01).arrived, false);
 }
 
 TEST(JudgeTest, CountsARunThatDidNotFinishAsLost) {
-  SampleRow row = Row(0, R"({"min_distance": 1, "final_error": 0})");
+  SampleRow row = Row(0, With({{"min_distance", 1.0}, {"final_error", 0.0}}));
   row.outcome = Outcome::kTimedOut;
   const Judgement judgement = Judge(row, 0.01);
   EXPECT_EQ(judgement.clear, false);
@@ -52,10 +61,11 @@ TEST(SummarizeTest, CountsSharesAndFindsMedianAndWorst) {
   Results results;
   results.campaign.file = "f.yaml";
   results.campaign.samples = 4;
-  results.rows = {Row(0, R"({"min_distance": 0.3, "final_error": 0.0, "limit_violations": 0})"),
-                  Row(1, R"({"min_distance": -0.1, "final_error": 0.0, "limit_violations": 3})"),
-                  Row(2, R"({"min_distance": 0.1, "final_error": 0.5, "limit_violations": 0})"),
-                  Row(3, "{}")};
+  results.rows = {
+      Row(0, With({{"min_distance", 0.3}, {"final_error", 0.0}, {"limit_violations", 0.0}})),
+      Row(1, With({{"min_distance", -0.1}, {"final_error", 0.0}, {"limit_violations", 3.0}})),
+      Row(2, With({{"min_distance", 0.1}, {"final_error", 0.5}, {"limit_violations", 0.0}})),
+      Row(3)};
   results.rows[2].unmet = {"final_error <= 0.1 (got 0.5)"};
   results.rows[3].outcome = Outcome::kFailed;
   results.rows[3].error = "lost";

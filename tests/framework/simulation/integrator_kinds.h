@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "oca/framework/simulation/integrator.h"
+#include "oca/framework/simulation/integration_method.h"
 
 namespace oca {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "oca/framework/simulation/integrator.h"
+#include "oca/framework/simulation/integration_method.h"
 
 #include <gmock/gmock.h>
 

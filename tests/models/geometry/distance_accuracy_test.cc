@@ -9,7 +9,7 @@
 #include <iostream>
 #include <vector>
 
-#include "oca/models/geometry/point_forms.h"
+#include "oca/models/geometry/core_forms.h"
 #include "tests/models/geometry/random_bodies.h"
 
 namespace oca::geometry {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "oca/models/planning/elastic_band.h"
+#include "oca/models/planning/band_optimizer.h"
 
 namespace oca::planning::test {
 
@@ -20,13 +20,13 @@ BandScene MakeBandScene(std::uint64_t seed);
 BandCurve StraightBand();
 
 struct CeresAnswer {
-  double before{0.0};  ///< cost as ElasticBand counts it
+  double before{0.0};  ///< cost as BandOptimizer counts it
   double after{0.0};
   int steps{0};
 };
 
 /// Relaxes a band of such intervals, whose end is fixed, by Ceres' Levenberg-Marquardt method: the
-/// cost of ElasticBand, put together anew from its class comment as residuals with analytic rows,
+/// cost of BandOptimizer, put together anew from its class comment as residuals with analytic rows,
 /// at the middles of four equal parts of each interval. Ends after `most` steps or with one that
 /// gains less than the share `least_gain` of the cost.
 CeresAnswer RelaxByCeres(const BandScene& scene, const BandSettings& settings, int most,

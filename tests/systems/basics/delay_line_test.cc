@@ -35,13 +35,5 @@ TEST(DelayLineTest, AScalarInitialValueCountsForEveryComponent) {
   EXPECT_EQ(line.values().size(), 6U);
 }
 
-TEST(DelayLineTest, ShowsItsSamplesAsJson) {
-  DelayLine line;
-  line.Fill(2, 2, Eigen::VectorXd(Vector2d(1.0, 2.5)));
-  std::string json;
-  Signal<DelayLine>::WriteJson(line, json);
-  EXPECT_EQ(Eigen::VectorXd(ReadVectorJson(json)), Eigen::Vector4d(1.0, 2.5, 1.0, 2.5));
-}
-
 }  // namespace delay_line_test
 }  // namespace oca::systems

@@ -41,7 +41,7 @@ TEST(SplineGeneratorTest, InterpolatesAsItsKindSays) {
   quintic.AdvanceTo(0.75);
   EXPECT_DOUBLE_EQ(quintic->position.Eval(quintic.context())[0], 53.0 / 512.0);
   auto params = Swing(SplineKind::kC2);
-  params.ends = Trajectory::Ends::kNatural;
+  params.ends = SplineEnds::kNatural;
   SystemBench<SplineGenerator> natural(params);  // through two points: a line
   natural.AdvanceTo(0.75);
   EXPECT_DOUBLE_EQ(natural->position.Eval(natural.context())[0], 0.25);
@@ -77,9 +77,9 @@ TEST(SplineGeneratorTest, RefusesNumbersThatTheKindCannotMeet) {
   params = Swing(SplineKind::kC2);
   params.key_points[0].velocity = One(1.0);
   EXPECT_EQ(RefusalOf(params), "accepted");
-  params.ends = Trajectory::Ends::kNatural;
+  params.ends = SplineEnds::kNatural;
   EXPECT_THAT(RefusalOf(params), HasSubstr("key_points[0].velocity"));
-  params.ends = Trajectory::Ends::kClamped;
+  params.ends = SplineEnds::kClamped;
   params.key_points.push_back({.time = 2.0, .position = One(0.0)});
   params.key_points[1].velocity = One(1.0);
   EXPECT_THAT(RefusalOf(params), HasSubstr("key_points[1].velocity"));

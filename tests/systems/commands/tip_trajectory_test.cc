@@ -77,7 +77,7 @@ class Tip {
  private:
   ModelSet models_;
   std::shared_ptr<const robot::RobotModel> model_;
-  Trajectory trajectory_;
+  motion::Trajectory trajectory_;
 };
 
 TEST(TipTrajectoryTest, DrawsTheLineFromEndToEnd) {

@@ -129,15 +129,37 @@ TEST(JacobianMappingTest, IsZeroWithoutWrenchesAndForLinksThatCannotMove) {
   EXPECT_EQ(DeltaOf({}, links, WrenchSet{{On("lwr4_base_link", links)}}), Eigen::VectorXd::Zero(7));
 }
 
-TEST(JacobianMappingTest, TellsItsStatusWithTheSolution) {
-  SystemBench<JacobianMapping> bench(JacobianMapping::Params{}, TestModels("planar2"));
-  bench->links.Fix(bench.context(), LinksAt(*LoadTestModel("planar2"), Eigen::Vector2d::Zero()));
-  bench->wrenches.Fix(bench.context(), WrenchSet{});
-  std::string text;
-  Signal<MappingSolution>::WriteJson(bench->solution.Eval(bench.context()), text);
-  EXPECT_EQ(text, R"({"status":"ok","delta":[0,0]})");
-  EXPECT_EQ(Signal<MappingSolution>::ReadJson(text).delta, Eigen::Vector2d::Zero());
-  EXPECT_THROW(Signal<MappingSolution>::ReadJson(R"({"status":"good","delta":[0]})"), ConfigError);
+/// Three joints about z, the last of them `reach` m from the others.
+std::shared_ptr<const robot::RobotModel> LongArm(double reach) {
+  std::vector<robot::Link> links(4);
+  std::vector<robot::Joint> joints(3);
+  for (int i = 0; i < 4; ++i) links[i].name = models::Name("link_" + std::to_string(i));
+  for (int j = 0; j < 3; ++j) {
+    joints[j].type = robot::JointType::kRevolute;
+    joints[j].name = models::Name("joint_" + std::to_string(j));
+    joints[j].parent_link = j;
+    joints[j].child_link = j + 1;
+    joints[j].axis = Eigen::Vector3d::UnitZ();
+  }
+  joints[1].X_PJ.translation().x() = 0.1;
+  joints[2].X_PJ.translation().x() = reach;
+  return std::make_shared<const robot::RobotModel>(models::Name("long"), std::move(links),
+                                                   std::move(joints));
+}
+
+TEST(JacobianMappingTest, TellsWhetherJointsCouldBeToldApart) {
+  for (const double reach : {1.0, 3e5, 3e6, 1e9}) {
+    const auto arm = LongArm(reach);
+    ModelSet models;
+    models.Add("long", arm);
+    SystemBench<JacobianMapping> bench(JacobianMapping::Params{}, models);
+    const LinkPoses links = LinksAt(*arm, Eigen::Vector3d::Zero());
+    LinkWrench wrench = On("link_3", links);
+    wrench.torque.z() = 1.0;
+    bench->links.Fix(bench.context(), links);
+    bench->wrenches.Fix(bench.context(), WrenchSet{{wrench}});
+    EXPECT_EQ(bench->regularised.Eval(bench.context())[0], reach > 1e6 ? 1.0 : 0.0) << reach;
+  }
 }
 
 TEST(JacobianMappingTest, RefusesLinksThatAreMissingOrForeign) {

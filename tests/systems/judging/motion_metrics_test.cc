@@ -259,7 +259,6 @@ TEST(MotionMetricsTest, TellsHowLongTheArmWasStuckAndAtWhat) {
   std::string text;
   Signal<MotionMetricsValue>::WriteJson(value, text);
   EXPECT_NE(text.find(R"("stuck_pair":["hand","box"])"), std::string::npos) << text;
-  EXPECT_EQ(Signal<MotionMetricsValue>::ReadJson(text).stuck_obstacle, models::Name("box"));
 }
 
 TEST(MotionMetricsTest, IsNotStuckWhereItStandsAsRequestedOrForAShortTime) {
@@ -276,39 +275,6 @@ TEST(MotionMetricsTest, IsNotStuckWhereItStandsAsRequestedOrForAShortTime) {
   EXPECT_GT(Bench(alone).At(3.5).stuck_time.value(), 2.0);
 }
 
-TEST(MotionMetricsTest, CountsTheJointsBeyondALimitAtEachSample) {
-  auto plain = LoadTestModel("lwr4");
-  auto joints = plain->joints();
-  for (auto& joint : joints) joint.acceleration_limit = 2.0;
-  const robot::RobotModel model(plain->name(), plain->links(), joints);
-  // The first joint goes through the positions, one each 0.1 s.
-  const auto violations = [&](const std::vector<double>& positions) {
-    MotionTally tally;
-    double time = 0.0;
-    double count = -1.0;
-    for (const double position : positions) {
-      Eigen::VectorXd value = Eigen::VectorXd::Zero(7);
-      value[0] = position;
-      MotionSample sample{};
-      sample.time = time;
-      sample.position.emplace(value.data(), value.size());
-      sample.model = &model;
-      tally.Add(sample);
-      count = tally.At(sample).limit_violations.value();
-      time += 0.1;
-    }
-    return count;
-  };
-  const double v = model.velocity_limits()[0], upper = model.upper_limits()[0];
-  EXPECT_EQ(violations({0.0, 0.1 * v, 0.2 * v}), 0.0);
-  EXPECT_EQ(violations({0.0, 0.1001 * v, 0.2002 * v}), 2.0);
-  EXPECT_EQ(violations({upper, upper}), 0.0);
-  EXPECT_EQ(violations({upper + 1e-5, upper + 1e-5, upper}), 2.0);
-  EXPECT_EQ(violations({-upper - 1e-5}), 1.0);
-  EXPECT_EQ(violations({0.0, 0.0, 0.02}), 0.0);
-  EXPECT_EQ(violations({0.0, 0.0, 0.0201}), 1.0);
-}
-
 TEST(MotionMetricsTest, FindsTheFastestAndTheHardestTick) {
   // q = t^2 on joint 2: over the last tick 1.9 rad/s, and 2 rad/s^2 at each.
   Bench bench({.position = [](double t) { return Vector2d(0.0, -t * t); }});
@@ -319,18 +285,17 @@ TEST(MotionMetricsTest, FindsTheFastestAndTheHardestTick) {
   EXPECT_NEAR(value.max_joint_acceleration.value(), 2.0, 1e-11);
 }
 
-TEST(MotionMetricsTest, ReadsTheJsonItWrites) {
+TEST(MotionMetricsTest, WritesEveryMetricWithNullWhereThereIsNone) {
   Bench bench({.position = [](double t) { return Vector2d(t, 0.0); },
                .delta = [](double) { return Vector2d(0.0, 0.5); },
                .distance = [](double) { return -0.5; }});
-  std::string text, again;
+  std::string text;
   Signal<MotionMetricsValue>::WriteJson(bench.At(1.0), text);
-  const auto value = Signal<MotionMetricsValue>::ReadJson(text);
-  Signal<MotionMetricsValue>::WriteJson(value, again);
-  EXPECT_EQ(text, again);
-  EXPECT_EQ(value.max_abs_delta, 0.5);
-  EXPECT_EQ(value.min_distance_link, models::Name("hand"));
-  EXPECT_THROW(Signal<MotionMetricsValue>::ReadJson("{}"), ConfigError);
+  EXPECT_TRUE(text.starts_with(
+      R"({"min_distance":-0.5,"min_distance_pair":["hand","box"],"min_distance_time":0.0,)"))
+      << text;
+  EXPECT_NE(text.find(R"("max_abs_delta":0.5,"final_error":null,)"), std::string::npos) << text;
+  EXPECT_TRUE(text.ends_with(R"("stuck_time":null,"stuck_pair":null})")) << text;
 }
 
 TEST(MotionMetricsTest, RefusesSignalsOfUnequalUnits) {

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "oca/framework/dataflow/error.h"
-
 namespace oca::systems {
 namespace band_memory_test {
 
@@ -25,7 +23,7 @@ TEST(BandMemoryTest, ChangesToTheNextBandWhenItsTimeHasCome) {
   EXPECT_EQ(&memory.At(1.0), &memory.next);
 }
 
-TEST(BandMemoryTest, WritesAndReadsWhatThePlanCameTo) {
+TEST(BandMemoryTest, WritesWhatThePlanCameTo) {
   BandMemory memory;
   memory.plans = 3;
   memory.start = planning::BandStart::kDetour;
@@ -35,18 +33,8 @@ TEST(BandMemoryTest, WritesAndReadsWhatThePlanCameTo) {
   memory.obstacle = models::Name("box");
   std::string text;
   Signal<BandMemory>::WriteJson(memory, text);
-  EXPECT_NE(text.find(R"("start":"detour")"), std::string::npos) << text;
-  const BandMemory back = Signal<BandMemory>::ReadJson(text);
-  std::string again;
-  Signal<BandMemory>::WriteJson(back, again);
-  EXPECT_EQ(again, text);
-}
-
-TEST(BandMemoryTest, RefusesAStartThatThereIsNot) {
-  std::string text;
-  Signal<BandMemory>::WriteJson({}, text);
-  text.replace(text.find("request"), 7, "nothing");
-  EXPECT_THROW(Signal<BandMemory>::ReadJson(text), ConfigError);
+  EXPECT_EQ(text, R"({"plans":3,"start":"detour","clear":true,"stuck":true,"nearest":0.0625,)"
+                  R"("link":"wrist","obstacle":"box","time":0.0,"cost":0.0,"evaluations":0})");
 }
 
 TEST(BandMemoryTest, ABandThatIsNotFiniteIsNoSignal) {

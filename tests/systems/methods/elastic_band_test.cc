@@ -28,9 +28,9 @@ ModelSet Planar() {
 
 /// Joint 1 turns by 90 degrees between 0.5 and 4.5 s.
 RequestAhead Turn() {
-  return {std::make_shared<const Trajectory>(
-      Trajectory::CubicHermite({{.time = 0.5, .position = Vector3d(0, 0, 0)},
-                                {.time = 4.5, .position = Vector3d(1.57, 0, 0)}}))};
+  return {std::make_shared<const motion::Trajectory>(
+      motion::Trajectory::CubicHermite({{.time = 0.5, .position = Vector3d(0, 0, 0)},
+                                        {.time = 4.5, .position = Vector3d(1.57, 0, 0)}}))};
 }
 
 ObstacleSet BoxAt(const Vector3d& place, double size = 0.1) {
@@ -226,9 +226,10 @@ TEST(ElasticBandTest, NamesWhatBlocksAnArmThatDoesNotGetOn) {
 
 TEST(ElasticBandTest, RefusesARequestForAnotherArm) {
   Bench bench(BoxAt({0.6, 0.6, 0.0}));
-  bench->ahead.Fix(bench.context(),
-                   RequestAhead{std::make_shared<const Trajectory>(
-                       Trajectory::Linear({{.time = 0.0, .position = VectorXd::Zero(2)}}))});
+  bench->ahead.Fix(
+      bench.context(),
+      RequestAhead{std::make_shared<const motion::Trajectory>(
+          motion::Trajectory::Linear({{.time = 0.0, .position = VectorXd::Zero(2)}}))});
   EXPECT_ANY_THROW(bench.AdvanceTo(0.1));
 }
 

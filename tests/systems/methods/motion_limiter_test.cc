@@ -223,18 +223,12 @@ TEST_F(MotionLimiterTest, KeepsThemWithoutAccelerationLimits) {
   Harass(TestModels("lwr4"), 20000, 33);
 }
 
-TEST_F(MotionLimiterTest, WritesAndReadsItsClips) {
+TEST_F(MotionLimiterTest, WritesItsClips) {
   MotionClips clips;
   clips.clips.push_back({2, motion::MotionLimit::kJerk, motion::MotionLimit::kPosition, -0.5});
   std::string text;
   Signal<MotionClips>::WriteJson(clips, text);
   EXPECT_EQ(text, R"([{"joint":2,"limit":"jerk","yields":"position","amount":-0.5}])");
-  std::string again;
-  Signal<MotionClips>::WriteJson(Signal<MotionClips>::ReadJson(text), again);
-  EXPECT_EQ(again, text);
-  EXPECT_THROW(
-      Signal<MotionClips>::ReadJson(R"([{"joint":2,"limit":"taste","yields":"none","amount":0}])"),
-      ConfigError);
   clips.clips[0].amount = std::nan("");
   EXPECT_FALSE(Signal<MotionClips>::Check(clips, Look::kFinite).ok());
 }

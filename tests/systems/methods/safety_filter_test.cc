@@ -131,7 +131,12 @@ class Wired {
   const Diagram& diagram() const { return *diagram_; }
   Simulator& simulator() { return *simulator_; }
   Context& context() { return simulator_->context(); }
-  Eigen::VectorXd Answer() { return filter().solution.Eval(context()).velocity; }
+  /// The velocity of the next tick: the arm stands in (0, 0), so it leads to velocity * period.
+  Eigen::VectorXd Answer() {
+    simulator().AdvanceTo(context().time() + 0.75 * kDt);
+    filter().position.Fix(context(), Eigen::Vector2d::Zero());
+    return filter().delta.Eval(context()) / kDt;
+  }
 
  private:
   const SafetyFilter* filter_;

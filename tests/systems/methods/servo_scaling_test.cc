@@ -23,9 +23,10 @@ class Servo {
   explicit Servo(const ServoScaling::Params& params, const ProximitySet& set)
       : bench_(params, TestModels("planar2")) {
     const auto model = TestModels("planar2").Get("");
-    const KeyPoint start{0.0, Eigen::Vector2d(0, 0.3)};
-    const KeyPoint end{2.0, Eigen::Vector2d(2, 0.3)};
-    ahead_.trajectory = std::make_shared<const Trajectory>(Trajectory::Linear({start, end}));
+    const motion::KeyPoint start{0.0, Eigen::Vector2d(0, 0.3)};
+    const motion::KeyPoint end{2.0, Eigen::Vector2d(2, 0.3)};
+    ahead_.trajectory =
+        std::make_shared<const motion::Trajectory>(motion::Trajectory::Linear({start, end}));
     Context& context = bench_.context();
     bench_->links.Fix(context, PosesOf(*model, Eigen::Vector2d::Zero()));
     bench_->ahead.Fix(context, ahead_);
@@ -150,10 +151,10 @@ TEST(ServoScalingTest, RefusesWhatItCannotUse) {
   EXPECT_THROW(make([](auto& p) { p.slow_distance = 0.0; }), ConfigError);
   EXPECT_THROW(make([](auto& p) { p.own_slow_distance = std::nan(""); }), ConfigError);
   Servo servo(Hundred(), {});
-  const KeyPoint three{0.0, Eigen::Vector3d::Zero()};
-  servo.bench()->ahead.Fix(
-      servo.bench().context(),
-      RequestAhead{std::make_shared<const Trajectory>(Trajectory::Linear({three}))});
+  const motion::KeyPoint three{0.0, Eigen::Vector3d::Zero()};
+  servo.bench()->ahead.Fix(servo.bench().context(),
+                           RequestAhead{std::make_shared<const motion::Trajectory>(
+                               motion::Trajectory::Linear({three}))});
   EXPECT_THROW(servo.Delta(), SimulationError);
 }
 

@@ -42,8 +42,8 @@ TEST(TaskPriorityTest, CloseToContactTheElbowEvadesFirstByHand) {
   const Eigen::VectorXd u = method.Answer(Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(),
                                           {{Above(kElbow, 0.5, 0.1, 1.0)}});
   EXPECT_NEAR((u - Eigen::Vector2d(-1.8, 0.0)).norm(), 0.0, 1e-12);
-  EXPECT_EQ(method.solution().share, 1.0);
-  EXPECT_EQ(method.solution().rows, 1);
+  EXPECT_EQ(method.share(), 1.0);
+  EXPECT_EQ(method.rows(), 1);
 }
 
 TEST(TaskPriorityTest, HalfWayItIsTheMeanOfBoth) {

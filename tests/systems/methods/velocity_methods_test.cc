@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "oca/framework/dataflow/error.h"
+#include "oca/models/error.h"
 #include "tests/systems/method_scene.h"
 
 namespace oca::systems {
@@ -21,7 +22,7 @@ TEST(VelocityMethodsTest, ARowIsTheSlopeOfTheDistance) {
   const LinkPoses poses = PosesOf(*model, Eigen::Vector2d::Zero());
   const auto row = RowOf(*model, poses.poses, Above("planar2_link_2", 0.9, 0.1));
   EXPECT_NEAR((Eigen::VectorXd(row) - Eigen::Vector2d(-0.9, -0.4)).norm(), 0.0, 1e-15);
-  EXPECT_THROW(RowOf(*model, poses.poses, Above("nose", 0.9, 0.1)), ConfigError);
+  EXPECT_THROW(RowOf(*model, poses.poses, Above("nose", 0.9, 0.1)), models::ModelError);
 }
 
 TEST(VelocityMethodsTest, BetweenTwoLinksTheJointsThatCarryBothDoNotCount) {

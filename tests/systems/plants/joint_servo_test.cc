@@ -54,7 +54,7 @@ struct Chain {
 
 TEST(JointServoTest, DeadbeatReachesRequestPlusDeltaAtTheEndOfEachPeriod) {
   Chain chain;
-  const auto request = Trajectory::CubicHermite(
+  const auto request = motion::Trajectory::CubicHermite(
       {{.time = 0.0, .position = One(0.2)}, {.time = 1.0, .position = One(1.0)}});
   for (int k = 0; k < 120; ++k) {
     chain.simulator->AdvanceTo((k + 1) * 0.01);

@@ -113,16 +113,6 @@ TEST(ObstacleSceneTest, BoundsTheSpeedOfWhatIsFastest) {
   EXPECT_NEAR(scene.fastest(), 0.5, 1e-15);
 }
 
-TEST(NearObstaclesTest, ReadsTheJsonItWritesAndNothingElse) {
-  EXPECT_EQ(Signal<NearObstacles>::ReadJson("[[0,3],[],[2]]").of(0).size(), 2u);
-  std::string text;
-  Signal<NearObstacles>::WriteJson(Signal<NearObstacles>::ReadJson("[[0,3],[],[2]]"), text);
-  EXPECT_EQ(text, "[[0,3],[],[2]]");
-  for (const char* wrong : {"{}", "[0]", "[[-1]]", "[[0.5]]", "[[1e12]]", "[[null]]"}) {
-    EXPECT_THROW(Signal<NearObstacles>::ReadJson(wrong), ConfigError) << wrong;
-  }
-}
-
 /// The arm among strewn bodies, beside a plain look at every pair.
 class NearAnArmTest : public ::testing::Test {
  protected:

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <string>
 
-#include "oca/framework/dataflow/error.h"
-
 namespace oca::systems {
 namespace filter_activity_test {
 
@@ -17,23 +15,36 @@ const char* const kText =
     R"("multiplier":2.0,"slack":0.5},{"kind":"upper","joint":"elbow","limit":"acceleration",)"
     R"("multiplier":3.0}]})";
 
-TEST(FilterActivityTest, WritesWhatItReads) {
+FilterActivity Example() {
+  FilterActivity activity;
+  activity.status = qp::QpStatus::kIterationLimit;
+  activity.rows = 9;
+  activity.dropped = 1;
+  activity.yields = 2;
+  activity.slack = 0.5;
+  activity.margin = 0.01;
+  activity.kkt_residual = 0.25;
+  activity.gap = 0.125;
+  activity.Add({.kind = FilterBound::Kind::kDistance,
+                .link = models::Name("hand"),
+                .obstacle = models::Name("box"),
+                .multiplier = 2.0,
+                .slack = 0.5});
+  activity.Add({.kind = FilterBound::Kind::kUpper,
+                .link = models::Name("elbow"),
+                .limit = motion::MotionLimit::kAcceleration,
+                .multiplier = 3.0});
+  return activity;
+}
+
+TEST(FilterActivityTest, WritesStatusNumbersAndBounds) {
   std::string text;
-  Signal<FilterActivity>::WriteJson(Signal<FilterActivity>::ReadJson(kText), text);
+  Signal<FilterActivity>::WriteJson(Example(), text);
   EXPECT_EQ(text, kText);
 }
 
-TEST(FilterActivityTest, RefusesAStatusOrAKindThatThereIsNot) {
-  std::string text = kText;
-  text.replace(text.find("iteration_limit"), 15, "tired");
-  EXPECT_THROW(Signal<FilterActivity>::ReadJson(text), ConfigError);
-  text = kText;
-  text.replace(text.find("upper"), 5, "outer");
-  EXPECT_THROW(Signal<FilterActivity>::ReadJson(text), ConfigError);
-}
-
 TEST(FilterActivityTest, IsNotFiniteIfANumberOfItIsNot) {
-  FilterActivity activity = Signal<FilterActivity>::ReadJson(kText);
+  FilterActivity activity = Example();
   EXPECT_TRUE(Signal<FilterActivity>::Check(activity, Look::kFinite).ok());
   activity.bounds[1].multiplier = std::nan("");
   EXPECT_FALSE(Signal<FilterActivity>::Check(activity, Look::kFinite).ok());

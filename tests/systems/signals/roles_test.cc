@@ -65,8 +65,8 @@ TEST(RolesTest, EveryMethodSaysWhatShowsThatItLimits) {
   EXPECT_EQ(LimitOf(SafetyFilter({.period = period}, Arm())), "listed out activity.bounds");
   EXPECT_EQ(LimitOf(MotionLimiter({.period = period}, Arm())), "listed out clips.clips");
   EXPECT_EQ(LimitOf(ServoScaling({.period = period}, Arm())), "below out scale 1.00");
-  EXPECT_EQ(LimitOf(FlaccoDeLuca({}, Arm())), "above out solution.rows 0.00");
-  EXPECT_EQ(LimitOf(TaskPriority({}, Arm())), "above out solution.rows 0.00");
+  EXPECT_EQ(LimitOf(FlaccoDeLuca({}, Arm())), "above out rows 0.00");
+  EXPECT_EQ(LimitOf(TaskPriority({}, Arm())), "above out rows 0.00");
   EXPECT_EQ(LimitOf(ElasticBand({.period = period, .margin = 0.2}, Arm())),
             "below out plan.nearest 0.20");
 }

@@ -71,11 +71,11 @@ export class Plots {
       legend: { live: true },
       cursor: { y: false, drag: { x: false, y: false }, bind: { mousemove: this.onMove, mousedown: this.onDown } },
       series: [
-        { label: "t", value: (_, value) => (value === null ? "" : `${value.toFixed(2)} s`) },
+        { label: "t", value: (_, value: number | null | undefined) => (value == null ? "" : `${value.toFixed(2)} s`) },
         ...columns.names.map((name, i) => ({
           label: name.slice(prefix.length) || spec.title, stroke: kColours[i % kColours.length]!, width: 1.6,
           dash: kDashes[i % kDashes.length]!, points: { show: false },
-          value: (_: uPlot, value: number | null) => (value === null ? "–" : short(value)),
+          value: (u: uPlot, value: number | null | undefined) => (value == null ? "–" : short(value, reachOf(u))),
         })),
       ],
       hooks: { draw: [(u) => drawEnds(u, this.page), (u) => drawLimit(u, spec, this.page)] },
@@ -109,9 +109,16 @@ export class Plots {
   }
 }
 
-/** Four digits are enough for the eye. */
-export function short(value: number): string {
+/** The largest size on the y axis of a plot. */
+function reachOf(chart: uPlot): number {
+  const { min, max } = chart.scales.y ?? {};
+  return Math.max(Math.abs(min ?? 0), Math.abs(max ?? 0));
+}
+
+/** Four digits are enough for the eye; what is nothing beside `reach` is 0. */
+export function short(value: number, reach = 0): string {
   const size = Math.abs(value);
+  if (size < 1e-12 * reach) return "0";
   if (size !== 0 && (size >= 1e5 || size < 1e-3)) return value.toExponential(1);
   return value.toFixed(size >= 100 ? 1 : 3);
 }

@@ -122,8 +122,8 @@ export async function testLive({ test, browser, simulator, errorsOf }) {
   await test("the page follows a run, and its sliders reach it", async () => {
     const { page, problems } = await openPage(browser, url);
     const before = await page.evaluate(() => window.oca.recording.end);
-    await page.waitForFunction((time) => window.oca.recording.end > time + 0.5, before, { timeout: 30000 });
-    await page.waitForFunction(() => window.oca.view.positionOf("arm/lwr4_link_7"), null, { timeout: 30000 });
+    await page.waitForFunction((time) => window.oca.recording.end > time + 0.5, before);
+    await page.waitForFunction(() => window.oca.view.positionOf("arm/lwr4_link_7"));
     await page.evaluate(() => window.oca.selectNumber(3));
     const slider = page.locator(".knob", { hasText: "force_gain" }).locator("input[type=number]");
     const watcher = connect(url);
@@ -135,7 +135,7 @@ export async function testLive({ test, browser, simulator, errorsOf }) {
     await next("serverInfo");
     client.getParameters(["force_gain"], "g");
     assert.equal((await next("parameterValues", ({ id }) => id === "g")).parameters[0].value, 2.5);
-    await page.waitForFunction(() => window.oca.recording.about("force_gain", "oca.parameters") === "2.5", null, { timeout: 30000 });
+    await page.waitForFunction(() => window.oca.recording.about("force_gain", "oca.parameters") === "2.5");
     client.close();
     watcher.client.close();
     assert.deepEqual(errorsOf(problems), []);

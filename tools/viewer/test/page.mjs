@@ -4,6 +4,16 @@ import { chromium } from "playwright-core";
 
 export const kChromium = process.env.OCA_CHROMIUM ?? "/usr/bin/chromium";
 
+/** How long the page may take to do something. It says nothing of its speed: where every processor is taken, drawing without
+    a graphics card leaves it little time for anything else. */
+const kPatience = 180000;  // ms
+
+export async function newContext(browser, options = {}) {
+  const context = await browser.newContext(options);
+  context.setDefaultTimeout(kPatience);
+  return context;
+}
+
 export async function launch() {
   return chromium.launch({ executablePath: kChromium, headless: true,
                            args: ["--enable-unsafe-swiftshader", "--no-sandbox", "--disable-dev-shm-usage"] });
@@ -11,7 +21,7 @@ export async function launch() {
 
 /** Opens the page and waits until it shows something; `problems` gathers what the console says. */
 export async function openPage(browser, url, options = {}) {
-  const context = await browser.newContext({ viewport: { width: 1440, height: 860 }, deviceScaleFactor: 1, ...options });
+  const context = await newContext(browser, { viewport: { width: 1440, height: 860 }, deviceScaleFactor: 1, ...options });
   const page = await context.newPage();
   const problems = [];
   page.on("console", (message) => {
@@ -20,7 +30,7 @@ export async function openPage(browser, url, options = {}) {
   page.on("pageerror", (error) => problems.push(`error: ${error.message}`));
   const began = Date.now();
   await page.goto(url);
-  await page.waitForFunction(() => window.oca && window.oca.plots && window.oca.player.end > 0, null, { timeout: 60000 });
+  await page.waitForFunction(() => window.oca && window.oca.plots && window.oca.player.end > 0);
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   return { page, problems, milliseconds: Date.now() - began };
 }

@@ -163,7 +163,7 @@ await test("play moves time, keys step and switch", async () => {
   const { page } = await openPage(browser, sample);
   await page.keyboard.press("Home");
   await page.keyboard.press("Space");
-  await page.waitForFunction(() => window.oca.player.time > 0.2, null, { timeout: 20000 });
+  await page.waitForFunction(() => window.oca.player.time > 0.2);
   await page.keyboard.press("Space");
   assert.equal(await page.evaluate(() => window.oca.player.playing), false);
   await show(page, 2);

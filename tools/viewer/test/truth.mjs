@@ -9,7 +9,7 @@ import { pathToFileURL } from "node:url";
 import { promisify } from "node:util";
 import { WebSocketServer } from "ws";
 import { connect, kDiagram, serve } from "./live.mjs";
-import { openPage } from "./page.mjs";
+import { newContext, openPage } from "./page.mjs";
 
 const run = promisify(execFile);
 const quiet = ["--no-progress", "--log-level", "off"];
@@ -57,16 +57,16 @@ async function testRestart({ test, browser, simulator, viewer, errorsOf }) {
   await test("a page goes on by itself when its simulator is started again", async () => {
     const first = await serve(simulator, ["run", kDiagram, "--live=0", ...quiet]);
     const { page, problems } = await openPage(browser, first.url);
-    await page.waitForFunction(() => window.oca.recording.end > 2, null, { timeout: 30000 });
+    await page.waitForFunction(() => window.oca.recording.end > 2);
     await page.evaluate(() => (window.before = window.oca.recording));
     await first.stop();
     await page.waitForFunction(() => /is gone/.test(document.getElementById("message").textContent));
     const second = await serve(simulator, ["run", kDiagram, `--live=${new URL(first.url).port}`, "-s", "parameters.force_gain=2", ...quiet]);
-    await page.waitForFunction(() => window.oca.recording !== window.before && window.oca.recording.end > 0.3, null, { timeout: 30000 });
+    await page.waitForFunction(() => window.oca.recording !== window.before && window.oca.recording.end > 0.3);
     const end = await page.evaluate(() => window.oca.recording.end);
-    await page.waitForFunction((time) => window.oca.player.time > time + 0.3, end, { timeout: 30000 });
+    await page.waitForFunction((time) => window.oca.player.time > time + 0.3, end);
     assert.ok(await page.evaluate(() => document.getElementById("message").hidden));
-    await page.waitForFunction(() => window.oca.plots.data("Final joints")?.[0].length > 10, null, { timeout: 10000 });
+    await page.waitForFunction(() => window.oca.plots.data("Final joints")?.[0].length > 10);
     const gain = page.locator(".knob", { hasText: "force_gain" }).locator("input[type=number]");
     assert.equal(await gain.inputValue(), "2");
     // What the lost connection says on the console is no fault of the page.
@@ -76,16 +76,16 @@ async function testRestart({ test, browser, simulator, viewer, errorsOf }) {
   });
   await test("time that goes back is another run, whatever its session is called", async () => {
     const server = await fakeServer();
-    const context = await browser.newContext();
+    const context = await newContext(browser);
     const page = await context.newPage();
     await page.goto(`${pathToFileURL(viewer).href}?ws=${encodeURIComponent(server.url)}`);
     const send = setInterval(() => server.send((time += 0.05)), 20);
     let time = 100;
-    await page.waitForFunction(() => window.oca?.recording.end > 101, null, { timeout: 30000 });
+    await page.waitForFunction(() => window.oca?.recording.end > 101);
     time = 1;
-    await page.waitForFunction(() => window.oca.recording.end > 1.5 && window.oca.recording.end < 50, null, { timeout: 30000 });
+    await page.waitForFunction(() => window.oca.recording.end > 1.5 && window.oca.recording.end < 50);
     const end = await page.evaluate(() => window.oca.player.time);
-    await page.waitForFunction((before) => window.oca.player.time > before + 0.5 && window.oca.player.time < 50, end, { timeout: 30000 });
+    await page.waitForFunction((before) => window.oca.player.time > before + 0.5 && window.oca.player.time < 50, end);
     clearInterval(send);
     server.close();
     await context.close();
@@ -98,10 +98,10 @@ async function testRefusal({ test, browser, simulator, errorsOf }) {
     const { page, problems } = await openPage(browser, url);
     const field = await enter(page, "max_distance", -1);
     const notice = page.locator("#notices .error");
-    await notice.waitFor({ timeout: 30000 });
+    await notice.waitFor();
     assert.match(await notice.textContent(), /change refused: .*max_distance.*-1/s);
     await page.waitForFunction(() => [...document.querySelectorAll(".knob")].find((one) => one.textContent.includes("max_distance"))
-      .querySelector("input[type=number]").value === "0.3", null, { timeout: 10000 });
+      .querySelector("input[type=number]").value === "0.3");
     assert.ok(await field.evaluate((one) => one === document.activeElement));
     assert.match(errors(), /change refused/);
     await enter(page, "max_distance", 0.25);
@@ -127,8 +127,8 @@ async function testSaid({ test, browser, simulator }) {
     await page.evaluate(() => window.oca.selectNumber(1));
     const card = page.locator(".card", { hasText: "Nearest" }).locator("b");
     await card.waitFor();
-    await page.waitForFunction(() => window.oca.recording.end > 7, null, { timeout: 60000 });
-    await page.waitForFunction(() => /clear by 0\.2/.test(document.getElementById("badges").textContent), null, { timeout: 10000 });
+    await page.waitForFunction(() => window.oca.recording.end > 7);
+    await page.waitForFunction(() => /clear by 0\.2/.test(document.getElementById("badges").textContent));
     assert.ok(Number(await card.textContent()) < 0.3, await card.textContent());
     await page.evaluate(() => window.oca.selectNumber(4));
     const lines = () => page.locator(".log li").count();
@@ -166,12 +166,12 @@ async function testWarnings({ test, browser, simulator, folder }) {
     const { url, stop, errors } = await serve(simulator, ["run", kDiagram, "--live=0", ...quiet]);
     const { page } = await openPage(browser, url);
     const box = page.locator("#warnings");
-    await box.waitFor({ timeout: 10000 });
+    await box.waitFor();
     assert.match(await box.textContent(), /the loop must chatter/);
     await enter(page, "relaxation_time", 0.4);
-    await box.waitFor({ state: "hidden", timeout: 10000 });
+    await box.waitFor({ state: "hidden" });
     await enter(page, "relaxation_time", 0.01);
-    await box.waitFor({ timeout: 10000 });
+    await box.waitFor();
     assert.match(await box.textContent(), /the loop must chatter.*got 0\.01 s/);
     assert.equal(errors().match(/the loop must chatter/g).length, 2);
     await page.context().close();
@@ -249,7 +249,7 @@ export async function testAccess({ test, browser, simulator, folder, errorsOf })
       await stop();
       if (args[0] === "run") {  // started again, it has another token: the page cannot know it
         const again = await serve(simulator, ["run", kDiagram, `--live=${new URL(url).port}`, "--live-address", "0.0.0.0", ...quiet]);
-        await page.waitForFunction(() => /open the address that it printed/.test(document.getElementById("message").textContent), null, { timeout: 20000 });
+        await page.waitForFunction(() => /open the address that it printed/.test(document.getElementById("message").textContent));
         await again.stop();
       }
       await page.context().close();

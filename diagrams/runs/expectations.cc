@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/diagrams/runs/expectations.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "oca/diagrams/runs/run.h"
+#include "oca/framework/dataflow/dynamic_port.h"
+#include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/signal_shape.h"
+
+namespace oca::runs {
+namespace {
+
+using systems::MotionMetricsValue;
+
+std::optional<double> ValueOf(const files::Expectation& expectation, const Context& context) {
+  if (!expectation.judges.empty()) {
+    const auto metrics = WorstOf(JudgementsOf(expectation.judges, context));
+    return metrics ? NumberIn(*metrics, expectation.member) : std::nullopt;
+  }
+  if (expectation.member.empty()) {
+    return EvalVector(expectation.output, context)[static_cast<std::size_t>(expectation.index)];
+  }
+  const SignalType& type = TypeOfPort(expectation.output);
+  const void* const value = EvalObject(expectation.output, context);
+  if (&type == &TypeOf<MotionMetricsValue>()) {
+    return NumberIn(*static_cast<const MotionMetricsValue*>(value), expectation.member);
+  }
+  return NumberIn(type, value, expectation.member);
+}
+
+std::string BoundText(const files::ExpectParams& bound) {
+  std::vector<std::string> parts;
+  if (bound.at_least) parts.push_back(fmt::format(">= {:.6g}", *bound.at_least));
+  if (bound.at_most) parts.push_back(fmt::format("<= {:.6g}", *bound.at_most));
+  if (bound.equal) parts.push_back(fmt::format("= {} within {}", *bound.equal, bound.within));
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : " and ") + part;
+  return text;
+}
+
+bool Holds(const files::ExpectParams& bound, double value) {
+  return (!bound.at_least || value >= *bound.at_least) &&
+         (!bound.at_most || value <= *bound.at_most) &&
+         (!bound.equal || std::fabs(value - *bound.equal) <= bound.within);
+}
+
+/// Whether the file speaks of a contact by this bound: it asks for one, or says how deep or how
+/// long it may be.
+bool AllowsContact(const files::Expectation& expectation) {
+  const files::ExpectParams& bound = expectation.bound;
+  if (expectation.member == "min_distance") {
+    return (bound.at_least && *bound.at_least < 0.0) || (bound.at_most && *bound.at_most <= 0.0) ||
+           (bound.equal && *bound.equal - bound.within < 0.0);
+  }
+  if (expectation.member == "contact_time") {
+    return (bound.at_most && *bound.at_most > 0.0) || (bound.at_least && *bound.at_least > 0.0) ||
+           (bound.equal && *bound.equal + bound.within > 0.0);
+  }
+  return expectation.member == "first_contact_time";  // a number only if there was one
+}
+
+bool IsOfContact(const files::Expectation& expectation) {
+  return expectation.member == "min_distance" || expectation.member == "contact_time";
+}
+
+}  // namespace
+
+std::optional<MotionMetricsValue> WorstOf(const std::vector<Judgement>& judgements) {
+  std::optional<MotionMetricsValue> worst;
+  for (const Judgement& one : judgements) {
+    worst = worst ? systems::WorstOf(*worst, one.metrics) : one.metrics;
+  }
+  return worst;
+}
+
+ExpectationCheck::ExpectationCheck(const loading::LoadedDiagram& loaded, double duration)
+    : stops_{duration} {
+  for (const files::Expectation& expectation : loaded.expectations) {
+    const double at = expectation.bound.at.value_or(duration);
+    if (at > duration) {
+      throw ConfigError(fmt::format("expect.{}.at: got {} s; expected at most the duration {} s",
+                                    expectation.name, at, duration));
+    }
+    results_.push_back({expectation.name, std::nullopt, BoundText(expectation.bound), at, false});
+    if (at < duration) stops_.push_back(at);
+  }
+  std::sort(stops_.begin(), stops_.end());
+}
+
+void ExpectationCheck::CheckAt(double stop, const loading::LoadedDiagram& loaded,
+                               const Context& context) {
+  for (std::size_t i = 0; i < results_.size(); ++i) {
+    ExpectationResult& result = results_[i];
+    if (result.at != stop || result.value) continue;
+    result.value = ValueOf(loaded.expectations[i], context);
+    result.ok = result.value && Holds(loaded.expectations[i].bound, *result.value);
+  }
+}
+
+std::vector<ExpectationResult> ExpectationCheck::Finish(
+    const loading::LoadedDiagram& loaded, const std::optional<MotionMetricsValue>& metrics,
+    double end) {
+  std::vector<ExpectationResult> all = results_;
+  const auto least = metrics ? metrics->min_distance : std::nullopt;
+  if (!least || *least > 0.0) return all;
+  for (std::size_t i = 0; i < results_.size(); ++i) {
+    const files::Expectation& expectation = loaded.expectations[i];
+    const bool said = IsOfContact(expectation) && !results_[i].ok;
+    if (said || AllowsContact(expectation)) return all;
+  }
+  all.push_back({"min_distance", least, "> 0 (no contact, unless `expect` allows it)", end, false});
+  return all;
+}
+
+}  // namespace oca::runs
