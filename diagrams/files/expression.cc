@@ -97,6 +97,16 @@ std::string Text(const Value& value) {
   return value.Show();
 }
 
+bool HasExpression(const Value& value) {
+  return value.string() != nullptr && value.string()->find("${") != std::string::npos;
+}
+
+/// Whether what an expression may stand in came out as it was.
+bool Unchanged(const Value& value, const Value& resolved) {
+  if (value.list() != nullptr || value.map() != nullptr) return resolved.Shares(value);
+  return !HasExpression(value);
+}
+
 }  // namespace
 
 Expressions::Expressions(const Value& parameters, Problems& problems) : problems_(problems) {
@@ -170,22 +180,21 @@ std::vector<std::string> Expressions::Unused(const std::set<std::string>& known)
 }
 
 Value Expressions::Resolve(const Value& value) {
+  Value resolved = value;  // shared, until something in it is an expression
   if (const Value::List* const list = value.list()) {
-    Value::List result;
-    result.reserve(list->size());
-    for (const Value& item : *list) result.push_back(Resolve(item));
-    return Value(std::move(result), value.location());
-  }
-  if (const Value::Map* const map = value.map()) {
-    Value::Map result;
-    result.reserve(map->size());
-    for (const Value::Entry& entry : *map) {
-      result.push_back({entry.key, entry.location, Resolve(entry.value)});
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      Value item = Resolve((*list)[i]);
+      if (!Unchanged((*list)[i], item)) (*resolved.list())[i] = std::move(item);
     }
-    return Value(std::move(result), value.location());
+  } else if (const Value::Map* const map = value.map()) {
+    for (std::size_t i = 0; i < map->size(); ++i) {
+      Value item = Resolve((*map)[i].value);
+      if (!Unchanged((*map)[i].value, item)) (*resolved.map())[i].value = std::move(item);
+    }
+  } else if (HasExpression(value)) {
+    return ResolveText(*value.string(), value.location());
   }
-  if (value.string() == nullptr || value.string()->find("${") == std::string::npos) return value;
-  return ResolveText(*value.string(), value.location());
+  return resolved;
 }
 
 Value Expressions::ResolveText(const std::string& text, const Location& location) {
@@ -246,7 +255,7 @@ Value Expressions::Evaluate(const std::string& expression, const Location& locat
   if (expression == "true" || expression == "false") return Value(expression == "true", location);
   if (IsName(expression) && expression != "pi" && expression != "deg") {
     const Value* const value = Use(expression, location);
-    return value == nullptr ? Value({}, location) : Value(value->data(), location);
+    return value == nullptr ? Value({}, location) : value->At(location);
   }
   if (const auto compared = Comparison(expression, location, depth)) return *compared;
   return Arithmetic(expression, location);

@@ -28,6 +28,11 @@ Location LocationOf(const Value& map, const char* key) {
   return value == nullptr ? map.location() : value->location();
 }
 
+/// Of a list or map: whether something in it was made anew.
+bool IsOther(const Value& made, const Value& from) {
+  return (from.list() != nullptr || from.map() != nullptr) && !made.Shares(from);
+}
+
 }  // namespace
 
 ModelSection::ModelSection(const Value& root, Problems& problems) : problems_(problems) {
@@ -130,26 +135,33 @@ void ModelSection::Take(const Value::Entry& given, const Value* own, const Model
   }
 }
 
-Value ModelSection::ResolveFiles(Value value) {
-  ResolveFilesIn(value);
-  return value;
+Value ModelSection::ResolveFiles(const Value& value) {
+  Value resolved = value;  // shared, until a file is named in it
+  if (const Value::List* const list = value.list()) {
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      Value item = ResolveFiles((*list)[i]);
+      if (IsOther(item, (*list)[i])) (*resolved.list())[i] = std::move(item);
+    }
+  } else if (const Value::Map* const map = value.map()) {
+    for (std::size_t i = 0; i < map->size(); ++i) {
+      const Value::Entry& entry = (*map)[i];
+      if (entry.key == "file" && entry.value.string() != nullptr) {
+        (*resolved.map())[i].value = ResolveName(entry.value);
+        continue;
+      }
+      Value inner = ResolveFiles(entry.value);
+      if (IsOther(inner, entry.value)) (*resolved.map())[i].value = std::move(inner);
+    }
+  }
+  return resolved;
 }
 
-void ModelSection::ResolveFilesIn(Value& value) {
-  if (value.list() != nullptr) {
-    for (Value& item : *value.list()) ResolveFilesIn(item);
-  }
-  if (value.map() == nullptr) return;
-  for (Value::Entry& entry : *value.map()) {
-    ResolveFilesIn(entry.value);
-    const std::string* const name = entry.key == "file" ? entry.value.string() : nullptr;
-    if (name == nullptr) continue;
-    try {
-      const Location location = entry.value.location();
-      entry.value = Value(Resolve(*name, location).string(), location);
-    } catch (const ConfigError& error) {
-      problems_.Add(entry.value.location(), error.what());
-    }
+Value ModelSection::ResolveName(const Value& name) {
+  try {
+    return Value(Resolve(*name.string(), name.location()).string(), name.location());
+  } catch (const ConfigError& error) {
+    problems_.Add(name.location(), error.what());
+    return name;
   }
 }
 

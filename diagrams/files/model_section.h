@@ -37,7 +37,7 @@ class ModelSection {
   const std::vector<std::string>& warnings() const { return warnings_; }
   /// `value` with the texts of all keys named `file` made paths from where the program runs; they
   /// are written relative to the file they stand in, or as package://NAME/PATH.
-  Value ResolveFiles(Value value);
+  Value ResolveFiles(const Value& value);
 
  private:
   /// An entry of `models`, its files being paths.
@@ -47,7 +47,7 @@ class ModelSection {
     PackageMap packages;
   };
 
-  void ResolveFilesIn(Value& value);
+  Value ResolveName(const Value& name);
   void ReadPackages(const Value& root);
   void ReadModel(const Value::Entry& entry, const std::string& full_name);
   void Take(const Value::Entry& given, const Value* own, const ModelSection& outer);

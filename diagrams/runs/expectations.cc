@@ -19,7 +19,7 @@ using systems::MotionMetricsValue;
 std::optional<double> ValueOf(const files::Expectation& expectation, const Context& context) {
   if (!expectation.judges.empty()) {
     const auto metrics = WorstOf(JudgementsOf(expectation.judges, context));
-    return metrics ? NumberIn(*metrics, expectation.member) : std::nullopt;
+    return metrics ? systems::NumberIn(*metrics, expectation.member) : std::nullopt;
   }
   if (expectation.member.empty()) {
     return EvalVector(expectation.output, context)[static_cast<std::size_t>(expectation.index)];
@@ -27,7 +27,7 @@ std::optional<double> ValueOf(const files::Expectation& expectation, const Conte
   const SignalType& type = TypeOfPort(expectation.output);
   const void* const value = EvalObject(expectation.output, context);
   if (&type == &TypeOf<MotionMetricsValue>()) {
-    return NumberIn(*static_cast<const MotionMetricsValue*>(value), expectation.member);
+    return systems::NumberIn(*static_cast<const MotionMetricsValue*>(value), expectation.member);
   }
   return NumberIn(type, value, expectation.member);
 }

@@ -69,7 +69,7 @@ ordered_json TreeOf(const IntegratorStatistics& integrator) {
 ordered_json MetricsTree(const std::optional<MotionMetricsValue>& metrics) {
   ordered_json tree = ordered_json::object();
   if (!metrics) return tree;
-  for (const Metric& metric : MetricsIn(*metrics)) {
+  for (const Metric& metric : systems::MetricsIn(*metrics)) {
     tree[std::string(metric.name)] = TreeOf(metric.value);
   }
   return tree;
@@ -79,7 +79,7 @@ std::optional<MotionMetricsValue> ReadMetrics(const ordered_json& tree) {
   MotionMetricsValue metrics;
   for (const auto& [key, item] : tree.get_ref<const ordered_json::object_t&>()) {
     const auto value = ValueOf(item);
-    if (!value || !SetMetric(metrics, {key, *value})) return std::nullopt;
+    if (!value || !systems::SetMetric(metrics, {key, *value})) return std::nullopt;
   }
   if (tree.empty()) return std::nullopt;
   return metrics;

@@ -19,7 +19,7 @@ namespace {
 constexpr double kTimeStep = 0.01;  // s, at which the requested motion is looked at
 
 bool Same(const Value& a, const Value& b) {
-  if (a.data().index() != b.data().index()) return false;
+  if (a.kind() != b.kind()) return false;
   if (a.list() != nullptr) {
     return std::equal(a.list()->begin(), a.list()->end(), b.list()->begin(), b.list()->end(), Same);
   }

@@ -123,7 +123,7 @@ void AddCampaign(const Database& database, const Campaign& campaign) {
 }
 
 void AddMetrics(Insertion& rows, const SampleRow& row) {
-  for (const systems::Metric& metric : MetricsIn(*row.metrics)) {
+  for (const systems::Metric& metric : systems::MetricsIn(*row.metrics)) {
     const std::string name(metric.name);
     if (const auto number = metric.number()) rows.Add(row.sample, row.combination, name, *number);
     if (const auto* const pair = std::get_if<std::array<models::Name, 2>>(&metric.value)) {

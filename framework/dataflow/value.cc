@@ -5,6 +5,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <atomic>
+#include <type_traits>
 #include <utility>
 
 #include "oca/framework/dataflow/error.h"
@@ -16,14 +18,68 @@ std::string Location::ToString() const {
   return line > 0 ? fmt::format("{}:{}:{}", name, line, column) : name;
 }
 
+namespace {
+
+/// For one owner alone: a copy if there are others.
+template <class T>
+T* Own(std::shared_ptr<T>& held) {
+  if (held.use_count() > 1) held = std::make_shared<T>(*held);
+  // What others read of it happened before they let go of it.
+  std::atomic_thread_fence(std::memory_order_acquire);
+  return held.get();
+}
+
+}  // namespace
+
+Value::Held Value::Hold(Data data) {
+  return std::visit(
+      [](auto&& one) -> Held {
+        using T = std::decay_t<decltype(one)>;
+        if constexpr (std::is_same_v<T, List> || std::is_same_v<T, Map>) {
+          return std::make_shared<T>(std::move(one));
+        } else {
+          return std::move(one);
+        }
+      },
+      std::move(data));
+}
+
 Value::Value() = default;
 Value::Value(Data data, Location location)
-    : data_(std::move(data)), location_(std::move(location)) {}
+    : data_(Hold(std::move(data))), location_(std::move(location)) {}
 Value::Value(const Value& other) = default;
 Value::Value(Value&& other) noexcept = default;
 Value& Value::operator=(const Value& other) = default;
 Value& Value::operator=(Value&& other) noexcept = default;
 Value::~Value() = default;
+
+const Value::List* Value::list() const {
+  const auto* const held = std::get_if<std::shared_ptr<List>>(&data_);
+  return held == nullptr ? nullptr : held->get();
+}
+const Value::Map* Value::map() const {
+  const auto* const held = std::get_if<std::shared_ptr<Map>>(&data_);
+  return held == nullptr ? nullptr : held->get();
+}
+Value::List* Value::list() {
+  auto* const held = std::get_if<std::shared_ptr<List>>(&data_);
+  return held == nullptr ? nullptr : Own(*held);
+}
+Value::Map* Value::map() {
+  auto* const held = std::get_if<std::shared_ptr<Map>>(&data_);
+  return held == nullptr ? nullptr : Own(*held);
+}
+
+Value Value::At(Location location) const {
+  Value moved = *this;
+  moved.location_ = std::move(location);
+  return moved;
+}
+
+bool Value::Shares(const Value& other) const {
+  return kind() == other.kind() && ((list() != nullptr && list() == other.list()) ||
+                                    (map() != nullptr && map() == other.map()));
+}
 
 bool Value::number(double& out) const {
   if (const auto* whole = std::get_if<std::int64_t>(&data_)) {
@@ -55,8 +111,8 @@ std::string Value::Show() const {
       return value.size() > kLongest ? fmt::format("'{}...'", value.substr(0, kLongest))
                                      : fmt::format("'{}'", value);
     }
-    std::string operator()(const List&) const { return "a list"; }
-    std::string operator()(const Map&) const { return "a map"; }
+    std::string operator()(const std::shared_ptr<List>&) const { return "a list"; }
+    std::string operator()(const std::shared_ptr<Map>&) const { return "a map"; }
   };
   return std::visit(Visitor(), data_);
 }

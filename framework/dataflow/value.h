@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -19,7 +20,8 @@ struct Location {
   std::string ToString() const;
 };
 
-/// A tree of parameters as read from YAML or JSON, every node knowing where it stands.
+/// A tree of parameters as read from YAML or JSON, every node knowing where it stands. Copies share
+/// what they hold until one of them changes it, so that copying a tree costs nothing.
 class Value {
  public:
   struct Entry;
@@ -36,18 +38,23 @@ class Value {
   Value& operator=(Value&& other) noexcept;
   ~Value();
 
-  const Data& data() const { return data_; }
-  Data& data() { return data_; }
   const Location& location() const { return location_; }
+  /// The same, standing elsewhere.
+  Value At(Location location) const;
+  /// Which alternative of Data it holds.
+  std::size_t kind() const { return data_.index(); }
 
   bool null() const { return std::holds_alternative<std::monostate>(data_); }
   const bool* boolean() const { return std::get_if<bool>(&data_); }
   const std::int64_t* integer() const { return std::get_if<std::int64_t>(&data_); }
   const std::string* string() const { return std::get_if<std::string>(&data_); }
-  const List* list() const { return std::get_if<List>(&data_); }
-  const Map* map() const { return std::get_if<Map>(&data_); }
-  Map* map() { return std::get_if<Map>(&data_); }
-  List* list() { return std::get_if<List>(&data_); }
+  const List* list() const;
+  const Map* map() const;
+  /// To be changed; those that point into a copy of this value then point elsewhere.
+  List* list();
+  Map* map();
+  /// Whether both hold one list or map, not only equal ones.
+  bool Shares(const Value& other) const;
   /// The number, integers included; returns false if there is none.
   bool number(double& out) const;
   /// The entry of a map; nullptr if this is no map or has no such key.
@@ -56,7 +63,11 @@ class Value {
   std::string Show() const;
 
  private:
-  Data data_;
+  using Held = std::variant<std::monostate, bool, std::int64_t, double, std::string,
+                            std::shared_ptr<List>, std::shared_ptr<Map>>;
+  static Held Hold(Data data);
+
+  Held data_;
   Location location_;
 };
 

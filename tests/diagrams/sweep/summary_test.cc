@@ -20,7 +20,8 @@ SampleRow Row(std::int64_t sample,
 /// Metrics with a value each.
 systems::MotionMetricsValue With(const std::vector<systems::Metric>& values) {
   systems::MotionMetricsValue metrics;
-  for (const systems::Metric& value : values) EXPECT_TRUE(SetMetric(metrics, value)) << value.name;
+  for (const systems::Metric& value : values)
+    EXPECT_TRUE(systems::SetMetric(metrics, value)) << value.name;
   return metrics;
 }
 
