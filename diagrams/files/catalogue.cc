@@ -7,6 +7,7 @@
 #include <cctype>
 #include <exception>
 
+#include "oca/diagrams/files/diagram_file.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/nearest.h"
 
@@ -86,6 +87,10 @@ Catalogue& Catalogue::AddRow(CatalogueRow row) {
                     row.type));
   }
   CheckKeys(row);
+  if (row.type == kDiagramType) {
+    throw ConfigError(fmt::format(
+        "catalogue: type; got '{}', which is a diagram file; expected another", row.type));
+  }
   const auto place = std::lower_bound(rows_.begin(), rows_.end(), row.type, Before);
   if (place != rows_.end() && (*place)->type == row.type) {
     throw ConfigError(
@@ -100,6 +105,7 @@ const Catalogue::Row& Catalogue::Find(const std::string& type) const {
   if (place != rows_.end() && (*place)->type == type) return *place;
   std::vector<std::string> types;
   for (const Row& row : rows_) types.push_back(row->type);
+  types.emplace_back(kDiagramType);
   throw ConfigError(fmt::format("no system type '{}'{} (`simulator list` shows all)", type,
                                 DidYouMean(type, types)));
 }

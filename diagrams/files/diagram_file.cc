@@ -48,11 +48,24 @@ const std::vector<Section>& Sections() {
       {"packages", "folders that package://NAME/ stands for"},
       {"models", "robots and frames, by name"},
       {"systems", "blocks, by name: type and parameters"},
-      {"connections", "list of `system.output -> system.input`"},
+      {"connections",
+       "list of `system.output -> system.input`; `inputs.NAME` and `outputs.NAME` are ports of the "
+       "file itself, `<x>` stands for any name"},
       {"record", "signals to keep, with their rates in Hz"},
       {"expect", "bounds on metrics and signals that the run must keep"},
   };
   return sections;
+}
+
+const std::vector<Section>& DiagramKeys() {
+  static const std::vector<Section> keys = {
+      {"file", "the diagram file, relative to this one, or package://NAME/PATH; required"},
+      {"parameters",
+       "values for its parameters, in place of its own: a map, or a list of maps of which the later "
+       "ones win"},
+      {"models", "models of this file that stand for its own, by their names there"},
+  };
+  return keys;
 }
 
 }  // namespace oca::files

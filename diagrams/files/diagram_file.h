@@ -14,6 +14,9 @@
 
 namespace oca::files {
 
+/// The type of a system that is a diagram file itself, which this one uses.
+inline constexpr const char* kDiagramType = "Diagram";
+
 /// An entry of `attached` of a model: a tool or a grasped object.
 struct AttachedParams {
   std::string id{};
@@ -37,11 +40,16 @@ struct ModelParams {
   static void Describe(Fields<ModelParams>& fields);
 };
 
-/// Keys of a diagram file with their meaning; their order is that of the schema.
+/// A key with its meaning.
 struct Section {
   const char* key;
   const char* meaning;
 };
+/// The keys of a diagram file; their order is that of the schema.
 const std::vector<Section>& Sections();
+
+/// What a system of type kDiagramType is, and its keys beside `type`.
+inline constexpr const char* kDiagramSummary = "is a diagram file that this one uses";
+const std::vector<Section>& DiagramKeys();
 
 }  // namespace oca::files

@@ -80,6 +80,14 @@ Texts TextsOf(const std::vector<Override>& overrides) {
   return texts;
 }
 
+/// Texts among the parameters of a file or that it is given, behind those that win over them.
+void AddTexts(const Value* parameters, Texts& texts) {
+  if (parameters == nullptr || parameters->map() == nullptr) return;
+  for (const Value::Entry& entry : *parameters->map()) {
+    if (entry.value.string() != nullptr) texts.emplace_back(entry.key, *entry.value.string());
+  }
+}
+
 class Includer {
  public:
   Includer(Texts texts, Problems& problems) : problems_(problems), texts_(std::move(texts)) {}
@@ -161,15 +169,6 @@ class Includer {
     }
   }
 
-  /// Texts among the parameters of a file, behind those that win over them.
-  void AddTexts(const Value& file) {
-    const Value* const parameters = file.Find("parameters");
-    if (parameters == nullptr || parameters->map() == nullptr) return;
-    for (const Value::Entry& entry : *parameters->map()) {
-      if (entry.value.string() != nullptr) texts_.emplace_back(entry.key, *entry.value.string());
-    }
-  }
-
   /// The file name with each `${name}` replaced by that parameter; empty, with a problem, if it is
   /// no text. Includes come before arithmetic, so nothing else may stand in the braces.
   std::string FileName(const std::string& text, const Location& location) {
@@ -203,7 +202,7 @@ class Includer {
 
   Value Expand(Value value, const fs::path& folder) {
     if (value.map() == nullptr) return value;
-    AddTexts(value);
+    AddTexts(value.Find("parameters"), texts_);
     Value::Map own;
     Value base(Value::Map{}, value.location());
     for (Value::Entry& entry : *value.map()) {
@@ -255,8 +254,9 @@ class Includer {
 }  // namespace
 
 Value LoadFiles(const fs::path& file, const std::vector<Override>& overrides, Problems& problems,
-                DocumentSources* sources) {
-  const Texts texts = TextsOf(overrides);
+                DocumentSources* sources, const Value* parameters) {
+  Texts texts = TextsOf(overrides);
+  AddTexts(parameters, texts);
   std::string form = "with includes";
   for (const auto& [name, text] : texts) form += '\0' + name + '\0' + text;
   const auto read = models::MakeOnce<ReadDocument>(file, form, [&] {

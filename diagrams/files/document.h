@@ -31,8 +31,10 @@ Value LoadDocument(const std::filesystem::path& file, const std::vector<Override
                    Problems& problems, DocumentSources* sources = nullptr);
 
 /// The files merged, of which overrides only choose: the first half of it, before ApplyOverrides.
-/// While a models::FileCache is in use, each file is read once.
+/// `parameters`, if given, is a map of values that another file gives to this one, in place of its
+/// own. While a models::FileCache is in use, each file is read once.
 Value LoadFiles(const std::filesystem::path& file, const std::vector<Override>& overrides,
-                Problems& problems, DocumentSources* sources = nullptr);
+                Problems& problems, DocumentSources* sources = nullptr,
+                const Value* parameters = nullptr);
 
 }  // namespace oca::files

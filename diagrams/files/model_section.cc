@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -36,7 +37,28 @@ bool IsOther(const Value& made, const Value& from) {
 
 ModelSection::ModelSection(const Value& root, Problems& problems) : problems_(problems) {
   ReadPackages(root);
-  for (const Value::Entry& entry : SectionOf(root, "models", problems_)) ReadModel(entry);
+  for (const Value::Entry& entry : SectionOf(root, "models", problems_)) {
+    ReadModel(entry, entry.key);
+  }
+}
+
+ModelSection::ModelSection(const Value& root, const Given& given, Problems& problems)
+    : problems_(problems), packages_(given.outer.packages_) {
+  ReadPackages(root);
+  const Value::Map& own = SectionOf(root, "models", problems_);
+  for (const Value::Entry& entry : own) {
+    if (given.models != nullptr && given.models->Find(entry.key) != nullptr) continue;
+    ReadModel(entry, given.path + "." + entry.key);
+  }
+  if (given.models != nullptr) {
+    for (const Value::Entry& entry : *given.models->map()) {
+      const auto same = std::find_if(own.begin(), own.end(), [&](const Value::Entry& other) {
+        return other.key == entry.key;
+      });
+      Take(entry, same == own.end() ? nullptr : &same->value, given.outer);
+    }
+  }
+  models_.AddOuter(given.outer.models_);
 }
 
 void ModelSection::ReadPackages(const Value& root) {
@@ -56,7 +78,7 @@ fs::path ModelSection::Resolve(const std::string& name, const Location& location
   return name.empty() ? fs::path() : ResolvePath(name, FolderOf(location), packages_);
 }
 
-void ModelSection::ReadModel(const Value::Entry& entry) {
+void ModelSection::ReadModel(const Value::Entry& entry, const std::string& full_name) {
   const std::string where = "models." + entry.key;
   ModelParams params;
   Problems own;
@@ -71,13 +93,45 @@ void ModelSection::ReadModel(const Value::Entry& entry) {
     params.srdf = Resolve(params.srdf, LocationOf(entry.value, "srdf")).string();
     params.urdf = Resolve(params.urdf, LocationOf(entry.value, "urdf")).string();
     const Warn warn = [&](const std::string& line) { warnings.push_back(line); };
-    models_.Add(entry.key, LoadModel(where, params, packages_, warn));
+    models_.Add(entry.key, LoadModel(where, params, packages_, warn), full_name);
+    sources_[entry.key] = {where, params, packages_};
   } catch (const std::runtime_error& error) {
     failed_ = true;
     problems_.Add(entry.location, fmt::format("{}: {}", where, error.what()));
   }
   for (const std::string& line : warnings) {
     warnings_.push_back(fmt::format("{}: warning: {}", entry.location.ToString(), line));
+  }
+}
+
+void ModelSection::Take(const Value::Entry& given, const Value* own, const ModelSection& outer) {
+  const auto source = outer.sources_.find(*given.value.string());
+  if (source == outer.sources_.end()) {  // the other file's models are known to be complete
+    failed_ = true;
+    return;
+  }
+  Source taken = source->second;
+  if (own != nullptr && own->map() != nullptr) {
+    Value::Map map = *own->map();
+    std::erase_if(map, [](const Value::Entry& entry) { return entry.key == "urdf"; });
+    map.push_back({"urdf", given.location, Value(taken.params.urdf, given.location)});
+    ModelParams params;
+    ReadFields(Value(std::move(map), own->location()), FieldsOf<ModelParams>(),
+               "models." + given.key, &params, problems_);
+    const auto fill = [](auto& limits, const auto& from) {
+      if (!limits) limits = from;
+    };
+    fill(taken.params.acceleration_limits, params.acceleration_limits);
+    fill(taken.params.jerk_limits, params.jerk_limits);
+  }
+  try {
+    models_.Add(given.key, LoadModel(taken.where, taken.params, taken.packages, {}),
+                outer.models_.FullName(*given.value.string()));
+    sources_[given.key] = std::move(taken);
+  } catch (const std::runtime_error& error) {
+    failed_ = true;
+    problems_.Add(own == nullptr ? given.location : own->location(),
+                  fmt::format("models.{}: {}", given.key, error.what()));
   }
 }
 

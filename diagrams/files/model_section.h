@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
+#include "oca/diagrams/files/diagram_file.h"
 #include "oca/diagrams/files/package_paths.h"
 #include "oca/framework/dataflow/value.h"
 #include "oca/systems/signals/model_set.h"
@@ -14,8 +16,19 @@ namespace oca::files {
 /// Sections `packages` and `models` of a diagram file, and the paths that depend on them.
 class ModelSection {
  public:
+  /// What a file that another one uses is given of that.
+  struct Given {
+    const ModelSection& outer;
+    const Value* models{nullptr};  ///< a map from names here to names there; nullptr: none
+    std::string path;              ///< of the use in the diagram as a whole: `left`
+  };
+
   /// Loads every model; what is wrong is added to `problems`.
   ModelSection(const Value& root, Problems& problems);
+  /// Of a file that another one uses. Models that it is given stand for its own of these names,
+  /// whose limits of acceleration and jerk are taken where the given ones have none; its others
+  /// have full names below `path`. Packages that it does not name are those of the other file.
+  ModelSection(const Value& root, const Given& given, Problems& problems);
 
   const systems::ModelSet& models() const { return models_; }
   /// Whether a model could not be loaded; its users would only repeat the problem.
@@ -27,13 +40,22 @@ class ModelSection {
   Value ResolveFiles(const Value& value);
 
  private:
+  /// An entry of `models`, its files being paths.
+  struct Source {
+    std::string where;
+    ModelParams params;
+    PackageMap packages;
+  };
+
   Value ResolveName(const Value& name);
   void ReadPackages(const Value& root);
-  void ReadModel(const Value::Entry& entry);
+  void ReadModel(const Value::Entry& entry, const std::string& full_name);
+  void Take(const Value::Entry& given, const Value* own, const ModelSection& outer);
   std::filesystem::path Resolve(const std::string& name, const Location& location) const;
 
   Problems& problems_;
   PackageMap packages_;
+  std::map<std::string, Source> sources_;  // by name, of those that did load
   systems::ModelSet models_;
   std::vector<std::string> warnings_;
   bool failed_{false};

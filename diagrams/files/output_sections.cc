@@ -49,18 +49,20 @@ std::optional<Period> ReadRate(const Value& value, const std::string& where, Pro
   }
 }
 
-void ReadSignal(const Value::Entry& entry, const NamedOutputs& outputs,
+void ReadSignal(const Value::Entry& entry, const NamedOutputs& outputs, const NamedOutputs& others,
                 std::vector<RecordedSignal>& record, Problems& problems) {
   const auto period = ReadRate(entry.value, "record.signals." + entry.key, problems);
   bool matched = false;
-  for (const auto& [name, output] : outputs) {
-    if (fnmatch(entry.key.c_str(), name.c_str(), 0) != 0) continue;
+  const auto keep = [&](const std::string& name, const OutputHandle& output) {
     matched = true;
-    const bool taken =
-        std::any_of(record.begin(), record.end(),
-                    [&, &own = name](const auto& other) { return other.name == own; });
+    const bool taken = std::any_of(record.begin(), record.end(),
+                                   [&](const auto& other) { return other.name == name; });
     if (period && !taken) record.push_back({name, output, *period});
+  };
+  for (const auto& [name, output] : outputs) {
+    if (fnmatch(entry.key.c_str(), name.c_str(), 0) == 0) keep(name, output);
   }
+  if (const OutputHandle* const other = FindByName(others, entry.key)) keep(entry.key, *other);
   if (!matched) {
     problems.Add(entry.location, fmt::format("record.signals: no output matches '{}'{}", entry.key,
                                              DidYouMean(entry.key, NamesOf(outputs))));
@@ -98,7 +100,7 @@ class ExpectationReader {
   std::optional<Expectation> Read(const NamedOutputs& metrics, double duration) {
     ReadBound(duration);
     const bool metric = entry_.key.find('.') == std::string::npos;
-    if (metric ? !AimAtMetric(metrics) : !AimAtPort()) return std::nullopt;
+    if (metric ? !AimAtMetric(metrics) : !AimAtPort(metrics)) return std::nullopt;
     return result_;
   }
 
@@ -125,34 +127,58 @@ class ExpectationReader {
 
   bool AimAtMetric(const NamedOutputs& metrics) {
     if (metrics.empty()) return Fail(": a metric needs a system that judges the run");
-    result_.output = metrics.front().second;
-    result_.member = entry_.key;
-    result_.metric = true;
+    return AimAtMember(metrics, entry_.key);
+  }
+
+  bool AimAtMember(const NamedOutputs& judges, const std::string& member) {
+    result_.output = judges.front().second;
+    result_.member = member;
+    result_.judges = judges;
     return CheckMember();
   }
 
-  /// `system.port[i]` or `system.port.member`
-  bool AimAtPort() {
+  /// `system.port[i]` or `system.port.member`, of which `system` may have dots in it; or
+  /// `file.metric`.
+  bool AimAtPort(const NamedOutputs& metrics) {
     const std::string& key = entry_.key;
-    std::string port = key;
-    if (const std::size_t bracket = key.find('['); bracket != std::string::npos) {
-      port = key.substr(0, bracket);
-      if (!ReadIndex(key.substr(bracket + 1))) return Fail(": expected system.port[i]");
-    } else if (const auto dot = key.find('.', key.find('.') + 1); dot != std::string::npos) {
-      port = key.substr(0, dot);
-      result_.member = key.substr(dot + 1);
+    const std::string port = LongestPort();
+    if (port.empty()) return AimAtMetricBelow(metrics);
+    const std::string rest = key.substr(port.size());
+    if (rest.starts_with('[')) {
+      if (!ReadIndex(rest.substr(1))) return Fail(": expected system.port[i]");
+    } else if (!rest.empty()) {
+      result_.member = rest.substr(1);
     }
-    const OutputHandle* const output = FindByName(outputs_, port);
-    if (output == nullptr) {
-      return Fail(fmt::format(": no output '{}'{}", port, DidYouMean(port, NamesOf(outputs_))));
-    }
-    result_.output = *output;
-    if (&TypeOfPort(*output) != &kVectorType) return CheckMember();
+    result_.output = *FindByName(outputs_, port);
+    if (&TypeOfPort(result_.output) != &kVectorType) return CheckMember();
     if (diagram_ == nullptr) return false;
-    const int size = diagram_->SizeOf(*output);
+    const int size = diagram_->SizeOf(result_.output);
     if (result_.index < 0 && size == 1 && result_.member.empty()) result_.index = 0;
     if (result_.index >= 0 && result_.index < size) return true;
     return Fail(fmt::format(": expected {}[i] with i from 0 to {}", port, size - 1));
+  }
+
+  /// The output that the key begins with; empty if there is none.
+  std::string LongestPort() const {
+    std::string longest;
+    for (const auto& [name, output] : outputs_) {
+      const bool fits = entry_.key.starts_with(name) &&
+                        (entry_.key.size() == name.size() || entry_.key[name.size()] == '.' ||
+                         entry_.key[name.size()] == '[');
+      if (fits && name.size() > longest.size()) longest = name;
+    }
+    return longest;
+  }
+
+  bool AimAtMetricBelow(const NamedOutputs& metrics) {
+    const std::size_t dot = entry_.key.rfind('.');
+    NamedOutputs judges;
+    for (const auto& judge : metrics) {
+      if (judge.first.starts_with(entry_.key.substr(0, dot + 1))) judges.push_back(judge);
+    }
+    if (!judges.empty()) return AimAtMember(judges, entry_.key.substr(dot + 1));
+    const std::string port = entry_.key.substr(0, entry_.key.find('['));
+    return Fail(fmt::format(": no output '{}'{}", port, DidYouMean(port, NamesOf(outputs_))));
   }
 
   bool ReadIndex(const std::string& text) {
@@ -180,7 +206,7 @@ class ExpectationReader {
 }  // namespace
 
 std::vector<RecordedSignal> ReadRecord(const Value& root, const NamedOutputs& outputs,
-                                       Problems& problems) {
+                                       const NamedOutputs& others, Problems& problems) {
   std::vector<RecordedSignal> record;
   for (const Value::Entry& entry : SectionOf(root, "record", problems)) {
     if (entry.key == "scene") continue;  // ReadSceneRate's
@@ -194,7 +220,7 @@ std::vector<RecordedSignal> ReadRecord(const Value& root, const NamedOutputs& ou
                                entry.value.Show()));
     } else {
       for (const Value::Entry& signal : *entry.value.map()) {
-        ReadSignal(signal, outputs, record, problems);
+        ReadSignal(signal, outputs, others, record, problems);
       }
     }
   }

@@ -19,6 +19,9 @@ struct RecordedSignal {
   Period period;
 };
 
+/// Outputs by name.
+using NamedOutputs = std::vector<std::pair<std::string, OutputHandle>>;
+
 /// A bound from section `expect`. What it looks at is an element of a Vector output (`index`), or a
 /// member of another output's JSON object (`member`).
 struct Expectation {
@@ -26,21 +29,20 @@ struct Expectation {
   OutputHandle output;
   int index{-1};
   std::string member;
-  bool metric{false};  ///< of all arms together, as the run reports it
+  NamedOutputs judges{};  ///< of a metric: what judges the arms that count together
   ExpectParams bound;
 };
 
-/// Outputs by name.
-using NamedOutputs = std::vector<std::pair<std::string, OutputHandle>>;
-
-/// Section `record`; names may be patterns with `*`, `outputs` is what there is.
+/// Section `record`; names may be patterns with `*`, `outputs` is what there is. By `others` it finds
+/// outputs too, but no pattern does.
 std::vector<RecordedSignal> ReadRecord(const Value& root, const NamedOutputs& outputs,
-                                       Problems& problems);
+                                       const NamedOutputs& others, Problems& problems);
 
 /// Key `scene` of section `record`: how often the scene is recorded; `otherwise` if it is left out.
 Period ReadSceneRate(const Value& root, const Period& otherwise, Problems& problems);
 
-/// Section `expect`. A lone word is a metric; with several `metrics` the worst of them counts.
+/// Section `expect`. A lone word is a metric; with several `metrics` the worst of them counts. Behind
+/// the path of a file that is used it is one of the arms there.
 /// `diagram` is nullptr if it could not be built; lengths are then not checked.
 std::vector<Expectation> ReadExpectations(const Value& root, const NamedOutputs& outputs,
                                           const NamedOutputs& metrics, const Diagram* diagram,

@@ -92,6 +92,7 @@ class Path {
     if (depth_ == 0) {
       for (const Section& section : Sections()) known.emplace_back(section.key);
       if (std::find(known.begin(), known.end(), key) != known.end()) return true;
+      for (std::string& name : UsedFilesOf(parent)) known.push_back(std::move(name));
     } else {
       const bool named_by_file =
           keys_[0] == "parameters" || keys_[0] == "systems" || keys_[0] == "models";
@@ -129,7 +130,7 @@ bool IsPlain(const std::string& text) {
 }
 
 void Apply(const Override& change, Value& root, Problems& problems) {
-  const std::string name = "-s " + change.path;
+  const std::string name = "-s " + (change.given_as.empty() ? change.path : change.given_as);
   const Location location{std::make_shared<const std::string>(name), 0, 0};
   if (change.path == "include" || change.path.starts_with("include.")) {
     problems.Add(location, "include: cannot be overridden; expected another path");
@@ -163,6 +164,42 @@ Override Override::Parse(const std::string& text) {
     throw ConfigError(fmt::format("-s: got '{}'; expected PATH=VALUE", text));
   }
   return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+std::vector<std::string> UsedFilesOf(const Value& root) {
+  std::vector<std::string> names;
+  const Value* const systems = root.Find("systems");
+  if (systems == nullptr || systems->map() == nullptr) return names;
+  for (const Value::Entry& entry : *systems->map()) {
+    const Value* const type = entry.value.Find("type");
+    if (type == nullptr || type->string() == nullptr || *type->string() != kDiagramType) continue;
+    names.push_back(entry.key);
+  }
+  return names;
+}
+
+std::map<std::string, std::vector<Override>> TakeInner(std::vector<Override>& overrides,
+                                                       const Value& root) {
+  std::map<std::string, std::vector<Override>> inner;
+  const std::vector<std::string> names = UsedFilesOf(root);
+  const auto take = [&](const Override& change) {
+    const std::size_t dot = change.path.find('.');
+    const std::string first = change.path.substr(0, dot);
+    const auto& sections = Sections();
+    const bool section = std::any_of(sections.begin(), sections.end(),
+                                     [&](const Section& known) { return known.key == first; });
+    if (section || dot == std::string::npos) return false;
+    bool taken = false;
+    for (const std::string& name : names) {
+      if (first != "*" && first != name) continue;
+      taken = true;
+      inner[name].push_back({change.path.substr(dot + 1), change.value,
+                             change.given_as.empty() ? change.path : change.given_as});
+    }
+    return taken;
+  };
+  std::erase_if(overrides, take);
+  return inner;
 }
 
 void ApplyOverrides(const std::vector<Override>& overrides, Value& root, Problems& problems) {

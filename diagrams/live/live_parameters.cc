@@ -44,25 +44,72 @@ std::string ParameterIn(const Value& value) {
   return text->substr(2, text->size() - 3);
 }
 
+using Ranges = std::map<std::string, Bounds>;  // by parameter
+
+void Narrow(const std::string& parameter, const Bounds& bounds, Ranges& ranges) {
+  Bounds& all = ranges[parameter];  // one that is excluded is within all the same, for a slider
+  all.lower = std::max(all.lower, bounds.lower);
+  all.upper = std::min(all.upper, bounds.upper);
+}
+
+/// What an entry of type Diagram gives to parameters there, as it is written; of a parameter of the
+/// file that is a map, what is in that.
+Value::Map GivenBy(const Value& document, const Value& entry) {
+  Value::Map given;
+  const auto add = [&](const Value& item) {
+    const Value* map = &item;
+    if (const std::string name = ParameterIn(item); !name.empty()) {
+      const Value* const parameters = document.Find("parameters");
+      map = parameters == nullptr ? nullptr : parameters->Find(name);
+    }
+    if (map == nullptr || map->map() == nullptr) return;
+    given.insert(given.end(), map->map()->begin(), map->map()->end());
+  };
+  const Value* const parameters = entry.Find("parameters");
+  if (parameters == nullptr) return given;
+  if (parameters->list() == nullptr) {
+    add(*parameters);
+  } else {
+    for (const Value& item : *parameters->list()) add(item);
+  }
+  return given;
+}
+
+/// Of the parameters of the file that is used at `prefix`, whose tree is `document`.
+Ranges RangesAt(const LoadedDiagram& loaded, const std::string& prefix, const Value& document) {
+  Ranges ranges;
+  const Value* const systems = document.Find("systems");
+  const auto given = [&](const std::string& path) -> const Value* {
+    return systems == nullptr || !path.starts_with(prefix)
+               ? nullptr
+               : systems->Find(path.substr(prefix.size()));
+  };
+  for (const LoadedDiagram::Block& block : loaded.systems) {
+    const Value* const keys = given(block.name);
+    if (keys == nullptr || keys->map() == nullptr) continue;
+    for (const Value::Entry& entry : *keys->map()) {
+      const std::string name = ParameterIn(entry.value);
+      const auto bounds = BoundsOf(block.row->fields(), entry.key);
+      if (!name.empty() && bounds) Narrow(name, *bounds, ranges);
+    }
+  }
+  for (const LoadedDiagram::UsedFile& used : loaded.used_files) {
+    if (given(used.path) == nullptr) continue;
+    const Ranges inner = RangesAt(loaded, used.path + ".", used.document);
+    for (const Value::Entry& entry : GivenBy(document, *given(used.path))) {
+      const std::string from = ParameterIn(entry.value);
+      const auto range = inner.find(entry.key);
+      if (!from.empty() && range != inner.end()) Narrow(from, range->second, ranges);
+    }
+  }
+  return ranges;
+}
+
 }  // namespace
 
 record::McapTexts RangesOf(const LoadedDiagram& loaded) {
-  std::map<std::string, Bounds> ranges;
-  const Value* const systems = loaded.document.Find("systems");
-  for (const LoadedDiagram::Block& block : loaded.systems) {
-    const Value* const given = systems == nullptr ? nullptr : systems->Find(block.name);
-    if (given == nullptr || given->map() == nullptr) continue;
-    for (const Value::Entry& entry : *given->map()) {
-      const std::string name = ParameterIn(entry.value);
-      const auto bounds = BoundsOf(block.row->fields(), entry.key);
-      if (name.empty() || !bounds) continue;
-      Bounds& all = ranges[name];  // one that is excluded is within all the same, for a slider
-      all.lower = std::max(all.lower, bounds->lower);
-      all.upper = std::min(all.upper, bounds->upper);
-    }
-  }
   record::McapTexts texts;
-  for (const auto& [name, range] : ranges) {
+  for (const auto& [name, range] : RangesAt(loaded, "", loaded.document)) {
     // JSON has no infinity: nlohmann writes null.
     texts[name] = nlohmann::json{range.lower, range.upper}.dump();
   }
@@ -79,7 +126,7 @@ std::vector<std::pair<std::string, Standing>> StandingObstacles(const LoadedDiag
     for (const auto& standing : holds->standing) {
       found.emplace_back(
           standing.id,
-          Standing{fmt::format("systems.{}.{}", path, standing.parameter), standing.position,
+          Standing{loading::OverridePath(path) + "." + standing.parameter, standing.position,
                    movable ? loading::ExportedName(diagram.PathOf(holds->offsets)) : "",
                    static_cast<std::size_t>(standing.first)});
     }

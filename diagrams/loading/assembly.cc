@@ -12,13 +12,14 @@
 
 namespace oca::loading {
 
-Assembly::Assembly(const Value& root, const Part& part, const files::Catalogue& catalogue,
-                   files::ModelSection& models, Problems& problems)
+Assembly::Assembly(const Value& root, const Level& level, const SystemSources& sources,
+                   Construction& construction, DiagramBuilder& builder, Problems& problems)
     : root_(root),
-      part_(part),
+      construction_(construction),
+      builder_(builder),
       problems_(problems),
-      systems_(root, part, catalogue, models, builder_, problems),
-      connections_(root, part, systems_, builder_, problems) {}
+      systems_(root, level, sources, construction, builder, problems),
+      connections_(root, level, systems_, construction, builder, problems) {}
 
 void Assembly::ExportOutputs() {
   for (const auto& [name, output] : systems_.Outputs()) {
@@ -27,50 +28,48 @@ void Assembly::ExportOutputs() {
 }
 
 void Assembly::ExportOffsets() {
-  for (const LoadedDiagram::Block& block : systems_.blocks()) {
-    const auto* const holds = systems_.Find(block.name)->role<systems::HoldsObstacles>();
+  for (const auto& [name, system] : systems_.built()) {
+    const auto* const holds = system->role<systems::HoldsObstacles>();
     if (holds == nullptr || holds->offsets.system == nullptr) continue;
     const auto index = static_cast<std::size_t>(holds->offsets.index);
-    const std::string port = block.name + "." + holds->offsets.system->inputs()[index].name;
-    if (!connections_.Drives(port)) builder_.ExportInput(ExportedName(port), holds->offsets);
+    const std::string port = name + "." + holds->offsets.system->inputs()[index].name;
+    if (construction_.connections.contains(port)) continue;
+    builder_.ExportInput(ExportedName(port), holds->offsets);
   }
 }
 
 std::unique_ptr<Diagram> Assembly::Build(bool movable) {
   std::unique_ptr<Diagram> diagram;
+  const auto add = [&](const std::string& problem) {
+    construction_.AddWiringProblem(problem, root_.location(), problems_);
+  };
   try {
-    if (!part_.whole()) ExportOutputs();
+    if (!construction_.part.whole()) ExportOutputs();
     if (movable) ExportOffsets();
     diagram = builder_.Build();
     diagram->schedule().CheckStart(diagram->MakeContext(), false);
   } catch (const SimulationError& error) {  // a state starts where it cannot be
-    problems_.Add(*systems_.LocationOf(error.system), error.what());
+    construction_.AddProblemOf(error.system, error.what(), problems_);
   } catch (const WiringError& error) {
-    for (const std::string& problem : error.problems) problems_.Add(Place(problem), problem);
+    for (const std::string& problem : error.problems) add(problem);
   }
   return diagram;
 }
 
 files::NamedOutputs Assembly::Metrics() {
   files::NamedOutputs metrics;
-  for (const LoadedDiagram::Block& block : systems_.blocks()) {
-    const auto* const judges = systems_.Find(block.name)->role<systems::Judges>();
+  for (const auto& [name, system] : systems_.built()) {
+    const auto* const judges = system->role<systems::Judges>();
     if (judges == nullptr) continue;
     try {
       Typed<systems::MotionMetricsValue>(judges->metrics);
-      metrics.emplace_back(block.name, judges->metrics);
+      metrics.emplace_back(name, judges->metrics);
     } catch (const WiringError& error) {
-      problems_.Add(*systems_.LocationOf(block.name),
-                    fmt::format("systems.{}: judge: {}", block.name, error.what()));
+      construction_.AddProblemOf(
+          name, fmt::format("systems.{}: judge: {}", name, error.what()), problems_);
     }
   }
   return metrics;
-}
-
-Location Assembly::Place(const std::string& problem) const {
-  if (const Location* const connection = connections_.LocationOf(problem)) return *connection;
-  const Location* const system = systems_.LocationOf(problem.substr(0, problem.find('.')));
-  return system == nullptr ? root_.location() : *system;
 }
 
 }  // namespace oca::loading

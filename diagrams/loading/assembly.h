@@ -4,11 +4,9 @@
 #include <memory>
 #include <string>
 
-#include "oca/diagrams/files/catalogue.h"
-#include "oca/diagrams/files/model_section.h"
 #include "oca/diagrams/files/output_sections.h"
 #include "oca/diagrams/loading/connection_section.h"
-#include "oca/diagrams/loading/part.h"
+#include "oca/diagrams/loading/construction.h"
 #include "oca/diagrams/loading/system_section.h"
 #include "oca/framework/dataflow/diagram.h"
 #include "oca/framework/dataflow/value.h"
@@ -18,15 +16,17 @@ namespace oca::loading {
 /// The systems of a diagram file and their wiring, on the way to a diagram.
 class Assembly {
  public:
-  /// Makes and connects the systems of a tree whose ${...} are worked out; what is wrong is added to
-  /// `problems`. All arguments must outlive it.
-  Assembly(const Value& root, const Part& part, const files::Catalogue& catalogue,
-           files::ModelSection& models, Problems& problems);
+  /// Makes and connects the systems of a tree whose ${...} are worked out, and those of the files
+  /// that it uses; what is wrong is added to `problems`. All arguments must outlive it.
+  Assembly(const Value& root, const Level& level, const SystemSources& sources,
+           Construction& construction, DiagramBuilder& builder, Problems& problems);
 
   const SystemSection& systems() const { return systems_; }
-  /// The diagram, which starts where its states may be; what is wrong is added to the problems, and
-  /// it may be null then. If `movable`, the `offsets` of systems that hold obstacles are inputs of
-  /// the diagram, where nothing drives them.
+  SystemSection& systems() { return systems_; }
+  const ConnectionSection& connections() const { return connections_; }
+  /// The diagram as a whole, which starts where its states may be, of the file that is built; what
+  /// is wrong is added to the problems, and it may be null then. If `movable`, the `offsets` of
+  /// systems that hold obstacles are inputs of the diagram, where nothing drives them.
   std::unique_ptr<Diagram> Build(bool movable);
   /// The outputs of the systems that judge (systems::Judges), with the names of those.
   files::NamedOutputs Metrics();
@@ -34,13 +34,11 @@ class Assembly {
  private:
   void ExportOutputs();
   void ExportOffsets();
-  /// Where in the file a wiring problem lies: its connection, else its system.
-  Location Place(const std::string& problem) const;
 
   const Value& root_;
-  const Part& part_;
+  Construction& construction_;
+  DiagramBuilder& builder_;
   Problems& problems_;
-  DiagramBuilder builder_;
   SystemSection systems_;
   ConnectionSection connections_;
 };

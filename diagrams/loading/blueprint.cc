@@ -3,13 +3,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
+#include <map>
 #include <utility>
 
 #include "oca/diagrams/files/model_section.h"
 #include "oca/diagrams/files/section.h"
 #include "oca/diagrams/loading/assembly.h"
+#include "oca/diagrams/loading/construction.h"
 #include "oca/diagrams/loading/part.h"
 #include "oca/diagrams/loading/resolved_document.h"
+#include "oca/diagrams/loading/used_file.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/nearest.h"
 #include "oca/models/file_cache.h"
@@ -20,53 +25,60 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Goes through a diagram file section by section and collects every problem on the way.
+/// Goes through a diagram file and those that it uses, section by section, and collects every
+/// problem on the way.
 class Loader {
  public:
   Loader(const fs::path& file, const std::vector<files::Override>& overrides,
-         const files::Catalogue& catalogue)
-      : file_(file), catalogue_(catalogue) {
+         const files::Catalogue& catalogue, const Part& part)
+      : file_(file), part_(part), construction_(part, catalogue, builder_) {
     loaded_.file = file.string();
     loaded_.overrides = overrides;
+    std::error_code ignored;
+    level_.files.push_back(fs::weakly_canonical(file, ignored));
   }
 
-  LoadedDiagram Load(const Part& part, bool movable) {
+  LoadedDiagram Load(bool movable) {
     ReadDocument();
     ReadNames();
     ReadSimulator();
     files::ModelSection models(root(), problems_);
+    for (const std::string& line : models.warnings()) construction_.warnings.Add("", line);
+    const SystemSources sources{models, inner_overrides_};
+    Assembly assembly(root(), level_, sources, construction_, builder_, problems_);
     loaded_.models = models.models();
-    Warn(models.warnings());
-    Assembly assembly(root(), part, catalogue_, models, problems_);
-    Warn(assembly.systems().warnings());
-    loaded_.systems = assembly.systems().blocks();
-    CheckTolerances(assembly.systems());
-    part.CheckNames(assembly.systems().names(), root().location(), problems_);
-    problems_.Throw();
+    KeepUsedFiles(assembly.systems());
+    ReadTolerances(root(), level_, assembly.systems(), problems_);
+    loaded_.systems = assembly.systems().TakeBlocks();
+    part_.CheckNames(assembly.systems().names(), root().location(), problems_);
+    Throw();
     loaded_.diagram = assembly.Build(movable);
     loaded_.metrics = assembly.Metrics();
     loaded_.opened = opened_.files();
-    if (part.whole()) ReadOutputs(assembly.systems().Outputs());
-    problems_.Throw();
+    if (part_.whole()) ReadOutputs(root(), level_, assembly, problems_);
+    Throw();
+    loaded_.warnings = construction_.warnings.Lines();
     return std::move(loaded_);
   }
 
  private:
   const Value& root() const { return loaded_.resolved; }
-  const Value::Map& Map(const char* key) { return files::SectionOf(root(), key, problems_); }
 
-  void Warn(const std::vector<std::string>& lines) {
-    loaded_.warnings.insert(loaded_.warnings.end(), lines.begin(), lines.end());
+  void Throw() {
+    for (std::string& line : construction_.problems.Lines()) problems_.AddLine(std::move(line));
+    problems_.Throw();
   }
 
   void ReadDocument() {
-    ResolvedDocument read = ReadResolved(file_, loaded_.overrides, catalogue_, problems_);
+    ResolvedDocument read =
+        ReadResolved(file_, loaded_.overrides, construction_.catalogue, problems_);
     loaded_.sources = std::move(read.sources.files);
     loaded_.candidates = std::move(read.sources.candidates);
     loaded_.document = std::move(read.document);
     loaded_.scenario = std::move(read.scenario);
     loaded_.resolved = std::move(read.root);
-    loaded_.warnings = std::move(read.warnings);
+    inner_overrides_ = std::move(read.inner_overrides);
+    for (const std::string& line : read.warnings) construction_.warnings.Add("", line);
   }
 
   void ReadNames() {
@@ -89,33 +101,93 @@ class Loader {
       ReadFields(*value, FieldsOf<files::SimulatorParams>(), "simulator", &loaded_.simulator,
                  problems_);
     }
-    for (const Value::Entry& entry : Map("simulator_tolerances")) {
+  }
+
+  void KeepUsedFiles(const SystemSection& systems) {
+    for (const auto& used : systems.used_files()) {
+      const ResolvedDocument& read = used->document();
+      AddNew(read.sources.files, loaded_.sources);
+      AddNew(read.sources.candidates, loaded_.candidates);
+      loaded_.models.AddInner(used->models());
+      loaded_.used_files.push_back(
+          {used->level().path, used->file(), read.document, read.root, *used->given().map()});
+      KeepUsedFiles(used->assembly().systems());
+    }
+  }
+
+  static void AddNew(const std::vector<fs::path>& files, std::vector<fs::path>& all) {
+    for (const fs::path& file : files) {
+      if (std::find(all.begin(), all.end(), file) == all.end()) all.push_back(file);
+    }
+  }
+
+  /// The file's own win over those of files that it uses.
+  void ReadTolerances(const Value& root, const Level& level, const SystemSection& systems,
+                      Problems& problems) {
+    ForUsedFiles(systems, [&](const UsedFile& used, Problems& own) {
+      ReadTolerances(used.document().root, used.level(), used.assembly().systems(), own);
+    });
+    for (const Value::Entry& entry : files::SectionOf(root, "simulator_tolerances", problems)) {
       ReadFields(entry.value, FieldsOf<Tolerances>(), "simulator_tolerances." + entry.key,
-                 &loaded_.simulator.integration.tolerances[entry.key], problems_);
-    }
-  }
-
-  void CheckTolerances(const SystemSection& systems) {
-    for (const Value::Entry& entry : Map("simulator_tolerances")) {
+                 &loaded_.simulator.integration.tolerances[level.Full(entry.key)], problems);
       if (systems.Names(entry.key)) continue;
-      problems_.Add(entry.location, fmt::format("simulator_tolerances: no system '{}'{}", entry.key,
-                                                DidYouMean(entry.key, systems.names())));
+      problems.Add(entry.location, fmt::format("simulator_tolerances: no system '{}'{}", entry.key,
+                                               DidYouMean(entry.key, systems.names())));
     }
   }
 
-  void ReadOutputs(const files::NamedOutputs& outputs) {
-    loaded_.record = files::ReadRecord(root(), outputs, problems_);
-    loaded_.scene_period = files::ReadSceneRate(root(), loaded_.scene_period, problems_);
-    loaded_.expectations =
-        files::ReadExpectations(root(), outputs, loaded_.metrics, loaded_.diagram.get(),
-                                loaded_.simulator.duration, problems_);
+  /// What the file says to record and to expect of its systems, it says wherever it is used, unless
+  /// the file there says otherwise.
+  void ReadOutputs(const Value& root, const Level& level, Assembly& assembly, Problems& problems) {
+    files::NamedOutputs outputs = assembly.systems().Outputs();
+    const files::NamedOutputs named = assembly.systems().NamedByUsedFiles();
+    for (auto& signal : files::ReadRecord(root, outputs, named, problems)) {
+      signal.name = level.Full(signal.name);
+      KeepFirst(std::move(signal), loaded_.record);
+    }
+    outputs.insert(outputs.end(), named.begin(), named.end());
+    const bool own = level.path.empty();
+    const files::NamedOutputs metrics = own ? loaded_.metrics : assembly.Metrics();
+    const double duration = loaded_.simulator.duration;
+    if (own) loaded_.scene_period = files::ReadSceneRate(root, loaded_.scene_period, problems);
+    for (auto& expectation : files::ReadExpectations(
+             root, outputs, metrics, loaded_.diagram.get(), own ? duration : kEver, problems)) {
+      expectation.name = level.Full(expectation.name);
+      if (expectation.bound.at.value_or(0.0) > duration) continue;  // the other file runs longer
+      KeepFirst(std::move(expectation), loaded_.expectations);
+    }
+    ForUsedFiles(assembly.systems(), [&](const UsedFile& used, Problems& of_used) {
+      ReadOutputs(used.document().root, used.level(), used.assembly(), of_used);
+    });
   }
+
+  template <class Named>
+  static void KeepFirst(Named named, std::vector<Named>& all) {
+    const bool taken = std::any_of(all.begin(), all.end(),
+                                   [&](const Named& other) { return other.name == named.name; });
+    if (!taken) all.push_back(std::move(named));
+  }
+
+  template <class Visit>
+  static void ForUsedFiles(const SystemSection& systems, const Visit& visit) {
+    for (const auto& used : systems.used_files()) {
+      Problems own;
+      visit(*used, own);
+      used->Tell(own);
+    }
+  }
+
+  static constexpr double kEver = std::numeric_limits<double>::infinity();
 
   const fs::path file_;
-  const files::Catalogue& catalogue_;
+  const Part& part_;
   models::OpenedFiles opened_;
   LoadedDiagram loaded_;
   Problems problems_;
+  DiagramBuilder builder_;
+  Construction construction_;
+  Level level_;
+  std::map<std::string, std::vector<files::Override>> inner_overrides_;
 };
 
 }  // namespace
@@ -132,7 +204,7 @@ LoadedDiagram Blueprint::Build(const std::vector<files::Override>& overrides,
   }
   const models::FileCache::Use use(*read_);
   const Part part(options.part.value_or(std::vector<std::string>{}));
-  return Loader(file_, overrides, catalogue_).Load(part, options.movable);
+  return Loader(file_, overrides, catalogue_, part).Load(options.movable);
 }
 
 }  // namespace oca::loading

@@ -3,17 +3,29 @@
 
 #include <fmt/format.h>
 
+#include "oca/diagrams/loading/connection_pattern.h"
 #include "oca/diagrams/loading/loaded_diagram.h"
 #include "oca/framework/dataflow/dynamic_port.h"
 #include "oca/framework/dataflow/error.h"
-#include "oca/framework/dataflow/nearest.h"
 
 namespace oca::loading {
+namespace {
 
-ConnectionSection::ConnectionSection(const Value& root, const Part& part,
-                                     const SystemSection& systems, DiagramBuilder& builder,
-                                     Problems& problems)
-    : part_(part), systems_(systems), builder_(builder), problems_(problems) {
+/// The name behind `inputs.` or `outputs.`; empty if the path is another.
+std::string NameBehind(const std::string& ports, const std::string& path) {
+  return path.starts_with(ports) ? path.substr(ports.size()) : "";
+}
+
+}  // namespace
+
+ConnectionSection::ConnectionSection(const Value& root, const Level& level,
+                                     const SystemSection& systems, Construction& construction,
+                                     DiagramBuilder& builder, Problems& problems)
+    : level_(level),
+      systems_(systems),
+      construction_(construction),
+      builder_(builder),
+      problems_(problems) {
   const Value* const value = root.Find("connections");
   if (value == nullptr || value->null()) return;
   if (value->list() == nullptr) {
@@ -35,94 +47,110 @@ void ConnectionSection::Read(const Value& item) {
         fmt::format("connections: got {}; expected 'system.output -> system.input'", item.Show()));
     return;
   }
-  const auto from = SplitPort(text->substr(0, arrow), item.location());
-  const auto to = SplitPort(text->substr(arrow + 2), item.location());
-  if (!from || !to) return;
-  try {
-    Connect(*from, *to, item.location());
-  } catch (const WiringError& error) {
-    problems_.Add(item.location(), error.what());
+  const Location& location = item.location();
+  const std::string from = ReadPort(text->substr(0, arrow), location);
+  const std::string to = ReadPort(text->substr(arrow + 2), location);
+  if (from.empty() || to.empty()) return;
+  if (!IsPattern(from) && !IsPattern(to)) return Connect(from, to, location);
+  const auto all = MatchConnections(from, to, systems_.OutputNames(), systems_.InputNames());
+  for (const auto& [output, input] : all) Connect(output, input, location);
+  if (all.empty() && !from.starts_with(kInputs)) {
+    construction_.warnings.Add(
+        level_.path, fmt::format("{}: warning: connections: {} -> {}: no ports have such names",
+                                 location.ToString(), from, to));
   }
 }
 
-std::optional<ConnectionSection::PortName> ConnectionSection::SplitPort(std::string text,
-                                                                        const Location& location) {
+/// `system.port`; empty, with a problem, if it is something else.
+std::string ConnectionSection::ReadPort(const std::string& text, const Location& location) {
   const auto first = text.find_first_not_of(" \t");
   const auto last = text.find_last_not_of(" \t");
-  text = first == std::string::npos ? "" : text.substr(first, last - first + 1);
-  const std::size_t dot = text.find('.');
-  if (dot == std::string::npos || dot == 0 || dot + 1 == text.size()) {
-    problems_.Add(location, fmt::format("connections: got '{}'; expected system.port", text));
-    return std::nullopt;
-  }
-  return PortName{text.substr(0, dot), text.substr(dot + 1)};
+  const std::string port =
+      first == std::string::npos ? "" : text.substr(first, last - first + 1);
+  const std::size_t dot = port.find('.');
+  if (dot != std::string::npos && dot != 0 && port.back() != '.') return port;
+  problems_.Add(location, fmt::format("connections: got '{}'; expected system.port", port));
+  return "";
 }
 
-void ConnectionSection::Connect(const PortName& from, const PortName& to,
+void ConnectionSection::Connect(const std::string& from, const std::string& to,
                                 const Location& location) {
-  OutputHandle output;
-  InputHandle input;
-  const bool from_there =
-      Locate(from, location, [&](const System& system) { output = system.FindOutput(from.port); });
-  const bool to_there =
-      Locate(to, location, [&](const System& system) { input = system.FindInput(to.port); });
-  if (!from_there || !to_there || !part_.Has(to.system)) return;
-  if (part_.Has(from.system)) {
-    builder_.ConnectPorts(output, input);
-  } else {
-    Import(from, output, input, location);
+  if (!made_.emplace(from, to).second) return;
+  const std::string input = NameBehind(kInputs, from);
+  const std::string output = NameBehind(kOutputs, to);
+  try {
+    if (!input.empty() && !output.empty()) {
+      problems_.Add(location, fmt::format("connections: {} -> {}: got an input of the file; expected "
+                                          "an output of a system",
+                                          from, to));
+    } else if (!input.empty()) {
+      ShowInput(input, to, location);
+    } else if (!output.empty()) {
+      ShowOutput(from, output, location);
+    } else {
+      const auto there = systems_.FindOutput(from);
+      const auto here = systems_.FindInputs(to);
+      if (!there || !here) return;
+      for (const InputAt& target : *here) ConnectPorts(*there, target, location);
+    }
+  } catch (const WiringError& error) {
+    problems_.Add(location, fmt::format("connections: {}", error.what()));
   }
-  locations_[to.system + "." + to.port] = location;
 }
 
-/// Calls find(system); adds a problem if the system or the port does not exist.
-template <class Find>
-bool ConnectionSection::Locate(const PortName& name, const Location& location, const Find& find) {
-  const System* const system = systems_.Find(name.system);
-  if (system == nullptr) {
-    if (!systems_.Names(name.system)) {  // one that is named but not made has been reported
-      problems_.Add(location, fmt::format("connections: no system '{}'{}", name.system,
-                                          DidYouMean(name.system, systems_.names())));
-    }
-    return false;
+void ConnectionSection::ShowInput(const std::string& name, const std::string& to,
+                                  const Location& location) {
+  const auto targets = systems_.FindInputs(to);
+  if (!targets) return;
+  for (const InputAt& target : *targets) {
+    inputs_[name].push_back(target);
+    if (!level_.path.empty() || !target.built) continue;
+    builder_.ExportInput(name, target.handle);
+    construction_.connections[target.path] = {location, level_.path};
   }
-  try {
-    find(*system);
-    return true;
-  } catch (const WiringError& error) {
-    problems_.Add(location, fmt::format("connections: {}: {}", name.system, error.what()));
-    return false;
+}
+
+void ConnectionSection::ShowOutput(const std::string& from, const std::string& name,
+                                   const Location& location) {
+  const auto output = systems_.FindOutput(from);
+  if (!output) return;
+  const auto [shown, fresh] = outputs_.emplace(name, *output);
+  if (!fresh) {
+    problems_.Add(location, fmt::format("connections: outputs.{}: two drivers; got {} and {}; "
+                                        "expected one",
+                                        name, shown->second.path, output->path));
+  } else if (level_.path.empty() && construction_.part.whole()) {
+    builder_.ExportOutput(name, output->handle);
   }
+}
+
+void ConnectionSection::ConnectPorts(const OutputAt& from, const InputAt& to,
+                                     const Location& location) {
+  if (!to.built) return;
+  if (from.built) {
+    builder_.ConnectPorts(from.handle, to.handle);
+  } else {
+    Import(from, to, location);
+  }
+  construction_.connections[to.path] = {location, level_.path};
+  construction_.open.erase(to.path);
 }
 
 /// Exports an input of the part under the name of the output outside that drives it.
-void ConnectionSection::Import(const PortName& from, const OutputHandle& output,
-                               const InputHandle& input, const Location& location) {
-  const SignalType& got = TypeOfPort(output);
-  const SignalType& expected = TypeOfPort(input);
-  const std::string port = from.system + "." + from.port;
-  const std::string name = ExportedName(port);
-  const auto [imported, fresh] = imports_.emplace(name, port);
-  if (!fresh && imported->second != port) {
+void ConnectionSection::Import(const OutputAt& from, const InputAt& to, const Location& location) {
+  const SignalType& got = TypeOfPort(from.handle);
+  const SignalType& expected = TypeOfPort(to.handle);
+  const std::string name = ExportedName(from.path);
+  const auto [imported, fresh] = construction_.imports.emplace(name, from.path);
+  if (!fresh && imported->second != from.path) {
     problems_.Add(location, fmt::format("part: {} and {} would both become the input {}",
-                                        imported->second, port, name));
+                                        imported->second, from.path, name));
   } else if (&got != &expected) {
-    problems_.Add(location,
-                  fmt::format("{} -> {}: type; got {}; expected {}", port,
-                              input.system->inputs()[input.index].name, got.name, expected.name));
+    problems_.Add(location, fmt::format("{} -> {}: type; got {}; expected {}", from.path, to.path,
+                                        got.name, expected.name));
   } else {
-    builder_.ExportInput(name, input);
+    construction_.root.ExportInput(name, to.handle);
   }
-}
-
-const Location* ConnectionSection::LocationOf(const std::string& problem) const {
-  for (const auto& [input, location] : locations_) {
-    if (problem.find("-> " + input + ":") != std::string::npos ||
-        problem.starts_with(input + ":")) {
-      return &location;
-    }
-  }
-  return nullptr;
 }
 
 }  // namespace oca::loading

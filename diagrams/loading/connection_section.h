@@ -2,10 +2,12 @@
 #pragma once
 
 #include <map>
-#include <optional>
+#include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
-#include "oca/diagrams/loading/part.h"
+#include "oca/diagrams/loading/construction.h"
 #include "oca/diagrams/loading/system_section.h"
 #include "oca/framework/dataflow/diagram.h"
 #include "oca/framework/dataflow/value.h"
@@ -13,39 +15,38 @@
 namespace oca::loading {
 
 /// Section `connections` of a diagram file: connects the systems of the part in the builder, and
-/// exports what comes from outside, under the name of the output there.
+/// exports what comes from outside of it, under the name of the output there.
+///
+/// `inputs.NAME -> system.input` and `system.output -> outputs.NAME` make the ports of the file.
+/// `<x>` in a connection stands for any name: all connections are made for which both ports exist,
+/// different letters being different names. One that is said again counts once.
 class ConnectionSection {
  public:
   /// From a tree whose ${...} are worked out; what is wrong is added to `problems`.
-  ConnectionSection(const Value& root, const Part& part, const SystemSection& systems,
-                    DiagramBuilder& builder, Problems& problems);
+  ConnectionSection(const Value& root, const Level& level, const SystemSection& systems,
+                    Construction& construction, DiagramBuilder& builder, Problems& problems);
 
-  /// Whether a connection leads to an input of the part, `system.port`.
-  bool Drives(const std::string& input) const { return locations_.contains(input); }
-  /// Where the file makes the connection that a problem of the wiring is about; nullptr if it is
-  /// about none.
-  const Location* LocationOf(const std::string& problem) const;
+  /// The ports of the file.
+  const std::map<std::string, OutputAt>& outputs() const { return outputs_; }
+  const std::map<std::string, std::vector<InputAt>>& inputs() const { return inputs_; }
 
  private:
-  struct PortName {
-    std::string system;
-    std::string port;
-  };
-
   void Read(const Value& item);
-  std::optional<PortName> SplitPort(std::string text, const Location& location);
-  void Connect(const PortName& from, const PortName& to, const Location& location);
-  template <class Find>
-  bool Locate(const PortName& name, const Location& location, const Find& find);
-  void Import(const PortName& from, const OutputHandle& output, const InputHandle& input,
-              const Location& location);
+  std::string ReadPort(const std::string& text, const Location& location);
+  void Connect(const std::string& from, const std::string& to, const Location& location);
+  void ShowInput(const std::string& name, const std::string& to, const Location& location);
+  void ShowOutput(const std::string& from, const std::string& name, const Location& location);
+  void ConnectPorts(const OutputAt& from, const InputAt& to, const Location& location);
+  void Import(const OutputAt& from, const InputAt& to, const Location& location);
 
-  const Part& part_;
+  const Level& level_;
   const SystemSection& systems_;
+  Construction& construction_;
   DiagramBuilder& builder_;
   Problems& problems_;
-  std::map<std::string, std::string> imports_;  // exported inputs and the outputs they stand for
-  std::map<std::string, Location> locations_;   // by input
+  std::set<std::pair<std::string, std::string>> made_;
+  std::map<std::string, OutputAt> outputs_;
+  std::map<std::string, std::vector<InputAt>> inputs_;
 };
 
 }  // namespace oca::loading

@@ -67,24 +67,47 @@ ordered_json IfType(const std::string& type, const ordered_json& then) {
   return {{"if", condition}, {"then", then}};
 }
 
+/// A file as a system.
+ordered_json UsedFileSchema() {
+  ordered_json properties;
+  properties["file"] = {{"type", "string"}};
+  properties["parameters"] = {{"type", {"object", "array", "string"}},
+                              {"items", {{"type", {"object", "string"}}}},
+                              {"pattern", "\\$\\{.*\\}"}};
+  properties["models"] = MapOf({{"type", "string"}});
+  for (const files::Section& key : files::DiagramKeys()) {
+    properties[key.key]["description"] = key.meaning;
+  }
+  return {{"type", "object"},
+          {"properties", properties},
+          {"required", {"file"}},
+          {"additionalProperties", false}};
+}
+
 /// The system that is named by `type`; where an included file names it, any key of any system.
 ordered_json SystemsSchema(const files::Catalogue& catalogue) {
   ordered_json types = ordered_json::array();
   ordered_json cases = ordered_json::array();
   ordered_json known = ordered_json::object();  // key -> what it is in one system or another
-  for (const files::Catalogue::Row& row : catalogue.rows()) {
-    ordered_json schema = PartialSchemaOf(SchemaOfFields(row->fields(), row->new_params().get()));
-    types.push_back(row->type);
+  const auto add = [&](const std::string& type, const char* summary, ordered_json schema) {
+    types.push_back(type);
     for (const auto& [key, property] : schema["properties"].items()) {
       ordered_json& variants = known[key]["anyOf"];
       if (std::find(variants.begin(), variants.end(), property) == variants.end()) {
         variants.push_back(property);
       }
     }
-    schema["properties"]["type"] = {{"const", row->type}, {"description", row->doc.summary}};
-    schema["description"] = row->doc.summary;
-    cases.push_back(IfType(row->type, schema));
+    schema["properties"]["type"] = {{"const", type}, {"description", summary}};
+    schema["description"] = summary;
+    cases.push_back(IfType(type, schema));
+  };
+  for (const files::Catalogue::Row& row : catalogue.rows()) {
+    add(row->type, row->doc.summary,
+        PartialSchemaOf(SchemaOfFields(row->fields(), row->new_params().get())));
   }
+  ordered_json used_file = UsedFileSchema();
+  AllowPartialMaps(used_file);
+  add(files::kDiagramType, files::kDiagramSummary, std::move(used_file));
   cases.push_back({{"if", {{"not", {{"required", {"type"}}}}}},
                    {"then", {{"properties", known}, {"additionalProperties", false}}}});
   return MapOf(
@@ -99,6 +122,7 @@ ordered_json WholeFileSchema(const files::Catalogue& catalogue) {
     if (!schema.contains("required")) continue;
     cases.push_back(IfType(row->type, {{"required", schema["required"]}}));
   }
+  cases.push_back(IfType(files::kDiagramType, {{"required", UsedFileSchema()["required"]}}));
   const ordered_json systems = MapOf({{"required", {"type"}}, {"allOf", cases}});
   const ordered_json models =
       MapOf({{"required", SchemaOf(ParamTypeOf<files::ModelParams>())["required"]}});

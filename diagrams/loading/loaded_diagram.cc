@@ -18,6 +18,11 @@ std::string ExportedName(std::string port) {
   return port;
 }
 
+std::string OverridePath(const std::string& path) {
+  const std::size_t name = path.rfind('.') + 1;  // 0 if there is no dot
+  return path.substr(0, name) + "systems." + path.substr(name);
+}
+
 std::vector<std::string> InsideOf(const Diagram& whole) {
   std::vector<std::string> inside;
   for (const auto& [path, system] : whole.systems()) {

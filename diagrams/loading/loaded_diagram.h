@@ -19,10 +19,19 @@ namespace oca::loading {
 /// Everything a diagram file says, ready to run.
 struct LoadedDiagram {
   struct Block {
-    std::string name;
+    std::string name;  ///< its path: `left.plant` of a file that is used as `left`
     std::string type;
     Value params;  ///< as given, with ${...} worked out and paths of files resolved
     files::Catalogue::Row row;
+    /// By the names in its file.
+    std::shared_ptr<const systems::ModelSet> models;
+  };
+  /// A diagram file that another one uses: a system of type Diagram.
+  struct UsedFile {
+    std::string path;  ///< of the system
+    std::string file;
+    Value document, resolved;  ///< as below
+    Value::Map given;          ///< parameters, worked out
   };
 
   std::string file;
@@ -37,8 +46,9 @@ struct LoadedDiagram {
   std::string name;
   std::string description;
   files::SimulatorParams simulator;
-  systems::ModelSet models;
+  systems::ModelSet models;  ///< by full names
   std::vector<Block> systems;
+  std::vector<UsedFile> used_files;  ///< each before those that it uses itself
   std::unique_ptr<Diagram> diagram;
   std::vector<files::RecordedSignal> record;
   Period scene_period{1, 60};  ///< of the scene in a record
@@ -52,6 +62,9 @@ struct LoadedDiagram {
 
 /// The name under which a part exports a port: `plant_position` for `plant.position`.
 std::string ExportedName(std::string port);
+
+/// Where overrides find a system, by its path: `systems.plant`, `left.systems.plant`.
+std::string OverridePath(const std::string& path);
 
 /// The systems that stand for nothing outside (systems::Boundary), by path: the part that a robot's
 /// own loop runs.

@@ -10,7 +10,9 @@
 namespace oca::loading {
 
 bool Part::Has(const std::string& system) const {
-  return whole() || std::find(systems_.begin(), systems_.end(), system) != systems_.end();
+  return whole() || std::any_of(systems_.begin(), systems_.end(), [&](const std::string& name) {
+           return system == name || system.starts_with(name + ".");
+         });
 }
 
 void Part::CheckNames(const std::vector<std::string>& known, const Location& location,

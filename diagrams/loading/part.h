@@ -16,6 +16,7 @@ class Part {
   explicit Part(std::vector<std::string> systems) : systems_(std::move(systems)) {}
 
   bool whole() const { return systems_.empty(); }
+  /// By its path; `left` has all that is in it.
   bool Has(const std::string& system) const;
   /// Adds a problem at `location` for each name that is none of `known`.
   void CheckNames(const std::vector<std::string>& known, const Location& location,

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -91,7 +92,7 @@ std::set<std::string> KnownToAlternatives(const files::DocumentSources& sources)
   return known;
 }
 
-void Resolve(ResolvedDocument& read, Problems& problems) {
+void Resolve(const GivenParameters* given, ResolvedDocument& read, Problems& problems) {
   const Value* const parameters = read.document.Find("parameters");
   if (parameters != nullptr && parameters->map() == nullptr && !parameters->null()) {
     problems.Add(parameters->location(),
@@ -107,6 +108,9 @@ void Resolve(ResolvedDocument& read, Problems& problems) {
   }
   read.root = Value(std::move(resolved), read.document.location());
   std::set<std::string> known = KnownToParts(read);
+  if (given != nullptr) {  // what the other file gives to all its uses, not all need to use
+    for (const Value::Entry& entry : *given->map.map()) known.insert(entry.key);
+  }
   read.warnings = expressions.Unused(known);
   if (!read.warnings.empty()) {  // read the others only where it matters
     known.merge(KnownToAlternatives(read.sources));
@@ -114,18 +118,62 @@ void Resolve(ResolvedDocument& read, Problems& problems) {
   }
 }
 
+/// Puts the parameters that another file gives in place of those of the document.
+void Give(const GivenParameters& given, const fs::path& file, ResolvedDocument& read) {
+  Value* section = nullptr;
+  for (Value::Entry& entry : *read.document.map()) {
+    if (entry.key == "parameters" && entry.value.map() != nullptr) section = &entry.value;
+  }
+  std::vector<std::string> names;
+  if (section != nullptr) {
+    for (const Value::Entry& entry : *section->map()) names.push_back(entry.key);
+  }
+  std::optional<std::set<std::string>> elsewhere;  // looked up if need be
+  for (const Value::Entry& entry : *given.map.map()) {
+    const auto known = std::find(names.begin(), names.end(), entry.key);
+    if (known != names.end()) {
+      Value& own = (*section->map())[static_cast<std::size_t>(known - names.begin())].value;
+      if (!entry.value.null()) own = entry.value;  // of nothing has been told
+      continue;
+    }
+    if (!elsewhere) elsewhere = KnownToAlternatives(read.sources);
+    if (elsewhere->contains(entry.key)) continue;
+    given.problems->Add(entry.location,
+                        fmt::format("{}.{}: {} has no such parameter{}", given.where, entry.key,
+                                    file.string(), DidYouMean(entry.key, names)));
+  }
+}
+
+void RefuseSampling(const Value& document, Problems& problems) {
+  for (const Value::Entry& entry : *document.map()) {
+    if (entry.key != "sampling") continue;
+    problems.Add(entry.location,
+                 "sampling: got a file that draws scenarios; expected none in a file that another "
+                 "one uses: what a run draws, its own file says");
+  }
+}
+
 }  // namespace
 
 ResolvedDocument ReadResolved(const fs::path& file, const std::vector<files::Override>& overrides,
-                              const files::Catalogue& catalogue, Problems& problems) {
+                              const files::Catalogue& catalogue, Problems& problems,
+                              const GivenParameters* given) {
   ResolvedDocument read;
-  read.document = files::LoadFiles(file, overrides, problems, &read.sources);
+  read.document = files::LoadFiles(file, overrides, problems, &read.sources,
+                                   given == nullptr ? nullptr : &given->map);
   problems.Throw();
-  Draw(overrides, catalogue, read, problems);
-  files::ApplyOverrides(overrides, read.document, problems);
+  std::vector<files::Override> own = overrides;
+  read.inner_overrides = files::TakeInner(own, read.document);
+  if (given != nullptr) {
+    RefuseSampling(read.document, problems);
+    Give(*given, file, read);
+  } else {
+    Draw(own, catalogue, read, problems);
+  }
+  files::ApplyOverrides(own, read.document, problems);
   problems.Throw();
   CheckKeys(read.document, problems);
-  Resolve(read, problems);
+  Resolve(given, read, problems);
   return read;
 }
 

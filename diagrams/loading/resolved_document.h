@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -19,13 +20,24 @@ struct ResolvedDocument {
   sampling::Scenario scenario;  ///< what was drawn
   files::DocumentSources sources;
   std::vector<std::string> warnings;  ///< of parameters that nothing uses, a line each
+  /// Of files that it uses, by the names of the systems that they are.
+  std::map<std::string, std::vector<files::Override>> inner_overrides;
+};
+
+/// What another file gives to a diagram file that it uses.
+struct GivenParameters {
+  Value map;            ///< from names to values
+  std::string where;    ///< it stands there, for messages: `systems.left.parameters`
+  Problems* problems;   ///< of the other file
 };
 
 /// Reads the file and those it includes, draws its scenario, applies `overrides` and works out all
 /// ${...}. What is wrong with an expression or a key is added to `problems`.
-/// throws ConfigError with all problems if there are any before that
+/// `given`, if another file uses this one, takes the place of its parameters; it may draw no
+/// scenario then. throws ConfigError with all problems if there are any before that
 ResolvedDocument ReadResolved(const std::filesystem::path& file,
                               const std::vector<files::Override>& overrides,
-                              const files::Catalogue& catalogue, Problems& problems);
+                              const files::Catalogue& catalogue, Problems& problems,
+                              const GivenParameters* given = nullptr);
 
 }  // namespace oca::loading

@@ -6,20 +6,25 @@
 #include <algorithm>
 #include <utility>
 
+#include "oca/diagrams/files/diagram_file.h"
 #include "oca/diagrams/files/section.h"
 #include "oca/diagrams/foresight/tree_source.h"
+#include "oca/diagrams/loading/assembly.h"
+#include "oca/diagrams/loading/used_file.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/nearest.h"
 #include "oca/systems/signals/roles.h"
 
 namespace oca::loading {
 
-SystemSection::SystemSection(const Value& root, const Part& part, const files::Catalogue& catalogue,
-                             files::ModelSection& models, DiagramBuilder& builder,
+SystemSection::SystemSection(const Value& root, const Level& level, const SystemSources& sources,
+                             Construction& construction, DiagramBuilder& builder,
                              Problems& problems)
     : root_(root),
-      part_(part),
-      catalogue_(catalogue),
-      models_(models),
+      level_(level),
+      sources_(sources),
+      models_(std::make_shared<const systems::ModelSet>(sources.models.models())),
+      construction_(construction),
       builder_(builder),
       problems_(problems) {
   if (root.Find("systems") == nullptr) {
@@ -30,6 +35,8 @@ SystemSection::SystemSection(const Value& root, const Part& part, const files::C
   for (const Value::Entry& entry : Entries()) Read(entry);
 }
 
+SystemSection::~SystemSection() = default;
+
 const Value::Map& SystemSection::Entries() const {
   return files::SectionOf(root_, "systems", problems_);
 }
@@ -38,22 +45,21 @@ bool SystemSection::Names(const std::string& name) const {
   return std::find(names_.begin(), names_.end(), name) != names_.end();
 }
 
-const System* SystemSection::Find(const std::string& name) const {
-  const auto found = made_.find(name);
-  return found == made_.end() ? nullptr : found->second.system;
-}
-
-const Location* SystemSection::LocationOf(const std::string& name) const {
-  const auto found = made_.find(name);
-  return found == made_.end() ? nullptr : &found->second.location;
-}
-
 files::NamedOutputs SystemSection::Outputs() const {
   files::NamedOutputs outputs;
-  for (const LoadedDiagram::Block& block : blocks_) {
-    const System& system = *Find(block.name);
-    for (const System::OutputInfo& output : system.outputs()) {
-      outputs.emplace_back(block.name + "." + output.name, system.FindOutput(output.name));
+  for (const Built& built : built_) {
+    for (const System::OutputInfo& output : built.system->outputs()) {
+      outputs.emplace_back(built.name + "." + output.name, built.system->FindOutput(output.name));
+    }
+  }
+  return outputs;
+}
+
+files::NamedOutputs SystemSection::NamedByUsedFiles() const {
+  files::NamedOutputs outputs;
+  for (const auto& used : used_) {
+    for (const auto& [name, output] : used->outputs()) {
+      if (output.built) outputs.emplace_back(used->name() + "." + name, output.handle);
     }
   }
   return outputs;
@@ -62,10 +68,20 @@ files::NamedOutputs SystemSection::Outputs() const {
 void SystemSection::Read(const Value::Entry& entry) {
   const std::string where = "systems." + entry.key;
   names_.push_back(entry.key);
+  if (entry.key == "inputs" || entry.key == "outputs") {
+    problems_.Add(entry.location, fmt::format("{}: stands for the ports of the file, in "
+                                              "connections; expected another name",
+                                              where));
+    return;
+  }
   const Value* const type = TypeOf(entry, where);
   if (type == nullptr) return;
   try {
-    Make(entry, *type, where);
+    if (*type->string() == files::kDiagramType) {
+      Use(entry);
+    } else {
+      Make(entry, *type, where);
+    }
   } catch (const WiringError& error) {
     problems_.Add(entry.location, fmt::format("{}: {}", where, error.what()));
   } catch (const ConfigError& error) {
@@ -96,29 +112,54 @@ void SystemSection::Make(const Value::Entry& entry, const Value& type, const std
   for (const Value::Entry& field : *entry.value.map()) {
     if (field.key != "type") rest.push_back(field);
   }
-  foresight::TellGoal(Entries(), catalogue_, rest);
-  const files::Catalogue::Row& row = catalogue_.Find(*type.string());
-  Value params = models_.ResolveFiles(Value(std::move(rest), entry.value.location()));
+  Value::Map systems = sources_.outer_systems;
+  systems.insert(systems.end(), Entries().begin(), Entries().end());
+  foresight::TellGoal(systems, construction_.catalogue, rest);
+  const files::Catalogue::Row& row = construction_.catalogue.Find(*type.string());
+  Value params = sources_.models.ResolveFiles(Value(std::move(rest), entry.value.location()));
   // A model that did not load has been reported; its users would only repeat it.
-  if (models_.failed() && row->needs_models) return;
-  auto system = row->Make(params, where, models_.models(), problems_);
+  if (sources_.models.failed() && row->needs_models) return;
+  auto system = row->Make(params, where, sources_.models.models(), problems_);
   if (!system) return;
-  Made& made = made_[entry.key] = {system.get(), entry.location};
+  const std::string path = level_.Full(entry.key);
+  Made& made = made_[entry.key] = {.system = system.get()};
+  construction_.systems[path] = {entry.location, level_.path};
   KeepWarnings(*system, where, entry.location);
-  if (!part_.Has(entry.key)) {
+  if (!construction_.part.Has(path)) {
     outside_.push_back(std::move(system));
     return;
   }
   made.system = nullptr;  // until the builder has taken it
   made.system = &builder_.AddSystem(entry.key, std::move(system));
-  blocks_.push_back({entry.key, row->type, std::move(params), row});
+  built_.push_back({entry.key, made.system});
+  blocks_.push_back({path, row->type, std::move(params), row, models_});
+}
+
+/// Reads another file as a system of this one.
+void SystemSection::Use(const Value::Entry& entry) {
+  SystemSources inner = sources_;
+  inner.outer_systems.insert(inner.outer_systems.end(), Entries().begin(), Entries().end());
+  auto used = std::make_unique<UsedFile>(entry, level_, inner, construction_, problems_);
+  if (!used->read()) return;
+  SystemSection& systems = used->assembly().systems();
+  for (const std::string& name : systems.names()) names_.push_back(entry.key + "." + name);
+  made_[entry.key] = {.file = used.get()};
+  if (!systems.built().empty()) {
+    builder_.AddSystem(entry.key, used->Build());
+    for (const Built& built : systems.built()) {
+      built_.push_back({entry.key + "." + built.name, built.system});
+    }
+    for (LoadedDiagram::Block& block : systems.TakeBlocks()) blocks_.push_back(std::move(block));
+  }
+  used_.push_back(std::move(used));
 }
 
 void SystemSection::KeepWarnings(const System& system, const std::string& where,
                                  const Location& location) {
   for (const auto* const remarks : system.roles<systems::Remarks>()) {
     for (const std::string& line : remarks->warnings) {
-      warnings_.push_back(fmt::format("{}: warning: {}: {}", location.ToString(), where, line));
+      construction_.warnings.Add(
+          level_.path, fmt::format("{}: warning: {}: {}", location.ToString(), where, line));
     }
   }
 }

@@ -3,46 +3,71 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "oca/diagrams/files/catalogue.h"
 #include "oca/diagrams/files/model_section.h"
 #include "oca/diagrams/files/output_sections.h"
+#include "oca/diagrams/files/override.h"
+#include "oca/diagrams/loading/construction.h"
 #include "oca/diagrams/loading/loaded_diagram.h"
-#include "oca/diagrams/loading/part.h"
 #include "oca/framework/dataflow/diagram.h"
 #include "oca/framework/dataflow/value.h"
 
 namespace oca::loading {
 
+class UsedFile;
+
+/// What the systems of a file are made from, beside the file.
+struct SystemSources {
+  files::ModelSection& models;
+  /// Of the files that it uses, by the names of the systems that they are.
+  const std::map<std::string, std::vector<files::Override>>& inner_overrides;
+  /// Sections `systems` of the files that use this one.
+  Value::Map outer_systems{};
+};
+
 /// Section `systems` of a diagram file: makes all of them, and adds those of the part to the
-/// builder.
+/// builder. Files that it uses are read, made and added on the way.
 class SystemSection {
  public:
   /// From a tree whose ${...} are worked out; what is wrong is added to `problems`. Those outside
   /// of the part live as long as this.
-  SystemSection(const Value& root, const Part& part, const files::Catalogue& catalogue,
-                files::ModelSection& models, DiagramBuilder& builder, Problems& problems);
+  SystemSection(const Value& root, const Level& level, const SystemSources& sources,
+                Construction& construction, DiagramBuilder& builder, Problems& problems);
+  ~SystemSection();
 
-  /// Those that the file names, made or not.
+  /// Those that the file names, made or not, and those of files that it uses: `left`, `left.plant`.
   const std::vector<std::string>& names() const { return names_; }
   bool Names(const std::string& name) const;
-  /// One that could be made, in the part or outside; nullptr if there is none.
-  const System* Find(const std::string& name) const;
-  /// Where the file names one that could be made; nullptr if there is none.
-  const Location* LocationOf(const std::string& name) const;
-  /// Those of the part.
-  const std::vector<LoadedDiagram::Block>& blocks() const { return blocks_; }
-  /// What they have to say (systems::Remarks), a line each, with its place.
-  const std::vector<std::string>& warnings() const { return warnings_; }
-  /// All outputs of the part.
+  /// Those of the part, in order; of files that it uses too, with their paths in this file.
+  struct Built {
+    std::string name;
+    const System* system;
+  };
+  const std::vector<Built>& built() const { return built_; }
+  /// The same, as they came to be; of this file and, through blocks(), of those that it uses.
+  std::vector<LoadedDiagram::Block> TakeBlocks() { return std::move(blocks_); }
+  const std::vector<std::unique_ptr<UsedFile>>& used_files() const { return used_; }
+  /// All outputs of the part, `system.output`.
   files::NamedOutputs Outputs() const;
+  /// Those that files which it uses give a name, `left.position`.
+  files::NamedOutputs NamedByUsedFiles() const;
+
+  /// A port by `system.port`, where `system` may be a file that this one uses, whose outputs all are
+  /// to be had by their paths in it; none if the system could not be made, which has been reported.
+  /// throw WiringError if there is no such port.
+  std::optional<OutputAt> FindOutput(const std::string& path) const;
+  std::optional<std::vector<InputAt>> FindInputs(const std::string& path) const;
+  /// All that systems and used files have, as `system.port`.
+  std::vector<std::string> OutputNames() const;
+  std::vector<std::string> InputNames() const;
 
  private:
   struct Made {
-    const System* system;
-    Location location;
+    const System* system{nullptr};      // or
+    const UsedFile* file{nullptr};
   };
 
   const Value::Map& Entries() const;
@@ -50,19 +75,24 @@ class SystemSection {
   /// The type that an entry names; nullptr if it names none.
   const Value* TypeOf(const Value::Entry& entry, const std::string& where);
   void Make(const Value::Entry& entry, const Value& type, const std::string& where);
+  void Use(const Value::Entry& entry);
   void KeepWarnings(const System& system, const std::string& where, const Location& location);
+  /// What the first name of a path leads to, and the rest of it.
+  std::pair<const Made*, std::string> Follow(const std::string& path) const;
 
   const Value& root_;
-  const Part& part_;
-  const files::Catalogue& catalogue_;
-  files::ModelSection& models_;
+  const Level& level_;
+  const SystemSources& sources_;
+  const std::shared_ptr<const systems::ModelSet> models_;
+  Construction& construction_;
   DiagramBuilder& builder_;
   Problems& problems_;
   std::vector<std::string> names_;
   std::map<std::string, Made> made_;
   std::vector<std::unique_ptr<System>> outside_;  // of the part
+  std::vector<std::unique_ptr<UsedFile>> used_;
+  std::vector<Built> built_;
   std::vector<LoadedDiagram::Block> blocks_;
-  std::vector<std::string> warnings_;
 };
 
 }  // namespace oca::loading

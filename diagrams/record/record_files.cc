@@ -58,8 +58,11 @@ class FileCollector {
  public:
   explicit FileCollector(const loading::LoadedDiagram& loaded)
       : base_(fs::absolute(loaded.file).parent_path()),
-        opened_(loaded.opened.begin(), loaded.opened.end()) {
-    const Value* const packages = loaded.resolved.Find("packages");
+        opened_(loaded.opened.begin(), loaded.opened.end()) {}
+
+  /// Looks up packages as the file says, too.
+  void AddPackagesOf(const Value& resolved) {
+    const Value* const packages = resolved.Find("packages");
     if (packages == nullptr || packages->map() == nullptr) return;
     for (const Value::Entry& entry : *packages->map()) {
       const fs::path folder = *entry.value.string();
@@ -67,6 +70,8 @@ class FileCollector {
           folder.is_absolute() ? folder : FolderOf(entry.value.location()) / folder;
     }
   }
+  const files::PackageMap& packages() const { return packages_; }
+  void SetPackages(files::PackageMap packages) { packages_ = std::move(packages); }
 
   /// The document with files named as they are attached; `resolved` is the same tree, `${...}`
   /// worked out, of which parameters are left out.
@@ -188,7 +193,7 @@ class FileCollector {
 
   const fs::path base_;
   const std::set<fs::path> opened_;
-  std::map<std::string, fs::path> packages_;
+  files::PackageMap packages_;
   std::map<std::string, std::string> files_;  ///< by name of the attachment
 };
 
@@ -254,26 +259,99 @@ void Set(Value::Map& map, const std::string& key, Value value) {
   }
 }
 
-}  // namespace
+/// The name under which a used file is attached.
+std::string NameOf(const loading::LoadedDiagram::UsedFile& used) {
+  return "diagram." + used.path + ".yaml";
+}
 
-std::vector<McapAttachment> FilesOf(const loading::LoadedDiagram& loaded, double duration) {
-  FileCollector collector(loaded);
-  Value document = collector.Rewrite(loaded.document, &loaded.resolved);
-  Value::Map& map = *document.map();
-  Set(map, "name", Value(loaded.name, {}));
-  std::erase_if(map, [](const Value::Entry& entry) { return entry.key == "packages"; });
-  const Value packages = collector.Packages();
-  if (!packages.map()->empty()) Set(map, "packages", packages);
-  if (duration != loaded.simulator.duration) {
+/// A tree with the files that it uses named as they are attached. `path`: of the use, or empty.
+Value WithUsedFiles(const loading::LoadedDiagram& loaded, const std::string& path, Value tree) {
+  const std::string prefix = path.empty() ? "" : path + ".";
+  for (const auto& used : loaded.used_files) {
+    if (!used.path.starts_with(prefix)) continue;
+    const std::string name = used.path.substr(prefix.size());
+    if (name.find('.') != std::string::npos) continue;
+    for (Value::Entry& section : *tree.map()) {
+      if (section.key != "systems") continue;
+      for (Value::Entry& system : *section.value.map()) {
+        if (system.key == name) Set(*system.value.map(), "file", Value(NameOf(used), {}));
+      }
+    }
+  }
+  return tree;
+}
+
+/// A used file that knows all that it is given: what only other parts that could be chosen know is
+/// a parameter of its own.
+void AddGiven(const loading::LoadedDiagram::UsedFile& used, Value& document) {
+  for (const Value::Entry& given : used.given) {
+    const Value* const parameters = document.Find("parameters");
+    if (parameters != nullptr && parameters->Find(given.key) != nullptr) continue;
+    Value::Map all = parameters != nullptr && parameters->map() != nullptr ? *parameters->map()
+                                                                           : Value::Map{};
+    all.push_back(given);
+    Set(*document.map(), "parameters", Value(std::move(all), {}));
+  }
+}
+
+/// Writes the documents of a run, first the diagram's own, each with its name.
+class DocumentWriter {
+ public:
+  explicit DocumentWriter(const loading::LoadedDiagram& loaded)
+      : loaded_(loaded), collector_(loaded) {
+    collector_.AddPackagesOf(loaded.resolved);
+    own_ = collector_.packages();
+  }
+
+  std::vector<McapAttachment> Write(double duration) {
+    std::vector<std::pair<std::string, Value>> documents;
+    documents.emplace_back("diagram.yaml", Rewrite("", loaded_.document, loaded_.resolved));
+    Set(*documents.front().second.map(), "name", Value(loaded_.name, {}));
+    if (duration != loaded_.simulator.duration) SetDuration(duration, documents.front().second);
+    for (const auto& used : loaded_.used_files) {
+      collector_.AddPackagesOf(used.resolved);
+      Value document = used.document;
+      AddGiven(used, document);
+      documents.emplace_back(NameOf(used), Rewrite(used.path, document, used.resolved));
+      collector_.SetPackages(own_);
+    }
+    std::vector<McapAttachment> attachments;
+    const Value packages = collector_.Packages();
+    for (auto& [name, document] : documents) {
+      if (!packages.map()->empty()) Set(*document.map(), "packages", packages);
+      attachments.push_back({0, name, "application/yaml", WriteYaml(document)});
+    }
+    for (McapAttachment& file : collector_.Take()) attachments.push_back(std::move(file));
+    return attachments;
+  }
+
+ private:
+  Value Rewrite(const std::string& path, const Value& document, const Value& resolved) {
+    const Value as_attached = WithUsedFiles(loaded_, path, resolved);
+    Value written =
+        collector_.Rewrite(WithUsedFiles(loaded_, path, document), &as_attached);
+    std::erase_if(*written.map(),
+                  [](const Value::Entry& entry) { return entry.key == "packages"; });
+    return written;
+  }
+
+  static void SetDuration(double duration, Value& document) {
     const Value* const section = document.Find("simulator");
     Value simulator =
         section != nullptr && section->map() != nullptr ? *section : Value(Value::Map{}, {});
     Set(*simulator.map(), "duration", Value(duration, {}));
-    Set(map, "simulator", std::move(simulator));
+    Set(*document.map(), "simulator", std::move(simulator));
   }
-  std::vector<McapAttachment> attachments = collector.Take();
-  attachments.insert(attachments.begin(),
-                     {0, "diagram.yaml", "application/yaml", WriteYaml(document)});
+
+  const loading::LoadedDiagram& loaded_;
+  FileCollector collector_;
+  files::PackageMap own_;
+};
+
+}  // namespace
+
+std::vector<McapAttachment> FilesOf(const loading::LoadedDiagram& loaded, double duration) {
+  std::vector<McapAttachment> attachments = DocumentWriter(loaded).Write(duration);
   AddSources(loaded, duration, attachments);
   return attachments;
 }

@@ -171,9 +171,10 @@ class Probe {
     for (const auto& block : loaded.systems) {
       const System* const original = diagram.FindSystem(block.name);
       if (std::find(needed.begin(), needed.end(), original) == needed.end()) continue;
-      auto copy = block.row->Make(block.params, block.name, loaded.models, problems);
+      auto copy = block.row->Make(block.params, block.name, *block.models, problems);
       problems.Throw();
-      copies_.emplace_back(original, &builder_.AddSystem(block.name, std::move(copy)));
+      copies_.emplace_back(original, &builder_.AddSystem(loading::ExportedName(block.name),
+                                                         std::move(copy)));
     }
     for (const auto& [original, copy] : copies_) {
       if (original == loop_.kinematics) continue;
@@ -265,8 +266,8 @@ std::vector<std::string> ChatterWarnings(const loading::LoadedDiagram& loaded) {
     }
     if (!warning) continue;
     const auto& named = loaded.BlockOf(loop->relaxation == nullptr ? *mapping : *loop->relaxation);
-    warnings.push_back(fmt::format("{}: warning: systems.{}: {}",
-                                   named.params.location().ToString(), named.name, *warning));
+    warnings.push_back(fmt::format("{}: warning: {}: {}", named.params.location().ToString(),
+                                   loading::OverridePath(named.name), *warning));
   }
   return warnings;
 }

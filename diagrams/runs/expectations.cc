@@ -16,10 +16,9 @@ namespace {
 
 using systems::MotionMetricsValue;
 
-std::optional<double> ValueOf(const files::Expectation& expectation,
-                              const loading::LoadedDiagram& loaded, const Context& context) {
-  if (expectation.metric) {
-    const auto metrics = WorstOf(JudgementsOf(loaded, context));
+std::optional<double> ValueOf(const files::Expectation& expectation, const Context& context) {
+  if (!expectation.judges.empty()) {
+    const auto metrics = WorstOf(JudgementsOf(expectation.judges, context));
     return metrics ? systems::NumberIn(*metrics, expectation.member) : std::nullopt;
   }
   if (expectation.member.empty()) {
@@ -97,7 +96,7 @@ void ExpectationCheck::CheckAt(double stop, const loading::LoadedDiagram& loaded
   for (std::size_t i = 0; i < results_.size(); ++i) {
     ExpectationResult& result = results_[i];
     if (result.at != stop || result.value) continue;
-    result.value = ValueOf(loaded.expectations[i], loaded, context);
+    result.value = ValueOf(loaded.expectations[i], context);
     result.ok = result.value && Holds(loaded.expectations[i].bound, *result.value);
   }
 }

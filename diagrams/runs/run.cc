@@ -214,9 +214,13 @@ bool RunResult::ExpectationsMet() const {
 }
 
 std::vector<Judgement> JudgementsOf(const LoadedDiagram& loaded, const Context& context) {
+  return JudgementsOf(loaded.metrics, context);
+}
+
+std::vector<Judgement> JudgementsOf(const files::NamedOutputs& judges, const Context& context) {
   std::vector<Judgement> judgements;
   try {
-    for (const auto& [name, output] : loaded.metrics) {
+    for (const auto& [name, output] : judges) {
       judgements.push_back({name, Typed<systems::MotionMetricsValue>(output).Eval(context)});
     }
   } catch (const SimulationError&) {

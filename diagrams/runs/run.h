@@ -57,6 +57,8 @@ struct RunOptions {
 /// What the diagram's judges say by now, one a system; empty if one cannot be computed.
 /// throws WiringError if what a judge calls its metrics are none.
 std::vector<Judgement> JudgementsOf(const loading::LoadedDiagram& loaded, const Context& context);
+/// The same of some judges.
+std::vector<Judgement> JudgementsOf(const files::NamedOutputs& judges, const Context& context);
 
 /// Refuses outputs that would replace a file that the run is made from, or one another.
 /// throws ConfigError naming the two

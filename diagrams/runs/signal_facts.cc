@@ -36,9 +36,8 @@ void SignalFacts::ClaimModels() {
   for (const loading::LoadedDiagram::Block& block : loaded_.systems) {
     if (block.row == nullptr || !block.row->needs_models) continue;
     const Value* const model = block.params.Find("model");
-    std::string name = model != nullptr && model->string() != nullptr ? *model->string() : "";
-    if (name.empty() && loaded_.models.all().size() == 1)
-      name = loaded_.models.all().begin()->first;
+    const std::string name = block.models->FullName(
+        model != nullptr && model->string() != nullptr ? *model->string() : "");
     if (!name.empty()) Claim(*loaded_.diagram->FindSystem(block.name), name);
   }
 }

@@ -163,6 +163,10 @@ std::unique_ptr<Diagram> DiagramBuilder::Build() {
   return std::exchange(diagram_, std::unique_ptr<Diagram>(new Diagram));
 }
 
+std::unique_ptr<Diagram> DiagramBuilder::BuildInner() {
+  return std::exchange(diagram_, std::unique_ptr<Diagram>(new Diagram));
+}
+
 std::unique_ptr<Diagram> MakeDiagramOf(std::unique_ptr<System> system,
                                        const std::map<std::string, int>& sizes) {
   DiagramBuilder builder;

@@ -187,6 +187,9 @@ class DiagramBuilder {
   /// throws WiringError with all problems: unconnected inputs, inputs with two drivers, unequal
   /// types, sizes or units, algebraic loops.
   std::unique_ptr<Diagram> Build();
+  /// The diagram as it was put together, to be added to another builder, whose Build finds all that
+  /// is wrong in it. Inputs in it may be driven from there. The builder is empty afterwards.
+  std::unique_ptr<Diagram> BuildInner();
 
  private:
   std::unique_ptr<Diagram> diagram_;

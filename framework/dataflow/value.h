@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -83,6 +84,8 @@ class Problems {
   void Add(const Location& location, const std::string& what);
   /// Adds the problems of another collection.
   void Add(const Problems& others);
+  /// Adds one as all() has it.
+  void AddLine(std::string line) { all_.push_back(std::move(line)); }
   bool empty() const { return all_.empty(); }
   const std::vector<std::string>& all() const { return all_; }
   /// throws ConfigError with all problems, a line each, if there are any.

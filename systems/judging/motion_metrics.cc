@@ -45,7 +45,7 @@ MotionMetrics::MotionMetrics(const Params& params, const ModelSet& models)
                      .request = request,
                      .delta = delta,
                      .proximities = proximities,
-                     .model = params.model});
+                     .model = models.FullName(params.model)});
   DeclareRole(Plots{.id = "requested", .title = "Requested joints", .signal = request});
   DeclareRole(Plots{.id = "delta", .title = "Deltas of the avoidance", .signal = delta});
   DeclareRole(Plots{.id = "final", .title = "Final joints", .signal = position});

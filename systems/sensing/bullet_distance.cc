@@ -63,11 +63,12 @@ void BulletDistance::Params::Describe(Fields<Params>& fields) {
   fields.Add("self_collision", &Params::self_collision, "",
              "whether links of the robot itself count as obstacles, but for adjacent ones and "
              "those disabled in the SRDF");
-  fields.Add("others", &Params::others, "", "models whose links count as obstacles");
+  fields.Add("others", &Params::others, "",
+             "models whose links count as obstacles; [\"*\"]: all others of the diagram");
 }
 
 BulletDistance::BulletDistance(const Params& params, const ModelSet& models)
-    : name_(NameOfModel(models, Validated(params).model)),
+    : name_(models.FullName(Validated(params).model)),
       model_(MovableModel(models, params.model)),
       max_distance_(params.max_distance),
       self_collision_(params.self_collision),
@@ -94,13 +95,20 @@ void BulletDistance::DeclareRoles(const Params& params, const ModelSet& models) 
                              .obstacles = obstacles,
                              .model = name_,
                              .own_links = self_collision_};
-  for (const std::string& name : link_forces_ ? params.others : std::vector<std::string>()) {
+  const auto add = [&](const std::string& name) {
     std::size_t i = 0;
     while (others_[i].name != name) ++i;
     const bool moves = i < links_of_others.size();
     measures.others.push_back({name, moves ? InputHandle(links_of_others[i]) : InputHandle{}});
+  };
+  if (link_forces_ && LooksAtAll(params)) {
+    for (const Other& other : others_) add(other.name);
+  } else if (link_forces_) {
+    for (const std::string& name : params.others) add(models.FullName(name));
   }
-  for (const auto& pair : params.ignore) measures.ignored.emplace_back(pair[0], pair[1]);
+  for (const auto& pair : params.ignore) {
+    measures.ignored.emplace_back(pair[0], FullLinkName(models, pair[1]));
+  }
   DeclareRole(std::move(measures));
   DeclareRole(BlindSpots{.spots =
                              [params, models](const std::string& own_name) {
@@ -117,7 +125,9 @@ std::vector<Input<LinkPoses>> BulletDistance::DeclareOtherLinks() {
   }
   std::vector<Input<LinkPoses>> inputs;
   for (std::size_t i = 0; i < moving_others_; ++i) {
-    inputs.push_back(DeclareInput<LinkPoses>("links_" + others_[i].name));
+    std::string port = "links_" + others_[i].name;
+    std::replace(port.begin(), port.end(), '.', '_');
+    inputs.push_back(DeclareInput<LinkPoses>(port));
   }
   return inputs;
 }

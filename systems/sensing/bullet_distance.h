@@ -42,7 +42,8 @@ namespace oca::systems {
 ///
 /// in    links         LinkPoses    of `model`
 /// in    obstacles     ObstacleSet
-/// in    links_<name>  LinkPoses    for each of `others` that has movable joints; with velocities
+/// in    links_<name>  LinkPoses    for each of `others` that has movable joints; with velocities;
+///                                  by its full name, `_` for a dot
 /// out   proximities   ProximitySet
 /// state -
 /// throws ConfigError if a model or a link of `ignore` does not exist, no movable link of the model
@@ -82,8 +83,10 @@ class BulletDistance final : public System {
     std::shared_ptr<const robot::RobotModel> model;
     std::vector<Neighbour> links;
   };
-  /// An empty name stands for the only model there is.
-  static std::string NameOfModel(const ModelSet& models, const std::string& name);
+  /// `others: ["*"]`
+  static bool LooksAtAll(const Params& params);
+  /// Of an entry of `ignore`: the model's full name before the link's; an obstacle's id as it is.
+  static std::string FullLinkName(const ModelSet& models, const std::string& name);
   static std::vector<Neighbour> MakeNeighbours(const std::string& name,
                                                const robot::RobotModel& model);
   static std::vector<Other> MakeOthers(const Params& params, const ModelSet& models);

@@ -24,8 +24,14 @@ int LowestMovable(const robot::RobotModel& model) {
 
 }  // namespace
 
-std::string BulletDistance::NameOfModel(const ModelSet& models, const std::string& name) {
-  return name.empty() && models.all().size() == 1 ? models.all().begin()->first : name;
+bool BulletDistance::LooksAtAll(const Params& params) {
+  return params.others.size() == 1 && params.others.front() == "*";
+}
+
+std::string BulletDistance::FullLinkName(const ModelSet& models, const std::string& name) {
+  const std::size_t slash = name.find('/');
+  if (slash == std::string::npos) return name;
+  return models.FullName(name.substr(0, slash)) + name.substr(slash);
 }
 
 std::vector<BulletDistance::Neighbour> BulletDistance::MakeNeighbours(
@@ -46,11 +52,12 @@ std::vector<BulletDistance::Neighbour> BulletDistance::MakeNeighbours(
 
 std::vector<BulletDistance::Other> BulletDistance::MakeOthers(const Params& params,
                                                               const ModelSet& models) {
+  const std::string own = models.FullName(params.model);
+  ModelSet::Models all = models.all();
+  all.erase(own);
   if (params.calculate_link_forces && params.others.empty()) {
     std::vector<std::string> names;
-    for (const auto& entry : models.all()) {
-      if (entry.first != NameOfModel(models, params.model)) names.push_back(entry.first);
-    }
+    for (const auto& entry : all) names.push_back(entry.first);
     throw ConfigError(fmt::format(
         "calculate_link_forces: got true without `others`; expected the models whose links push{}",
         names.empty()
@@ -58,15 +65,24 @@ std::vector<BulletDistance::Other> BulletDistance::MakeOthers(const Params& para
             : fmt::format(", of: {}", fmt::join(names, ", "))));
   }
   std::vector<Other> others;
-  for (const std::string& name : params.others) {
-    const auto model = models.Get(name);
-    const bool again = std::any_of(others.begin(), others.end(),
-                                   [&](const Other& other) { return other.name == name; });
-    if (name.empty() || again || name == NameOfModel(models, params.model)) {
-      throw ConfigError(
-          fmt::format("others: got '{}'; expected each other model once by its name", name));
-    }
+  const auto add = [&others](const std::string& name,
+                             const std::shared_ptr<const robot::RobotModel>& model) {
     others.push_back({name, model, MakeNeighbours(name, *model)});
+  };
+  if (LooksAtAll(params)) {
+    for (const auto& [name, model] : all) add(name, model);
+  } else {
+    for (const std::string& given : params.others) {
+      const auto model = models.Get(given);
+      const std::string name = models.FullName(given);
+      const bool again = std::any_of(others.begin(), others.end(),
+                                     [&](const Other& other) { return other.name == name; });
+      if (given.empty() || again || name == own) {
+        throw ConfigError(
+            fmt::format("others: got '{}'; expected each other model once by its name", given));
+      }
+      add(name, model);
+    }
   }
   std::stable_partition(others.begin(), others.end(),
                         [](const Other& other) { return Moves(*other.model); });
@@ -94,8 +110,8 @@ std::vector<std::pair<models::Name, models::Name>> BulletDistance::MakeIgnored(
     } catch (const std::runtime_error& error) {
       throw ConfigError(fmt::format("ignore[{}]: {}", i, error.what()));
     }
-    ignored.emplace_back(pair[0], pair[1]);
-    if (slash == std::string::npos || model != name_) continue;
+    ignored.emplace_back(pair[0], FullLinkName(models, pair[1]));
+    if (slash == std::string::npos || models.FullName(model) != name_) continue;
     ignored.emplace_back(pair[1].substr(slash + 1), name_ + "/" + pair[0]);
   }
   return ignored;

@@ -40,17 +40,18 @@ class Spots {
 
   std::vector<std::string> Find() {
     const auto model = models_.Get(params_.model);
+    own_ = models_.FullName(params_.model);
     const bool only = params_.model.empty() || models_.all().size() == 1;
-    const std::string of = only ? "" : fmt::format(" of '{}'", params_.model);
+    const std::string of = only ? "" : fmt::format(" of '{}'", own_);
     AddUnseen(*model, of);
     AddUnmovable(*model, of);
     if (!params_.self_collision && HasOwnPairs(*model)) {
       found_.push_back(fmt::format("own links{} (self_collision is off)", of));
     }
-    AddModels(model);
+    AddModels();
     std::vector<std::string> pairs;
     for (const auto& pair : params_.ignore) {
-      if (LooksAt(pair[1], model)) pairs.push_back(fmt::format("{} to {}", pair[0], pair[1]));
+      if (LooksAtPair(pair[1])) pairs.push_back(fmt::format("{} to {}", pair[0], pair[1]));
     }
     if (!pairs.empty()) found_.push_back(fmt::format("{} (ignore)", fmt::join(pairs, ", ")));
     return std::move(found_);
@@ -58,17 +59,20 @@ class Spots {
 
  private:
   /// Whether the second of an ignored pair is not of a model that is left out as a whole.
-  bool LooksAt(const std::string& name, const std::shared_ptr<const robot::RobotModel>& own) const {
-    const std::size_t slash = name.find('/');
+  bool LooksAtPair(const std::string& second) const {
+    const std::size_t slash = second.find('/');
     if (slash == std::string::npos) return true;
-    const std::string model = name.substr(0, slash);
-    return models_.Get(model) == own ? params_.self_collision : LooksAt(model);
+    const std::string model = models_.FullName(second.substr(0, slash));
+    return model == own_ ? params_.self_collision : LooksAt(model);
   }
 
+  /// At another model, by its full name.
   bool LooksAt(const std::string& other) const {
     const auto& others = params_.others;
     return params_.calculate_link_forces &&
-           std::find(others.begin(), others.end(), other) != others.end();
+           std::any_of(others.begin(), others.end(), [&](const std::string& name) {
+             return name == "*" || models_.FullName(name) == other;
+           });
   }
 
   void AddUnseen(const robot::RobotModel& model, const std::string& of) {
@@ -93,9 +97,9 @@ class Spots {
         fmt::format("obstacles at links{} that cannot move: {}", of, fmt::join(names, ", ")));
   }
 
-  void AddModels(const std::shared_ptr<const robot::RobotModel>& own) {
+  void AddModels() {
     for (const auto& [name, model] : models_.all()) {
-      if (model == own) continue;
+      if (name == own_) continue;
       if (LooksAt(name)) {
         AddUnseen(*model, fmt::format(" of '{}'", name));
       } else if (HasSolids(*model) || !robot::DrawnOnly(*model).empty()) {
@@ -110,6 +114,7 @@ class Spots {
   const BulletDistance::Params& params_;
   const ModelSet& models_;
   const std::string& own_name_;
+  std::string own_;  // the robot's full name
   std::vector<std::string> found_;
 };
 

@@ -12,21 +12,43 @@
 
 namespace oca::systems {
 
-void ModelSet::Add(const std::string& name, std::shared_ptr<const robot::RobotModel> model) {
-  if (!models_.emplace(name, std::move(model)).second) {
+void ModelSet::Add(const std::string& name, std::shared_ptr<const robot::RobotModel> model,
+                   const std::string& full_name) {
+  const std::string& full = full_name.empty() ? name : full_name;
+  if (!full_names_.emplace(name, full).second) {
     throw ConfigError(fmt::format("models: '{}' is defined twice", name));
+  }
+  all_.insert_or_assign(full, std::move(model));
+}
+
+void ModelSet::AddOuter(const ModelSet& outer) {
+  all_.insert(outer.all_.begin(), outer.all_.end());
+}
+
+void ModelSet::AddInner(const ModelSet& inner) {
+  for (const auto& [name, model] : inner.all_) {
+    full_names_.emplace(name, name);
+    all_.insert_or_assign(name, model);
   }
 }
 
 std::shared_ptr<const robot::RobotModel> ModelSet::Get(const std::string& name) const {
-  if (name.empty() && models_.size() == 1) return models_.begin()->second;
-  if (const auto found = models_.find(name); found != models_.end()) return found->second;
+  if (name.empty() && full_names_.size() == 1) return all_.at(full_names_.begin()->second);
+  if (const auto found = full_names_.find(name); found != full_names_.end()) {
+    return all_.at(found->second);
+  }
   std::vector<std::string> names;
-  for (const auto& entry : models_) names.push_back(entry.first);
+  for (const auto& entry : full_names_) names.push_back(entry.first);
   throw ConfigError(fmt::format(
       "model: got '{}'; expected one of: {}{}", name,
       names.empty() ? "(the file has no models)" : fmt::format("{}", fmt::join(names, ", ")),
       DidYouMean(name, names)));
+}
+
+std::string ModelSet::FullName(const std::string& name) const {
+  if (name.empty() && full_names_.size() == 1) return full_names_.begin()->second;
+  const auto found = full_names_.find(name);
+  return found == full_names_.end() ? name : found->second;
 }
 
 }  // namespace oca::systems

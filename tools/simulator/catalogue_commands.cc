@@ -23,18 +23,32 @@ void PrintPorts(const char* kind, const std::vector<Info>& ports) {
   }
 }
 
-}  // namespace
-
-int ListCommand(const files::Catalogue& catalogue) {
-  std::size_t width = 0;
-  for (const auto& row : catalogue.rows()) width = std::max(width, row->type.size());
-  for (const auto& row : catalogue.rows()) {
-    Print("{:<{}}  {}\n", row->type, width, row->doc.summary);
+/// Of type Diagram, whose ports are those of the file.
+int DescribeUsedFile() {
+  Print("{}: {}\n\n", files::kDiagramType, files::kDiagramSummary);
+  Print("ports\n  those that its connections name as inputs.NAME and outputs.NAME\n");
+  Print("\nparameters\n");
+  for (const files::Section& key : files::DiagramKeys()) {
+    Print("  {:<22} {}\n", key.key, key.meaning);
   }
   return kFine;
 }
 
+}  // namespace
+
+int ListCommand(const files::Catalogue& catalogue) {
+  std::vector<std::pair<std::string, const char*>> types{
+      {files::kDiagramType, files::kDiagramSummary}};
+  for (const auto& row : catalogue.rows()) types.emplace_back(row->type, row->doc.summary);
+  std::sort(types.begin(), types.end());
+  std::size_t width = 0;
+  for (const auto& type : types) width = std::max(width, type.first.size());
+  for (const auto& [type, summary] : types) Print("{:<{}}  {}\n", type, width, summary);
+  return kFine;
+}
+
 int DescribeCommand(const std::string& type, const files::Catalogue& catalogue) {
+  if (type == files::kDiagramType) return DescribeUsedFile();
   const files::CatalogueRow& row = *catalogue.Find(type);
   const auto example = row.MakeExample(ExampleModels());
   Print("{}: {}\n\n  {}\n", row.type, row.doc.summary, row.doc.equation);

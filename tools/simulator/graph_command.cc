@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
 #include <iterator>
 #include <memory>
@@ -46,6 +47,27 @@ std::string Escaped(const std::string& text) {
   return escaped;
 }
 
+/// Whether a path is that of a system of the file that is used at `prefix`, not deeper.
+bool IsAt(const std::string& prefix, const std::string& path) {
+  return path.starts_with(prefix) && path.find('.', prefix.size()) == std::string::npos;
+}
+
+/// Goes through the systems, file by file: calls system(block, name in its file), open(used file,
+/// its name), close().
+template <class OnSystem, class OnOpen, class OnClose>
+void VisitFiles(const loading::LoadedDiagram& loaded, const std::string& prefix,
+                const OnSystem& system, const OnOpen& open, const OnClose& close) {
+  for (const auto& block : loaded.systems) {
+    if (IsAt(prefix, block.name)) system(block, block.name.substr(prefix.size()));
+  }
+  for (const auto& used : loaded.used_files) {
+    if (!IsAt(prefix, used.path)) continue;
+    open(used, used.path.substr(prefix.size()));
+    VisitFiles(loaded, used.path + ".", system, open, close);
+    close();
+  }
+}
+
 /// Solid: computed within the instant. Dashed: a held state, which is what closes loops.
 std::string Dot(const loading::LoadedDiagram& loaded) {
   std::string dot = fmt::format(
@@ -55,11 +77,19 @@ std::string Dot(const loading::LoadedDiagram& loaded) {
       "  edge [color=\"#555555\", fontname=Helvetica, fontsize=9, fontcolor=\"#333333\", "
       "arrowsize=0.7];\n",
       Escaped(loaded.name));
-  for (const auto& block : loaded.systems) {
+  const auto system = [&](const auto& block, const std::string& name) {
     dot += fmt::format(
         "  \"{}\" [label=<<b>{}</b><br/><font point-size=\"10\" color=\"#555555\">{}</font>>];\n",
-        block.name, block.name, block.type);
-  }
+        block.name, name, block.type);
+  };
+  const auto open = [&](const auto& used, const std::string& name) {
+    dot += fmt::format(
+        "  subgraph \"cluster_{}\" {{ label=<<b>{}</b> <font point-size=\"10\">{}</font>>; "
+        "fontname=Helvetica; fontcolor=\"#333333\"; color=\"#b0bccd\"; style=rounded;\n",
+        used.path, name,
+        Escaped(std::filesystem::path(used.file).filename().string()));
+  };
+  VisitFiles(loaded, "", system, open, [&] { dot += "  }\n"; });
   for (const Edge& edge : EdgesOf(*loaded.diagram)) {
     const std::string label =
         edge.output == edge.input ? edge.output : edge.output + " → " + edge.input;
@@ -79,10 +109,13 @@ std::string Id(std::string path) {
 
 std::string Mermaid(const loading::LoadedDiagram& loaded) {
   std::string text = "flowchart LR\n";
-  for (const auto& block : loaded.systems) {
-    text +=
-        fmt::format("  {}[\"{}<br/><small>{}</small>\"]\n", Id(block.name), block.name, block.type);
-  }
+  const auto system = [&](const auto& block, const std::string& name) {
+    text += fmt::format("  {}[\"{}<br/><small>{}</small>\"]\n", Id(block.name), name, block.type);
+  };
+  const auto open = [&](const auto& used, const std::string& name) {
+    text += fmt::format("  subgraph {}[\"{}\"]\n", Id(used.path), name);
+  };
+  VisitFiles(loaded, "", system, open, [&] { text += "  end\n"; });
   for (const Edge& edge : EdgesOf(*loaded.diagram)) {
     text += fmt::format("  {} {}|{} → {}| {}\n", Id(edge.from), edge.state ? "-.->" : "-->",
                         edge.output, edge.input, Id(edge.to));

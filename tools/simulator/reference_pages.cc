@@ -68,6 +68,8 @@ std::string SystemsPage(const files::Catalogue& catalogue) {
     page +=
         fmt::format("| [{}](#{}) | {} |\n", row->type, Anchor(row->type), Cell(row->doc.summary));
   }
+  page += fmt::format("\nBeside them the type `{}` [{}](diagram_file.md#systems).\n",
+                      files::kDiagramType, files::kDiagramSummary);
   for (const auto& row : catalogue.rows()) AddSystemSection(*row, models, page);
   return page;
 }
@@ -89,7 +91,12 @@ std::string DiagramFilePage(const files::Catalogue& catalogue) {
       page +=
           "\nEach has `type`, one of [the systems](systems.md), and beside it the parameters of "
           "that\n"
-          "type.\n";
+          "type. The type `Diagram` [" +
+          std::string(files::kDiagramSummary) + "](../how-to/nest_files.md):\n\n" +
+          "| key | meaning |\n|---|---|\n";
+      for (const files::Section& key : files::DiagramKeys()) {
+        page += fmt::format("| `{}` | {} |\n", key.key, Cell(key.meaning));
+      }
       continue;
     }
     const std::string table = SchemaTable(keys);

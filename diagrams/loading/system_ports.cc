@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Ports of the systems of a file, by name, through the files that it uses.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "oca/diagrams/loading/assembly.h"
+#include "oca/diagrams/loading/system_section.h"
+#include "oca/diagrams/loading/used_file.h"
+#include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/nearest.h"
+
+namespace oca::loading {
+namespace {
+
+template <class Ports>
+const auto& FindNamed(const Ports& ports, const std::string& file, const char* kind,
+                      const std::string& name) {
+  if (const auto found = ports.find(name); found != ports.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& port : ports) names.push_back(port.first);
+  throw WiringError({fmt::format(
+      "no {0} '{1}' of {2}{3}; its {0}s are: {4}", kind, name, file, DidYouMean(name, names),
+      names.empty() ? "(none)" : fmt::format("{}", fmt::join(names, ", ")))});
+}
+
+/// Calls find(); an error begins with the name of the system.
+template <class Find>
+auto InSystem(const std::string& name, const Find& find) {
+  try {
+    return find();
+  } catch (const WiringError& error) {
+    throw WiringError({fmt::format("{}: {}", name, error.what())});
+  }
+}
+
+}  // namespace
+
+std::pair<const SystemSection::Made*, std::string> SystemSection::Follow(
+    const std::string& path) const {
+  const std::size_t dot = path.find('.');
+  const std::string name = path.substr(0, dot);
+  const auto found = made_.find(name);
+  if (found != made_.end()) return {&found->second, path.substr(dot + 1)};
+  if (!Names(name)) {
+    throw WiringError({fmt::format("no system '{}'{}", name, DidYouMean(name, names_))});
+  }
+  return {nullptr, ""};
+}
+
+std::optional<OutputAt> SystemSection::FindOutput(const std::string& path) const {
+  const std::string name = path.substr(0, path.find('.'));
+  const auto [made, rest] = Follow(path);
+  if (made == nullptr) return std::nullopt;
+  return InSystem(name, [&, made = made, &port = rest]() -> std::optional<OutputAt> {
+    if (made->system != nullptr) {
+      return OutputAt{made->system->FindOutput(port), level_.Full(path),
+                      construction_.part.Has(level_.Full(name))};
+    }
+    if (port.find('.') != std::string::npos) {
+      return made->file->assembly().systems().FindOutput(port);
+    }
+    return FindNamed(made->file->outputs(), made->file->file(), "output", port);
+  });
+}
+
+std::optional<std::vector<InputAt>> SystemSection::FindInputs(const std::string& path) const {
+  const std::string name = path.substr(0, path.find('.'));
+  const auto [made, rest] = Follow(path);
+  if (made == nullptr) return std::nullopt;
+  return InSystem(name, [&, made = made, &port = rest]() -> std::vector<InputAt> {
+    if (made->system == nullptr) {
+      return FindNamed(made->file->inputs(), made->file->file(), "input", port);
+    }
+    return {{made->system->FindInput(port), level_.Full(path),
+             construction_.part.Has(level_.Full(name))}};
+  });
+}
+
+std::vector<std::string> SystemSection::OutputNames() const {
+  std::vector<std::string> names;
+  for (const auto& [name, made] : made_) {
+    if (made.system != nullptr) {
+      for (const auto& output : made.system->outputs()) names.push_back(name + "." + output.name);
+    } else {
+      for (const auto& output : made.file->outputs()) names.push_back(name + "." + output.first);
+    }
+  }
+  return names;
+}
+
+std::vector<std::string> SystemSection::InputNames() const {
+  std::vector<std::string> names;
+  for (const auto& [name, made] : made_) {
+    if (made.system != nullptr) {
+      for (const auto& input : made.system->inputs()) names.push_back(name + "." + input.name);
+    } else {
+      for (const auto& input : made.file->inputs()) names.push_back(name + "." + input.first);
+    }
+  }
+  return names;
+}
+
+}  // namespace oca::loading
