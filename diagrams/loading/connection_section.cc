@@ -35,6 +35,21 @@ ConnectionSection::ConnectionSection(const Value& root, const Level& level,
     return;
   }
   for (const Value& item : *value->list()) Read(item);
+  CheckShownInputs();
+}
+
+/// What the file leaves to another one it must not drive itself.
+void ConnectionSection::CheckShownInputs() {
+  if (level_.path.empty()) return;  // Build finds it
+  for (const auto& [name, targets] : inputs_) {
+    for (const InputAt& target : targets) {
+      const auto own = construction_.connections.find(target.path);
+      if (own == construction_.connections.end()) continue;
+      problems_.Add(own->second.location,
+                    fmt::format("{}: two drivers; got this and inputs.{}; expected one",
+                                target.path.substr(level_.path.size() + 1), name));
+    }
+  }
 }
 
 void ConnectionSection::Read(const Value& item) {
