@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -12,86 +12,27 @@
 #include "oca/diagrams/runs/run.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/robot/robot_model.h"
-#include "tests/temporary_folder.h"
+#include "tests/diagrams/loading/nested_files.h"
 
 namespace oca::loading {
 namespace nesting_test {
 
+using nested_files::kStage;
+using nested_files::Overrides;
+using nested_files::TwoStages;
 using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-using testing::Not;
 using testing::UnorderedElementsAre;
-using Overrides = std::vector<files::Override>;
 
-/// A gain of 3 with a lag behind it; lines 4 and 5 are the systems.
-const char* const kStage =
-    "name: stage\n"
-    "parameters: {factor: 3, constant: 0.1}\n"
-    "systems:\n"
-    "  gain: {type: Gain, gain: \"${factor}\"}\n"
-    "  lag: {type: FirstOrderLag, time_constant: \"${constant}\"}\n"
-    "connections:\n"
-    "  - inputs.in -> gain.in\n"
-    "  - gain.out -> lag.in\n"
-    "  - lag.out -> outputs.slow\n";
-
-/// Two stages in a row; line 4 is the source, 5 and 6 are the stages.
-std::string TwoStages(const std::string& first = "", const std::string& second = "",
-                      const std::string& more = "") {
-  return "name: row\n"
-         "simulator: {duration: 1}\n"
-         "systems:\n"
-         "  source: {type: Constant, value: [1, 2], unit: rad}\n"
-         "  first: {type: Diagram, file: stage.yaml" + first + "}\n"
-         "  second: {type: Diagram, file: stage.yaml" + second + "}\n"
-         "connections:\n"
-         "  - source.value -> first.in\n"
-         "  - first.slow -> second.in\n" + more;
-}
-
-class NestingTest : public testing::Test {
- protected:
-  NestingTest() { folder.Write("stage.yaml", kStage); }
-
-  LoadedDiagram Load(const std::string& text, const Overrides& overrides = {}) {
-    return LoadDiagram(folder.Write("d.yaml", text), overrides);
-  }
-  /// The error text, without the folder; empty if the text loads.
-  std::string Refusal(const std::string& text, const Overrides& overrides = {}) {
-    try {
-      Load(text, overrides);
-      return "";
-    } catch (const ConfigError& error) {
-      return WithoutFolder(error.what());
-    }
-  }
-  std::string WithoutFolder(std::string text) const {
-    const std::string place = folder.path().string() + "/";
-    for (auto at = text.find(place); at != std::string::npos; at = text.find(place)) {
-      text.erase(at, place.size());
-    }
-    return text;
-  }
-  static double At(const LoadedDiagram& loaded, const std::string& output) {
-    const Context context = loaded.diagram->MakeContext();
-    return loaded.diagram->GetOutput<Vector>(output).Eval(context)[0];
-  }
-  test::TemporaryFolder folder;
-};
+class NestingTest : public nested_files::NestedFiles {};
 
 std::vector<std::string> PathsOf(const LoadedDiagram& loaded) {
   std::vector<std::string> paths;
   for (const auto& block : loaded.systems) paths.push_back(block.name);
   return paths;
-}
-
-int Count(const std::string& text, const std::string& what) {
-  int count = 0;
-  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++count;
-  return count;
 }
 
 TEST_F(NestingTest, MakesTheSystemsOfTheFileBelowTheNameOfTheUse) {
@@ -135,10 +76,12 @@ TEST_F(NestingTest, GivesParametersByMapsOfWhichTheLaterOnesWin) {
 
 TEST_F(NestingTest, ChoosesIncludedFilesByGivenParameters) {
   folder.Write("part_low.yaml", "systems: {gain: {type: Gain, gain: 2}}\n");
-  folder.Write("part_high.yaml", "parameters: {high: 9}\n"
-                                 "systems: {gain: {type: Gain, gain: \"${high}\"}}\n");
-  folder.Write("stage.yaml", "include: [\"part_${part}.yaml\"]\nparameters: {part: low}\n"
-                             "connections: [inputs.in -> gain.in, gain.out -> outputs.slow]\n");
+  folder.Write("part_high.yaml",
+               "parameters: {high: 9}\n"
+               "systems: {gain: {type: Gain, gain: \"${high}\"}}\n");
+  folder.Write("stage.yaml",
+               "include: [\"part_${part}.yaml\"]\nparameters: {part: low}\n"
+               "connections: [inputs.in -> gain.in, gain.out -> outputs.slow]\n");
   const LoadedDiagram loaded =
       Load(TwoStages(", parameters: {high: 4}", ", parameters: {part: high, high: 5}"));
   EXPECT_EQ(At(loaded, "first.gain.out"), 2.0);
@@ -146,76 +89,14 @@ TEST_F(NestingTest, ChoosesIncludedFilesByGivenParameters) {
   EXPECT_THAT(loaded.warnings, IsEmpty()) << "another part could have used `high`";
 }
 
-TEST_F(NestingTest, RefusesParametersThatTheFileDoesNotHave) {
-  const std::string refusal = Refusal(TwoStages(", parameters: {fctor: 5}"));
-  EXPECT_EQ(refusal,
-            "d.yaml:5:57: error: systems.first.parameters.fctor: stage.yaml has no such parameter; "
-            "did you mean 'factor'?");
-}
-
-TEST_F(NestingTest, RefusesKeysThatAUseDoesNotHave) {
-  EXPECT_THAT(Refusal(TwoStages(", parameter: {factor: 5}")),
-              AllOf(HasSubstr("d.yaml:5:44: error: systems.first.parameter: unknown key"),
-                    HasSubstr("did you mean 'parameters'?")));
-  EXPECT_THAT(Refusal("systems:\n  a: {type: Diagram}\n"),
-              HasSubstr("d.yaml:2:3: error: systems.a.file: missing; expected a diagram file"));
-  EXPECT_THAT(Refusal("systems:\n  a: {type: Diagram, file: none.yaml}\n"),
-              AllOf(HasSubstr("d.yaml:2:28: error: systems.a.file: "), HasSubstr("none.yaml")));
-  EXPECT_THAT(Refusal("systems:\n  a: {type: Diagram, file: stage.yaml, parameters: 3}\n"),
-              HasSubstr("parameters: got 3; expected a map, or a list of maps"));
-}
-
-TEST_F(NestingTest, TellsAProblemOfTheFileOnceWithAllItsUses) {
-  folder.Write("stage.yaml", std::string(kStage).replace(std::string(kStage).find("Gain"), 4, "Gian"));
-  const std::string refusal = Refusal(TwoStages());
-  EXPECT_THAT(refusal, HasSubstr("stage.yaml:4:16: error: in first and second: systems.gain.type: no "
-                                 "system type 'Gian'; did you mean 'Gain'?"));
-  EXPECT_EQ(Count(refusal, "Gian"), 1);
-}
-
-TEST_F(NestingTest, CollectsProblemsOfAllFilesAtOnce) {
-  const std::string refusal =
-      Refusal(TwoStages(", parameters: {constant: -1}", "", "  - source.valeu -> second.out\n"));
-  EXPECT_THAT(refusal, HasSubstr("stage.yaml:5:"));
-  EXPECT_THAT(refusal, HasSubstr("error: in first: systems.lag.time_constant: got -1"));
-  EXPECT_THAT(refusal, HasSubstr("d.yaml:10:5: error: connections: source: no output 'valeu'"));
-}
-
-TEST_F(NestingTest, TellsWiringProblemsInTheFileAsItNamesPorts) {
-  folder.Write("stage.yaml", std::string(kStage) + "  - lag.out -> gain.in\n");
-  EXPECT_EQ(Refusal(TwoStages()),
-            "stage.yaml:10:5: error: in first and second: gain.in: two drivers; got this and "
-            "inputs.in; expected one");
-  std::string stage = std::string(kStage) + "  - gain.out -> sum.in0\n";
-  stage.insert(stage.find("connections:"), "  sum: {type: Sum, signs: [1, 1]}\n");
-  folder.Write("stage.yaml", stage);
-  EXPECT_THAT(Refusal(TwoStages()),
-              HasSubstr("stage.yaml:6:3: error: in first and second: sum.in1: input not connected"));
-}
-
-TEST_F(NestingTest, TellsOfAnInputThatTheOtherFileLeavesOpenWhereTheUseStands) {
-  std::string text = TwoStages();
-  text.erase(text.find("  - first.slow"));
-  EXPECT_THAT(Refusal(text),
-              AllOf(HasSubstr("d.yaml:6:3: error: second.in: second.gain.in: input not connected"),
-                    Not(HasSubstr("first"))));
-}
-
-TEST_F(NestingTest, RefusesAFileThatUsesItselfAndNamesTheChain) {
-  folder.Write("a.yaml", "systems: {b: {type: Diagram, file: b.yaml}}\n");
-  folder.Write("b.yaml", "systems: {a: {type: Diagram, file: a.yaml}}\n");
-  EXPECT_THAT(Refusal("systems: {a: {type: Diagram, file: a.yaml}}\n"),
-              AllOf(HasSubstr("b.yaml:1:36: error: in a.b: systems.a.file: "),
-                    HasSubstr("uses itself: a.yaml -> b.yaml -> a.yaml")));
-}
-
 TEST_F(NestingTest, NestsToAnyDepth) {
-  folder.Write("pair.yaml",
-               "parameters: {factor: 2}\n"
-               "systems:\n"
-               "  one: {type: Diagram, file: stage.yaml, parameters: {factor: \"${factor}\"}}\n"
-               "  two: {type: Diagram, file: stage.yaml}\n"
-               "connections: [inputs.in -> one.in, one.slow -> two.in, two.slow -> outputs.slow]\n");
+  folder.Write(
+      "pair.yaml",
+      "parameters: {factor: 2}\n"
+      "systems:\n"
+      "  one: {type: Diagram, file: stage.yaml, parameters: {factor: \"${factor}\"}}\n"
+      "  two: {type: Diagram, file: stage.yaml}\n"
+      "connections: [inputs.in -> one.in, one.slow -> two.in, two.slow -> outputs.slow]\n");
   std::string text = TwoStages(", parameters: {factor: 4}");
   text.replace(text.find("stage.yaml"), 10, "pair.yaml");
   const LoadedDiagram loaded = Load(text, {{"first.two.parameters.factor", "8"}});
@@ -247,18 +128,10 @@ TEST_F(NestingTest, OverridesOfTheEntryGiveOtherParameters) {
   EXPECT_EQ(At(Load(TwoStages(", parameters: {factor: 2}"), overrides), "first.gain.out"), 6.0);
 }
 
-TEST_F(NestingTest, NamesAnOverrideThatLeadsNowhereAsItWasGiven) {
-  EXPECT_THAT(Refusal(TwoStages(), {{"first.parameters.fctor", "4"}}),
-              AllOf(HasSubstr("-s first.parameters.fctor: error: in first: no 'fctor' there"),
-                    HasSubstr("did you mean 'factor'?")));
-  EXPECT_THAT(Refusal(TwoStages(), {{"frist.parameters.factor", "4"}}),
-              HasSubstr("no 'frist' there; did you mean 'first'?"));
-}
-
 TEST_F(NestingTest, RecordsWhatTheFileRecordsAndWhatTheOtherAdds) {
   folder.Write("stage.yaml", std::string(kStage) + "record: {signals: {lag.out: 10}}\n");
-  const LoadedDiagram loaded =
-      Load(TwoStages() + "record: {signals: {second.lag.out: 20, \"*.gain.out\": 5, first.slow: 4}}\n");
+  const LoadedDiagram loaded = Load(
+      TwoStages() + "record: {signals: {second.lag.out: 20, \"*.gain.out\": 5, first.slow: 4}}\n");
   std::vector<std::string> names;
   for (const auto& signal : loaded.record) {
     names.push_back(signal.name + " " + std::to_string(signal.period.denominator()));
@@ -268,8 +141,7 @@ TEST_F(NestingTest, RecordsWhatTheFileRecordsAndWhatTheOtherAdds) {
 }
 
 TEST_F(NestingTest, ExpectsWhatTheFileExpectsUnlessTheOtherSaysOtherwise) {
-  folder.Write("stage.yaml",
-               std::string(kStage) + "expect: {\"lag.out[0]\": {at_least: 100}}\n");
+  folder.Write("stage.yaml", std::string(kStage) + "expect: {\"lag.out[0]\": {at_least: 100}}\n");
   const LoadedDiagram loaded =
       Load(TwoStages() + "expect: {\"first.lag.out[0]\": {equal: 3, within: 0.1}}\n");
   const runs::RunResult result = runs::Run(loaded, {});
@@ -281,8 +153,9 @@ TEST_F(NestingTest, ExpectsWhatTheFileExpectsUnlessTheOtherSaysOtherwise) {
 }
 
 TEST_F(NestingTest, KeepsTolerancesOfTheFileUnlessTheOtherHasThem) {
-  folder.Write("stage.yaml", std::string(kStage) +
-                                 "simulator_tolerances: {lag: {relative: 1.0e-4, absolute: 1.0e-5}}\n");
+  folder.Write(
+      "stage.yaml",
+      std::string(kStage) + "simulator_tolerances: {lag: {relative: 1.0e-4, absolute: 1.0e-5}}\n");
   const LoadedDiagram loaded =
       Load(TwoStages() + "simulator_tolerances: {second.lag: {relative: 1.0e-7}}\n");
   const auto& tolerances = loaded.simulator.integration.tolerances;
@@ -300,8 +173,7 @@ TEST_F(NestingTest, BuildsAPartThatIsInsideOfAUse) {
     for (const auto& output : loaded.diagram->exported_outputs()) ports.push_back(output.first);
     return ports;
   };
-  EXPECT_THAT(part({"second"}),
-              ElementsAre("first_lag_out", "second_gain_out", "second_lag_out"));
+  EXPECT_THAT(part({"second"}), ElementsAre("first_lag_out", "second_gain_out", "second_lag_out"));
   EXPECT_THAT(part({"first.lag", "second.gain"}),
               UnorderedElementsAre("first_gain_out", "first_lag_out", "second_gain_out"));
   EXPECT_THAT([&] { part({"first.gian"}); },
@@ -314,16 +186,6 @@ TEST_F(NestingTest, AFileAloneHasThePortsThatItsConnectionsName) {
   ASSERT_EQ(loaded.diagram->exported_inputs().size(), 1u);
   EXPECT_EQ(loaded.diagram->exported_inputs()[0].name, "in");
   EXPECT_EQ(loaded.diagram->FindOutput("slow"), loaded.diagram->FindOutput("lag.out"));
-}
-
-TEST_F(NestingTest, RefusesPortsThatTheFileDoesNotName) {
-  EXPECT_THAT(Refusal(TwoStages("", "", "  - source.value -> first.gain\n")),
-              AllOf(HasSubstr("d.yaml:10:5: error: connections: first: no input 'gain' of "),
-                    HasSubstr("its inputs are: in")));
-  EXPECT_THAT(Refusal(TwoStages("", "", "  - first.slwo -> gain.in\n")),
-              HasSubstr("did you mean 'slow'?"));
-  EXPECT_THAT(Refusal("systems: {inputs: {type: Gain}}\n"),
-              HasSubstr("systems.inputs: stands for the ports of the file"));
 }
 
 TEST_F(NestingTest, MakesEveryConnectionThatAPatternStandsFor) {
@@ -379,7 +241,8 @@ std::string TwoArms(const std::string& right = "{arm: right}") {
          "acceleration_limits: 9}\n"
          "systems:\n"
          "  left: {type: Diagram, file: arm.yaml, models: {arm: left}}\n"
-         "  right: {type: Diagram, file: arm.yaml, models: " + right + "}\n";
+         "  right: {type: Diagram, file: arm.yaml, models: " +
+         right + "}\n";
 }
 
 TEST_F(NestingTest, TakesModelsOfTheOtherFileWithLimitsThatTheyLack) {
@@ -404,10 +267,11 @@ TEST_F(NestingTest, AModelOfItsOwnHasAFullNameBelowTheUse) {
 
 TEST_F(NestingTest, RefusesModelsThatThereAreNot) {
   folder.Write("arm.yaml", kArm);
-  EXPECT_THAT(Refusal(TwoArms("{arm: rihgt}")),
-              AllOf(HasSubstr("d.yaml:6:"),
-                    HasSubstr("systems.right.models.arm: model: got 'rihgt'; expected one of: left, "
-                              "right; did you mean 'right'?")));
+  EXPECT_THAT(
+      Refusal(TwoArms("{arm: rihgt}")),
+      AllOf(HasSubstr("d.yaml:6:"),
+            HasSubstr("systems.right.models.arm: model: got 'rihgt'; expected one of: left, "
+                      "right; did you mean 'right'?")));
   folder.Write("arm.yaml", std::string(kArm).substr(std::string(kArm).find("systems")));
   EXPECT_THAT(Refusal(TwoArms("{}")),
               HasSubstr("arm.yaml:3:15: error: in right: systems.kinematics: model: got 'arm'; "
@@ -426,29 +290,24 @@ TEST_F(NestingTest, ReadsAFileOnceForAllUsesAndBuilds) {
   EXPECT_THAT(first.sources, Contains(std::filesystem::canonical(folder.path() / "stage.yaml")));
 }
 
-TEST_F(NestingTest, RefusesAFileThatDrawsScenarios) {
-  folder.Write("stage.yaml", std::string(kStage) + "sampling: {draw: {factor: {uniform: [1, 2]}}}\n");
-  EXPECT_THAT(Refusal(TwoStages()),
-              HasSubstr("in first and second: sampling: got a file that draws scenarios"));
-}
-
-// The robot of the left arm for a third one between them, turned away: one entry of each section.
 TEST_F(NestingTest, ThreeArmsAreOneEntryMoreOfModelsAndSystems) {
   const std::string file = OCA_SOURCE_DIR "/diagrams/dual_arm.yaml";
   const std::string third =
-      "include: [" + file + "]\n"
+      "include: [" + file +
+      "]\n"
       "models: {third: {urdf: package://lwr4/lwr4.urdf, srdf: package://lwr4/lwr4.srdf, base_pose: "
       "{xyz: [1.2, 0, 0.85]}}}\n"
-      "systems: {third: {type: Diagram, file: " OCA_SOURCE_DIR "/diagrams/parts/arm_loop.yaml, "
+      "systems: {third: {type: Diagram, file: " OCA_SOURCE_DIR
+      "/diagrams/parts/arm_loop.yaml, "
       "models: {arm: third}, parameters: \"${each}\"}}\n";
   const LoadedDiagram loaded = Load(third);
   EXPECT_THAT(loaded.warnings, IsEmpty());
   for (const char* arm : {"left", "right", "third"}) {
     for (const char* other : {"left", "right", "third"}) {
       if (arm == std::string(other)) continue;
-      const auto driver = loaded.diagram->DriverOf(
-          loaded.diagram->FindSystem(arm + std::string(".distance"))
-              ->FindInput(std::string("links_") + other));
+      const auto driver =
+          loaded.diagram->DriverOf(loaded.diagram->FindSystem(arm + std::string(".distance"))
+                                       ->FindInput(std::string("links_") + other));
       ASSERT_TRUE(driver) << arm << " " << other;
       EXPECT_EQ(loaded.diagram->PathOf(*driver), other + std::string(".kinematics.links"));
     }
