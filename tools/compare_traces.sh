@@ -3,13 +3,15 @@
 # Whether two builds of the simulator compute the same: runs every shipped diagram, the report's test
 # and three random scenarios with every method, by both, and compares all signals bit for bit, what
 # is said of the motion too. For changes that must not change behaviour.
-# Usage: tools/compare_traces.sh OLD_SIMULATOR NEW_SIMULATOR [TABLE]
+# Usage: tools/compare_traces.sh OLD_SIMULATOR NEW_SIMULATOR [TABLE [OLD_DIAGRAMS]]
 #   TABLE  of signals, a line each: `OLD NEW` (renamed), `OLD -` (removed), `- NEW` (added); `*`
 #          stands for any system, but in NEW of one that is renamed
+#   OLD_DIAGRAMS  the folder diagrams/ of the old build, where files are written in another way, as
+#          `git archive COMMIT diagrams | tar x -C FOLDER` gives it
 # Prints each difference; exit status 1 if there is any.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-old=$1 new=$2 table=${3:-/dev/null}
+old=$1 new=$2 table=${3:-/dev/null} old_diagrams=${4:-diagrams}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -38,7 +40,7 @@ for case in "${cases[@]}"; do
   read -ra words <<< "$case"
   rm -rf "$work"/{old,new}*
   mkdir "$work/old" "$work/new"
-  trace "$old" "$work/old" "${words[@]}" &
+  trace "$old" "$work/old" "$old_diagrams/${words[0]#diagrams/}" "${words[@]:1}" &
   trace "$new" "$work/new" "${words[@]}"
   wait
   awk '{ print $1, $2 }' "$table" | while read -r from to; do
@@ -60,6 +62,8 @@ for case in "${cases[@]}"; do
       const text = require("fs").readFileSync(file, "utf8");
       if (!text.startsWith("{")) return text;
       const all = JSON.parse(text);
+      // Names of expectations change with those of signals, and their order with that.
+      all.expectations = (all.expectations ?? []).map(({ name, ...rest }) => JSON.stringify(rest)).sort();
       for (const key of ["statistics", "wall_seconds", "realtime_factor", "profile", "steps", "evaluations"]) delete all[key];
       return JSON.stringify(all);
     });

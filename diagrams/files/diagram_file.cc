@@ -61,7 +61,8 @@ const std::vector<Section>& DiagramKeys() {
   static const std::vector<Section> keys = {
       {"file", "the diagram file, relative to this one, or package://NAME/PATH; required"},
       {"parameters",
-       "values for its parameters, in place of its own: a map, or a list of maps of which the later "
+       "values for its parameters, in place of its own: a map, or a list of maps of which the "
+       "later "
        "ones win"},
       {"models", "models of this file that stand for its own, by their names there"},
   };

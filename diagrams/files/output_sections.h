@@ -33,16 +33,16 @@ struct Expectation {
   ExpectParams bound;
 };
 
-/// Section `record`; names may be patterns with `*`, `outputs` is what there is. By `others` it finds
-/// outputs too, but no pattern does.
+/// Section `record`; names may be patterns with `*`, `outputs` is what there is. Names, but no
+/// patterns, are looked up in `others` too.
 std::vector<RecordedSignal> ReadRecord(const Value& root, const NamedOutputs& outputs,
                                        const NamedOutputs& others, Problems& problems);
 
 /// Key `scene` of section `record`: how often the scene is recorded; `otherwise` if it is left out.
 Period ReadSceneRate(const Value& root, const Period& otherwise, Problems& problems);
 
-/// Section `expect`. A lone word is a metric; with several `metrics` the worst of them counts. Behind
-/// the path of a file that is used it is one of the arms there.
+/// Section `expect`. A lone word is a metric; with several `metrics` the worst of them counts, and
+/// behind the path of a used file that of the arms there.
 /// `diagram` is nullptr if it could not be built; lengths are then not checked.
 std::vector<Expectation> ReadExpectations(const Value& root, const NamedOutputs& outputs,
                                           const NamedOutputs& metrics, const Diagram* diagram,

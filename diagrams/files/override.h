@@ -9,8 +9,8 @@
 
 namespace oca::files {
 
-/// `-s PATH=VALUE`: PATH is dot-separated keys, items of lists by index from 0; VALUE is YAML. Behind
-/// the name of a system of type Diagram it is a path in the file that this one uses,
+/// `-s PATH=VALUE`: PATH is dot-separated keys, items of lists by index from 0; VALUE is YAML.
+/// Behind the name of a system of type Diagram it is a path in the file that this one uses,
 /// `left.parameters.rate`; `*` stands for all such names.
 struct Override {
   std::string path{};

@@ -65,8 +65,8 @@ files::NamedOutputs Assembly::Metrics() {
       Typed<systems::MotionMetricsValue>(judges->metrics);
       metrics.emplace_back(name, judges->metrics);
     } catch (const WiringError& error) {
-      construction_.AddProblemOf(
-          name, fmt::format("systems.{}: judge: {}", name, error.what()), problems_);
+      construction_.AddProblemOf(name, fmt::format("systems.{}: judge: {}", name, error.what()),
+                                 problems_);
     }
   }
   return metrics;

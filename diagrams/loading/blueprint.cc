@@ -150,8 +150,8 @@ class Loader {
     const files::NamedOutputs metrics = own ? loaded_.metrics : assembly.Metrics();
     const double duration = loaded_.simulator.duration;
     if (own) loaded_.scene_period = files::ReadSceneRate(root, loaded_.scene_period, problems);
-    for (auto& expectation : files::ReadExpectations(
-             root, outputs, metrics, loaded_.diagram.get(), own ? duration : kEver, problems)) {
+    for (auto& expectation : files::ReadExpectations(root, outputs, metrics, loaded_.diagram.get(),
+                                                     own ? duration : kEver, problems)) {
       expectation.name = level.Full(expectation.name);
       if (expectation.bound.at.value_or(0.0) > duration) continue;  // the other file runs longer
       KeepFirst(std::move(expectation), loaded_.expectations);

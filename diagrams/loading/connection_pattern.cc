@@ -12,7 +12,9 @@ namespace {
 
 using Names = std::map<std::string, std::string>;  // what each place stands for
 
-bool IsNameCharacter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+bool IsNameCharacter(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
 
 /// Length of the place that a pattern begins with, `<x>`; 0 if it begins with none.
 std::size_t PlaceAt(std::string_view pattern) {
@@ -91,7 +93,8 @@ std::vector<std::pair<std::string, std::string>> MatchConnections(
   } else {
     for (const std::string& output : outputs) Match(from, output, names, match_inputs);
   }
-  std::erase_if(found, [](const auto& one) { return IsPattern(one.first) || IsPattern(one.second); });
+  std::erase_if(found,
+                [](const auto& one) { return IsPattern(one.first) || IsPattern(one.second); });
   return found;
 }
 

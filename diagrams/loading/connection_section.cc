@@ -35,6 +35,21 @@ ConnectionSection::ConnectionSection(const Value& root, const Level& level,
     return;
   }
   for (const Value& item : *value->list()) Read(item);
+  CheckShownInputs();
+}
+
+/// What the file leaves to another one it must not drive itself.
+void ConnectionSection::CheckShownInputs() {
+  if (level_.path.empty()) return;  // Build finds it
+  for (const auto& [name, targets] : inputs_) {
+    for (const InputAt& target : targets) {
+      const auto own = construction_.connections.find(target.path);
+      if (own == construction_.connections.end()) continue;
+      problems_.Add(own->second.location,
+                    fmt::format("{}: two drivers; got this and inputs.{}; expected one",
+                                target.path.substr(level_.path.size() + 1), name));
+    }
+  }
 }
 
 void ConnectionSection::Read(const Value& item) {
@@ -65,8 +80,7 @@ void ConnectionSection::Read(const Value& item) {
 std::string ConnectionSection::ReadPort(const std::string& text, const Location& location) {
   const auto first = text.find_first_not_of(" \t");
   const auto last = text.find_last_not_of(" \t");
-  const std::string port =
-      first == std::string::npos ? "" : text.substr(first, last - first + 1);
+  const std::string port = first == std::string::npos ? "" : text.substr(first, last - first + 1);
   const std::size_t dot = port.find('.');
   if (dot != std::string::npos && dot != 0 && port.back() != '.') return port;
   problems_.Add(location, fmt::format("connections: got '{}'; expected system.port", port));
@@ -80,9 +94,10 @@ void ConnectionSection::Connect(const std::string& from, const std::string& to,
   const std::string output = NameBehind(kOutputs, to);
   try {
     if (!input.empty() && !output.empty()) {
-      problems_.Add(location, fmt::format("connections: {} -> {}: got an input of the file; expected "
-                                          "an output of a system",
-                                          from, to));
+      problems_.Add(location,
+                    fmt::format("connections: {} -> {}: got an input of the file; expected "
+                                "an output of a system",
+                                from, to));
     } else if (!input.empty()) {
       ShowInput(input, to, location);
     } else if (!output.empty()) {

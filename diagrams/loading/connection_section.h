@@ -32,6 +32,7 @@ class ConnectionSection {
 
  private:
   void Read(const Value& item);
+  void CheckShownInputs();
   std::string ReadPort(const std::string& text, const Location& location);
   void Connect(const std::string& from, const std::string& to, const Location& location);
   void ShowInput(const std::string& name, const std::string& to, const Location& location);

@@ -50,12 +50,11 @@ class Construction {
     std::string name;  ///< `left.obstacles`
   };
   std::map<std::string, Open> open{};
-  ToldOnce problems{};                 ///< of files that are used
-  ToldOnce warnings{};                 ///< of all files
-  int uses{0};                         ///< how many files are used
+  ToldOnce problems{};  ///< of files that are used
+  ToldOnce warnings{};  ///< of all files
+  int uses{0};          ///< how many files are used
 
-  /// Where a problem of the wiring lies: at its connection, else at its system, else at `otherwise`;
-  /// told of the file there.
+  /// A problem of the wiring lies at its connection, else at its system, else at `otherwise`.
   void AddWiringProblem(const std::string& problem, const Location& otherwise, Problems& into);
   /// Of a system that could be made, by its path.
   void AddProblemOf(const std::string& system, const std::string& what, Problems& into);
@@ -70,7 +69,9 @@ struct Level {
   std::vector<std::filesystem::path> files{};  ///< from the one that is built to this one
 
   /// The path of a system, or of a port, of the file.
-  std::string Full(const std::string& name) const { return path.empty() ? name : path + "." + name; }
+  std::string Full(const std::string& name) const {
+    return path.empty() ? name : path + "." + name;
+  }
 };
 
 }  // namespace oca::loading

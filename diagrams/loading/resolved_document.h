@@ -26,9 +26,9 @@ struct ResolvedDocument {
 
 /// What another file gives to a diagram file that it uses.
 struct GivenParameters {
-  Value map;            ///< from names to values
-  std::string where;    ///< it stands there, for messages: `systems.left.parameters`
-  Problems* problems;   ///< of the other file
+  Value map;           ///< from names to values
+  std::string where;   ///< it stands there, for messages: `systems.left.parameters`
+  Problems* problems;  ///< of the other file
 };
 
 /// Reads the file and those it includes, draws its scenario, applies `overrides` and works out all

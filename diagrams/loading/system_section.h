@@ -55,8 +55,8 @@ class SystemSection {
   /// Those that files which it uses give a name, `left.position`.
   files::NamedOutputs NamedByUsedFiles() const;
 
-  /// A port by `system.port`, where `system` may be a file that this one uses, whose outputs all are
-  /// to be had by their paths in it; none if the system could not be made, which has been reported.
+  /// A port by `system.port`; `system` may be a file that this one uses, all outputs of which are
+  /// to be had by their paths in it. None if the system could not be made, which has been reported.
   /// throw WiringError if there is no such port.
   std::optional<OutputAt> FindOutput(const std::string& path) const;
   std::optional<std::vector<InputAt>> FindInputs(const std::string& path) const;
@@ -66,7 +66,7 @@ class SystemSection {
 
  private:
   struct Made {
-    const System* system{nullptr};      // or
+    const System* system{nullptr};  // or
     const UsedFile* file{nullptr};
   };
 

@@ -22,8 +22,8 @@ std::size_t EndOfKind(const std::string& line) {
 }  // namespace
 
 void ToldOnce::Add(const std::string& use, const std::string& line) {
-  const auto same =
-      std::find_if(told_.begin(), told_.end(), [&](const auto& told) { return told.first == line; });
+  const auto same = std::find_if(told_.begin(), told_.end(),
+                                 [&](const auto& told) { return told.first == line; });
   if (same == told_.end()) {
     told_.push_back({line, {use}});
   } else if (std::find(same->second.begin(), same->second.end(), use) == same->second.end()) {

@@ -11,8 +11,8 @@ namespace oca::loading {
 /// is told once, with both of them.
 class ToldOnce {
  public:
-  /// `line` is `PLACE: error: WHAT`, or a warning; `use` the path of the use in the diagram, `left`,
-  /// or empty for the file that is built.
+  /// `line` is `PLACE: error: WHAT`, or a warning; `use` the path of the use in the diagram, or
+  /// empty for the file that is built.
   void Add(const std::string& use, const std::string& line);
   /// All of them, in the order in which they came first: `PLACE: error: in left and right: WHAT`.
   std::vector<std::string> Lines() const;

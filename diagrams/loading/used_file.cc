@@ -192,8 +192,7 @@ bool UsedFile::MayBeRead(const Value::Entry& entry, Problems& problems) const {
 
 void UsedFile::Read(const Value::Entry& entry, const Entry& given,
                     const std::vector<files::Override>& overrides, Problems& problems) {
-  const GivenParameters parameters{given.parameters, "systems." + name_ + ".parameters",
-                                   &problems};
+  const GivenParameters parameters{given.parameters, "systems." + name_ + ".parameters", &problems};
   try {
     document_ = ReadResolved(file_, overrides, construction_.catalogue, own_, &parameters);
   } catch (const ConfigError& error) {

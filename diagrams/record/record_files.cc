@@ -4,198 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
-#include <map>
-#include <set>
 #include <utility>
 
 #include "oca/diagrams/files/document.h"
 #include "oca/diagrams/files/package_paths.h"
+#include "oca/diagrams/record/file_collector.h"
 #include "oca/diagrams/record/yaml_writer.h"
-#include "oca/framework/dataflow/error.h"
-#include "oca/models/error.h"
-#include "oca/models/opened_files.h"
-#include "oca/models/robot/mesh_path.h"
-#include "oca/models/robot/urdf_meshes.h"
 
 namespace oca::record {
 namespace {
 
 namespace fs = std::filesystem;
-
-const std::string kScheme = "package://";
-
-std::string ReadBytes(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream) throw ConfigError(fmt::format("{}: cannot be read", file.string()));
-  return bytes;
-}
-
-fs::path FolderOf(const Location& location) {
-  return location.file && location.line > 0 ? fs::path(*location.file).parent_path() : fs::path();
-}
-
-bool NamesFile(const std::string& key) { return key == "urdf" || key == "srdf" || key == "file"; }
-
-/// Whether a tree has a file's name in it.
-bool HoldsFile(const Value& value) {
-  if (value.list() != nullptr) {
-    return std::any_of(value.list()->begin(), value.list()->end(), HoldsFile);
-  }
-  return value.map() != nullptr &&
-         std::any_of(value.map()->begin(), value.map()->end(), [](const Value::Entry& entry) {
-           return NamesFile(entry.key) || HoldsFile(entry.value);
-         });
-}
-
-bool Inside(const fs::path& name) {
-  return !name.empty() && name.is_relative() && *name.begin() != "..";
-}
-
-class FileCollector {
- public:
-  explicit FileCollector(const loading::LoadedDiagram& loaded)
-      : base_(fs::absolute(loaded.file).parent_path()),
-        opened_(loaded.opened.begin(), loaded.opened.end()) {}
-
-  /// Looks up packages as the file says, too.
-  void AddPackagesOf(const Value& resolved) {
-    const Value* const packages = resolved.Find("packages");
-    if (packages == nullptr || packages->map() == nullptr) return;
-    for (const Value::Entry& entry : *packages->map()) {
-      const fs::path folder = *entry.value.string();
-      packages_[entry.key] =
-          folder.is_absolute() ? folder : FolderOf(entry.value.location()) / folder;
-    }
-  }
-  const files::PackageMap& packages() const { return packages_; }
-  void SetPackages(files::PackageMap packages) { packages_ = std::move(packages); }
-
-  /// The document with files named as they are attached; `resolved` is the same tree, `${...}`
-  /// worked out, of which parameters are left out.
-  Value Rewrite(const Value& document, const Value* resolved) {
-    if (resolved == nullptr) return document;
-    if (document.string() != nullptr && HoldsFile(*resolved)) return Rewrite(*resolved, resolved);
-    if (document.list() != nullptr && resolved->list() != nullptr) {
-      Value::List list;
-      for (std::size_t i = 0; i < document.list()->size(); ++i) {
-        list.push_back(Rewrite((*document.list())[i], &(*resolved->list())[i]));
-      }
-      return Value(std::move(list), document.location());
-    }
-    if (document.map() == nullptr || resolved->map() == nullptr) return document;
-    Value::Map map;
-    for (const Value::Entry& entry : *document.map()) {
-      const Value* const own = resolved->Find(entry.key);
-      const bool file = own != nullptr && NamesFile(entry.key) && own->string() != nullptr;
-      map.push_back({entry.key, entry.location,
-                     file ? Value(Attach(entry.key, *own->string(), FolderOf(own->location())), {})
-                          : Rewrite(entry.value, own)});
-    }
-    return Value(std::move(map), document.location());
-  }
-
-  std::vector<McapAttachment> Take() {
-    std::vector<McapAttachment> attachments;
-    for (auto& [name, data] : files_) {
-      attachments.push_back({0, name, "application/octet-stream", std::move(data)});
-    }
-    return attachments;
-  }
-
-  /// `packages` of the rewritten document.
-  Value Packages() const {
-    Value::Map map;
-    for (const auto& [name, data] : files_) {
-      const fs::path path(name);
-      if (*path.begin() != "packages") continue;
-      const std::string package = std::next(path.begin())->string();
-      const bool known = std::any_of(map.begin(), map.end(),
-                                     [&](const auto& entry) { return entry.key == package; });
-      if (!known) map.push_back({package, {}, Value("packages/" + package, {})});
-    }
-    return Value(std::move(map), {});
-  }
-
- private:
-  /// Attaches a file that the diagram names, if the run was made from it; returns its new name
-  /// there.
-  std::string Attach(const std::string& key, const std::string& name, const fs::path& folder) {
-    if (name.empty()) return name;
-    const fs::path path = files::ResolvePath(name, folder, packages_);
-    if (!Opened(path)) return name;
-    const auto [as, new_name] = NamesOf(name, path);
-    const bool fresh = !files_.contains(as.string());
-    if (fresh) files_[as.string()] = ReadBytes(path);
-    if (fresh && key == "urdf") AttachMeshes(as, path);
-    return new_name;
-  }
-
-  bool Opened(const fs::path& path) const { return opened_.contains(models::PlainPath(path)); }
-
-  /// The attachment for a file and the name by which the diagram finds it there: below `packages/`
-  /// what stays within its package.
-  std::pair<fs::path, std::string> NamesOf(const std::string& name, const fs::path& path) const {
-    if (name.starts_with(kScheme)) {
-      const fs::path rest = name.substr(kScheme.size());
-      const fs::path as = (fs::path("packages") / rest).lexically_normal();
-      if (Inside(as.lexically_relative(fs::path("packages") / *rest.begin()))) return {as, name};
-    }
-    const fs::path place = PlaceOf(path);
-    return {place, place.string()};
-  }
-
-  /// Below `files/`, as it lies to the diagram; without the folders above what lies elsewhere.
-  fs::path PlaceOf(const fs::path& path) const {
-    const fs::path relative = fs::absolute(path).lexically_normal().lexically_relative(base_);
-    fs::path place;
-    // What comes from a record lies below `files/` already.
-    if (relative.empty() || *relative.begin() != "files") place = "files";
-    for (const fs::path& part : relative) place /= part == ".." ? fs::path("up") : part;
-    return place;
-  }
-
-  /// The meshes of a URDF's links. What it finds by an absolute path it is given a relative one
-  /// for.
-  void AttachMeshes(const fs::path& urdf, const fs::path& path) {
-    std::string& text = files_.at(urdf.string());
-    text = robot::RenameMeshes(
-        text, path.string(), [&](const std::string& name) { return AttachMesh(name, urdf, path); });
-  }
-
-  std::string AttachMesh(const std::string& name, const fs::path& urdf, const fs::path& path) {
-    robot::LoadOptions options;
-    options.find_package = [this](const std::string& package) -> fs::path {
-      const auto found = packages_.find(package);
-      return found == packages_.end() ? fs::path() : found->second;
-    };
-    options.package_directories = files::PackageFolders();
-    fs::path mesh;
-    try {
-      mesh = robot::FindMesh(name, path.parent_path(), options, path.string());
-    } catch (const models::ModelError&) {
-      return name;  // the run did not need it
-    }
-    if (!Opened(mesh)) return name;
-    auto [as, new_name] = NamesOf(name, mesh);
-    if (new_name != name) {
-      const fs::path beside = (urdf.parent_path() / name).lexically_normal();
-      const bool stays =
-          fs::path(name).is_relative() && name.find("://") == std::string::npos && Inside(beside);
-      if (stays) as = beside;
-      new_name = stays ? name : as.lexically_relative(urdf.parent_path()).string();
-    }
-    if (!files_.contains(as.string())) files_[as.string()] = ReadBytes(mesh);
-    return new_name;
-  }
-
-  const fs::path base_;
-  const std::set<fs::path> opened_;
-  files::PackageMap packages_;
-  std::map<std::string, std::string> files_;  ///< by name of the attachment
-};
 
 /// The nearest folder above all files.
 fs::path FolderAbove(const std::vector<fs::path>& files) {
@@ -287,8 +106,8 @@ void AddGiven(const loading::LoadedDiagram::UsedFile& used, Value& document) {
   for (const Value::Entry& given : used.given) {
     const Value* const parameters = document.Find("parameters");
     if (parameters != nullptr && parameters->Find(given.key) != nullptr) continue;
-    Value::Map all = parameters != nullptr && parameters->map() != nullptr ? *parameters->map()
-                                                                           : Value::Map{};
+    Value::Map all =
+        parameters != nullptr && parameters->map() != nullptr ? *parameters->map() : Value::Map{};
     all.push_back(given);
     Set(*document.map(), "parameters", Value(std::move(all), {}));
   }
@@ -328,8 +147,7 @@ class DocumentWriter {
  private:
   Value Rewrite(const std::string& path, const Value& document, const Value& resolved) {
     const Value as_attached = WithUsedFiles(loaded_, path, resolved);
-    Value written =
-        collector_.Rewrite(WithUsedFiles(loaded_, path, document), &as_attached);
+    Value written = collector_.Rewrite(WithUsedFiles(loaded_, path, document), &as_attached);
     std::erase_if(*written.map(),
                   [](const Value::Entry& entry) { return entry.key == "packages"; });
     return written;

@@ -173,8 +173,8 @@ class Probe {
       if (std::find(needed.begin(), needed.end(), original) == needed.end()) continue;
       auto copy = block.row->Make(block.params, block.name, *block.models, problems);
       problems.Throw();
-      copies_.emplace_back(original, &builder_.AddSystem(loading::ExportedName(block.name),
-                                                         std::move(copy)));
+      copies_.emplace_back(original,
+                           &builder_.AddSystem(loading::ExportedName(block.name), std::move(copy)));
     }
     for (const auto& [original, copy] : copies_) {
       if (original == loop_.kinematics) continue;

@@ -199,7 +199,7 @@ TEST_F(PlanCommandTest, RefusesByNameWhatNobodyCanKnowBeforehand) {
   EXPECT_THAT(refusal("diagrams/attractive_goal.yaml"),
               HasSubstr("metrics.request: driver; got nothing"));
   EXPECT_THAT(refusal("diagrams/dual_arm.yaml"),
-              HasSubstr("'left' by left_metrics, 'right' by right_metrics"));
+              HasSubstr("'left' by left.metrics, 'right' by right.metrics"));
   EXPECT_THAT(refusal("diagrams/dual_arm.yaml --model middle"),
               HasSubstr("judge; got none; expected one of the model 'middle'"));
   EXPECT_THAT(refusal(TwoArms() + "-t 0"), HasSubstr("duration; got 0 s"));
@@ -209,8 +209,8 @@ TEST_F(PlanCommandTest, ChoosesTheArmByName) {
   const json plan = Plan("diagrams/dual_arm.yaml --model right");
   EXPECT_TRUE(plan.at("clear").get<bool>());
   EXPECT_EQ(plan.at("model"), "right");
-  EXPECT_EQ(plan.at("judge"), "right_metrics");
-  EXPECT_THAT(plan.at("sees"), ElementsAre("obstacles", "left as requested by left_spline"));
+  EXPECT_EQ(plan.at("judge"), "right.metrics");
+  EXPECT_THAT(plan.at("sees"), ElementsAre("obstacles", "left as requested by left.spline"));
 }
 
 TEST_F(PlanCommandTest, SaysInItsHelpWhatItPrintsAndHowItEnds) {

@@ -86,8 +86,7 @@ std::string Dot(const loading::LoadedDiagram& loaded) {
     dot += fmt::format(
         "  subgraph \"cluster_{}\" {{ label=<<b>{}</b> <font point-size=\"10\">{}</font>>; "
         "fontname=Helvetica; fontcolor=\"#333333\"; color=\"#b0bccd\"; style=rounded;\n",
-        used.path, name,
-        Escaped(std::filesystem::path(used.file).filename().string()));
+        used.path, name, Escaped(std::filesystem::path(used.file).filename().string()));
   };
   VisitFiles(loaded, "", system, open, [&] { dot += "  }\n"; });
   for (const Edge& edge : EdgesOf(*loaded.diagram)) {

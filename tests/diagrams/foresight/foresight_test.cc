@@ -68,8 +68,8 @@ TEST(ForesightTest, KnowsRequestStartAndTheCubeThatComes) {
 TEST(ForesightTest, SeesTheOtherArmAlongItsRequestButNotTheLowestPair) {
   const Scene scene("dual_arm", "right");
   const Foresight& foresight = scene.foresight;
-  EXPECT_EQ(foresight.judge(), "right_metrics");
-  EXPECT_THAT(foresight.sees(), ElementsAre("obstacles", "left as requested by left_spline"));
+  EXPECT_EQ(foresight.judge(), "right.metrics");
+  EXPECT_THAT(foresight.sees(), ElementsAre("obstacles", "left as requested by left.spline"));
   EXPECT_FALSE(foresight.own_links());
   EXPECT_EQ(scene.BodiesNamed("left/"), foresight.bodies().size());
   EXPECT_GE(foresight.bodies().size(), 7u);
@@ -98,7 +98,7 @@ TEST(ForesightTest, PutsLinksOfTheOtherArmWhereItsRequestTakesThem) {
 
 TEST(ForesightTest, IgnoresPairsThatTheDistanceBlockIgnores) {
   const std::vector<files::Override> ignore{
-      {"systems.right_distance.ignore", "[[lwr4_link_5, left/lwr4_link_6]]"}};
+      {"right.systems.distance.ignore", "[[lwr4_link_5, left/lwr4_link_6]]"}};
   const Scene all("dual_arm", "right", 0.1);
   const Scene less("dual_arm", "right", 0.1, ignore);
   const std::size_t solids = less.BodiesNamed("left/lwr4_link_6");
@@ -145,7 +145,7 @@ TEST(ForesightTest, RefusesByNameWhatNobodyCanKnowBeforehand) {
 
 TEST(ForesightTest, RefusesAFileInWhichNotOneJudgeIsMeant) {
   EXPECT_THAT(RefusalOf("dual_arm"),
-              HasSubstr("judge; got 'left' by left_metrics, 'right' by right_metrics; expected"));
+              HasSubstr("judge; got 'left' by left.metrics, 'right' by right.metrics; expected"));
   EXPECT_THAT(RefusalOf("dual_arm", "middle"),
               HasSubstr("judge; got none; expected one of the model 'middle'"));
 }

@@ -75,8 +75,8 @@ TEST(ChatterCheckTest, LooksAtEveryArm) {
   EXPECT_THAT(Warnings({}, "dual_arm"), IsEmpty());
   const auto warnings = Warnings({{"parameters.relaxation_time", "0"}}, "dual_arm");
   ASSERT_EQ(warnings.size(), 2u);
-  EXPECT_THAT(warnings[0], HasSubstr("systems.left_relaxation"));
-  EXPECT_THAT(warnings[1], HasSubstr("systems.right_relaxation"));
+  EXPECT_THAT(warnings[0], HasSubstr("left.systems.relaxation"));
+  EXPECT_THAT(warnings[1], HasSubstr("right.systems.relaxation"));
   EXPECT_NEAR(NumberAfter(warnings[0], "g = "), NumberAfter(warnings[1], "g = "), 0.5);
 }
 

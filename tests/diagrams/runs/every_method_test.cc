@@ -30,10 +30,8 @@ std::vector<std::string> Files() {
   return files;
 }
 
-/// Files that are not about methods: a pure potential field, and two loops side by side.
-bool LeavesTheMethodOpen(const std::string& file) {
-  return file != "attractive_goal.yaml" && file != "dual_arm.yaml";
-}
+/// Not a pure potential field.
+bool LeavesTheMethodOpen(const std::string& file) { return file != "attractive_goal.yaml"; }
 
 class EveryMethodTest : public testing::TestWithParam<std::string> {};
 
