@@ -95,7 +95,8 @@ TEST(ObstacleMotionTest, IsTheScriptOfItsType) {
   ExpectSame(Make(Circular()),
              make(motion::CircularScript{Vector3d(0.0, 2.0, 3.0), Vector3d(0.0, 0.0, 2.0), 0.5}));
   std::vector<motion::Waypoint> waypoints;
-  for (const WaypointParams& point : *Waypoints().waypoints) {
+  const MotionParams params = Waypoints();
+  for (const WaypointParams& point : *params.waypoints) {
     waypoints.push_back({point.time, point.xyz, point.rpy});
   }
   ExpectSame(Make(Waypoints()), make(waypoints));
