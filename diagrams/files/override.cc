@@ -149,7 +149,7 @@ void Apply(const Override& change, Value& root, Problems& problems) {
 }  // namespace
 
 Value Override::Read(Problems& problems) const {
-  const std::string name = "-s " + path;
+  const std::string name = "-s " + (given_as.empty() ? path : given_as);
   if (!IsPlain(value)) return ReadYaml(value, name, problems);
   std::string problem;
   Value::Data data = ReadPlainScalar(value, problem);

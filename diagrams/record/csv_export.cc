@@ -69,7 +69,7 @@ int ExportCsv(const McapFile& record, const fs::path& folder) {
     std::vector<double> numbers;
     std::optional<std::vector<std::string>> columns;
     if (Numbers(messages.front()->data, joints, numbers)) {
-      columns = SignalTable::Columns(signal.substr(signal.find('.') + 1),
+      columns = SignalTable::Columns(signal.substr(signal.rfind('.') + 1),
                                      static_cast<int>(numbers.size()), joints);
     }
     SignalTable table(folder, signal, columns);

@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <set>
 #include <utility>
@@ -69,12 +70,16 @@ std::vector<PlotPanel> SignalPanels(const std::vector<std::string>& records,
     for (std::size_t i = 0; i < panels.size(); ++i) {
       std::set<std::string> units;
       int colour = 0;
-      for (Series& series : ReadSeries(file, patterns[i])) {
+      std::vector<Series> all = ReadSeries(file, patterns[i]);
+      const bool one = std::all_of(all.begin(), all.end(), [&](const Series& series) {
+        return series.signal == all.front().signal;
+      });
+      for (Series& series : all) {
         if (!series.unit.empty()) units.insert(series.unit);
-        // Without system and port, which the title names.
-        const std::size_t port = series.name.find_first_of(".[", series.name.find('.') + 1);
-        std::string label = port == std::string::npos ? series.name : series.name.substr(port);
+        // Without system and port, which the title names, unless it stands for several.
+        std::string label = series.name.substr(one ? series.signal.size() : 0);
         if (label.starts_with('.')) label.erase(0, 1);
+        if (label.empty()) label = series.name;
         if (records.size() > 1) {
           label.insert(0, fs::path(records[run]).stem().string() + " ");
         }

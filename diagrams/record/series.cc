@@ -92,7 +92,7 @@ std::vector<Series> ReadSeries(const McapFile& record, const std::string& patter
         const std::string name = signal + end;
         if (!whole && fnmatch(pattern.c_str(), name.c_str(), 0) != 0) continue;
         const auto [place, fresh] = places.emplace(name, found.size());
-        if (fresh) found.push_back({name, UnitOf(record, channel), {}, {}});
+        if (fresh) found.push_back({name, UnitOf(record, channel), {}, {}, signal});
         found[place->second].times.push_back(time);
         found[place->second].values.push_back(value);
       }
@@ -102,7 +102,7 @@ std::vector<Series> ReadSeries(const McapFile& record, const std::string& patter
 }
 
 Series LeastDistance(const McapFile& record, const std::string& signal) {
-  Series least{signal, "m", {}, {}};
+  Series least{signal, "m", {}, {}, signal};
   std::map<double, double> at;
   for (const Series& pair : ReadSeries(record, signal)) {
     for (std::size_t i = 0; i < pair.times.size(); ++i) {

@@ -14,6 +14,7 @@ struct Series {
   std::string unit;           ///< may be empty
   std::vector<double> times;  ///< s since the run began
   std::vector<double> values;
+  std::string signal;  ///< that it is of, `system.port`
 };
 
 /// Whether a channel carries a signal `/system/port` rather than a picture, log or summary.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oca/diagrams/record/signal_json.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "oca/diagrams/record/json_text.h"
@@ -100,7 +101,11 @@ void AppendProximities(std::string& out, const ProximitySet& set, bool brief) {
 
 }  // namespace
 
-std::string TopicOf(const SignalFormat& format) { return "/" + format.system + "/" + format.port; }
+std::string TopicOf(const SignalFormat& format) {
+  std::string topic = "/" + format.system + "/" + format.port;
+  std::replace(topic.begin(), topic.end(), '.', '/');
+  return topic;
+}
 
 RecordChannel ChannelOf(const SignalFormat& format) {
   return {TopicOf(format), format.system + "." + format.port, SchemaOf(format).dump(), format};

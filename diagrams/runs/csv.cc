@@ -28,7 +28,7 @@ Csv::File& Csv::Add(const files::RecordedSignal& signal, const loading::LoadedDi
                     const std::vector<std::string>& joints) {
   std::optional<std::vector<std::string>> columns;
   if (IsVector(signal)) {
-    columns = SignalTable::Columns(signal.name.substr(signal.name.find('.') + 1),
+    columns = SignalTable::Columns(signal.name.substr(signal.name.rfind('.') + 1),
                                    loaded.diagram->SizeOf(signal.output), joints);
   }
   files_.emplace_back(

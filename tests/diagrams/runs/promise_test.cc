@@ -36,7 +36,7 @@ struct Case {
   std::string file;
 };
 
-/// All but those that are not about methods: a pure potential field, and two loops side by side.
+/// All but a pure potential field.
 std::vector<Case> Cases() {
   std::vector<Case> cases;
   for (const fs::path& folder : {kFolder, kFolder / "scenarios"}) {
@@ -44,7 +44,7 @@ std::vector<Case> Cases() {
       fs::path name = entry.path().lexically_relative(kFolder);
       if (name.extension() != ".yaml") continue;
       const std::string file = name.replace_extension().string();
-      if (file == "attractive_goal" || file == "dual_arm") continue;
+      if (file == "attractive_goal") continue;
       for (const char* method : {"recommended", "safety_filter"}) cases.push_back({method, file});
     }
   }

@@ -91,7 +91,7 @@ const kCompared = ["rate", "value", "below", "above"];
 
 export function constraintsOf(recording: Recording, specs: PlotSpec[]): Constraint[] {
   return declared(recording, specs).flatMap((one) => {
-    const topic = recording.topics.get(one.signal.startsWith("/") ? one.signal : `/${one.signal.replace(".", "/")}`);
+    const topic = recording.topics.get(one.signal.startsWith("/") ? one.signal : `/${one.signal.replaceAll(".", "/")}`);
     if (!topic || topic.length === 0) return [];
     if (!kCompared.includes(one.kind ?? "rate")) return ofLists(one, topic);
     const columns = columnsOf(topic);

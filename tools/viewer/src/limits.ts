@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which system limited what, and when.
-import { columnsFor, type PlotSpec } from "./plot_set";
+import { columnsFor, systemOf, type PlotSpec } from "./plot_set";
 import { constraintsOf } from "./constraints";
 import type { Recording } from "./recording";
 
@@ -36,7 +36,7 @@ export function limitsOf(recording: Recording, specs: PlotSpec[]): Limited[] {
     const columns = columnsFor(spec, recording);
     columns.names.forEach((name, i) => {
       const spans = spansOf(columns.times, (row) => (columns.values[i]![row] ?? 0) > 0);
-      found.push(entry(recording, spec.signals[0]!.split("/")[1]!, name, "constraint active", spans));
+      found.push(entry(recording, systemOf(spec.signals[0]!), name, "constraint active", spans));
     });
   }
   return found;

@@ -97,14 +97,21 @@ function heldAt(times: number[], columns: Columns): (number | null)[][] {
   return columns.values.map((values) => rows.map((row) => values[row] ?? null));
 }
 
+/** The path of the system that a signal is of: `left.plant` of `/left/plant/position`. */
+export function systemOf(topic: string): string {
+  return topic.slice(1, topic.lastIndexOf("/")).replaceAll("/", ".");
+}
+
 /** What a plot draws; several signals share the times of the first. */
 export function columnsFor(spec: PlotSpec, recording: Recording, specs: PlotSpec[] = [spec]): Columns {
   if (spec.counts) return activeCounts(constraintsOf(recording, specs));
   const all = spec.signals.flatMap((name) => recording.topics.get(name) ?? []).map(columnsOf);
   const first = all[0] ?? { times: [], names: [], values: [], unit: "" };
   const joined: Columns = { ...first, names: [...first.names], values: [...first.values] };
+  const named = (i: number): string[] => all[i]!.names.map((name) => `${systemOf(spec.signals[i]!)} ${name}`);
+  if (all.length > 1) joined.names = named(0);
   for (let i = 1; i < all.length; ++i) {
-    joined.names.push(...all[i]!.names.map((name) => `${spec.signals[i]!.split("/")[1]} ${name}`));
+    joined.names.push(...named(i));
     joined.values.push(...heldAt(first.times, all[i]!));
   }
   if (spec.unit) joined.unit = spec.unit;
