@@ -96,6 +96,9 @@ TEST_F(NestingProblemsTest, NamesAnOverrideThatLeadsNowhereAsItWasGiven) {
                     HasSubstr("did you mean 'factor'?")));
   EXPECT_THAT(Refusal(TwoStages(), {{"frist.parameters.factor", "4"}}),
               HasSubstr("no 'frist' there; did you mean 'first'?"));
+  EXPECT_THAT(Refusal(TwoStages(), {{"*.systems.lag.time_constant", "-1"}}),
+              HasSubstr("-s *.systems.lag.time_constant:1:1: error: in first and second: "
+                        "systems.lag.time_constant: got -1"));
 }
 
 TEST_F(NestingProblemsTest, RefusesPortsThatTheFileDoesNotName) {

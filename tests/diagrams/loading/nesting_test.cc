@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
 #include "oca/diagrams/loading/blueprint.h"
 #include "oca/diagrams/loading/loader.h"
+#include "oca/diagrams/runs/csv.h"
 #include "oca/diagrams/runs/run.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/robot/robot_model.h"
@@ -162,6 +164,16 @@ TEST_F(NestingTest, KeepsTolerancesOfTheFileUnlessTheOtherHasThem) {
   EXPECT_EQ(tolerances.at("first.lag").relative, 1e-4);
   EXPECT_EQ(tolerances.at("second.lag").relative, 1e-7);
   EXPECT_EQ(tolerances.at("second.lag").absolute, 1e-5);
+}
+
+TEST_F(NestingTest, WritesTablesByTheWholePathWithColumnsByThePort) {
+  const LoadedDiagram loaded = Load(TwoStages() + "record: {signals: {\"*.gain.out\": 1}}\n");
+  runs::Csv csv(folder.path() / "tables");
+  EXPECT_FALSE(runs::Run(loaded, {.outputs = {&csv}}).failure);
+  std::ifstream table(folder.path() / "tables" / "second.gain.out.csv");
+  std::string header;
+  std::getline(table, header);
+  EXPECT_EQ(header, "time,out[0],out[1]");
 }
 
 TEST_F(NestingTest, BuildsAPartThatIsInsideOfAUse) {

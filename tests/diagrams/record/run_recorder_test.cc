@@ -175,6 +175,17 @@ TEST(RunRecorderTest, AddsWhatPlotsNeedAndNobodyRecords) {
   EXPECT_EQ(plots[3]["limit"], 0.3);
 }
 
+TEST(RunRecorderTest, NamesSignalsOfUsedFilesByTheirWholePath) {
+  const Recorded recorded = RunRecorded(Load("dual_arm.yaml"), {.duration = 0.05});
+  EXPECT_FALSE(recorded.file.MessagesOf("/left/plant/position").empty());
+  for (const json& plot : json::parse(recorded.file.FindMetadata("oca.plots")->at("plots"))) {
+    for (const json& topic : plot["topics"]) {
+      EXPECT_FALSE(recorded.file.MessagesOf(topic.get<std::string>()).empty()) << topic;
+    }
+  }
+  EXPECT_EQ(ReadSeries(recorded.file, "left.plant.position").at(0).signal, "left.plant.position");
+}
+
 TEST(RunRecorderTest, EndsWithTheMetricsOfTheRun) {
   const auto metrics = StaticTest().file.MessagesOf("/metrics");
   ASSERT_EQ(metrics.size(), 1u);
