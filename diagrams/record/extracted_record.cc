@@ -12,6 +12,7 @@
 #include "oca/diagrams/files/document.h"
 #include "oca/diagrams/files/package_paths.h"
 #include "oca/diagrams/files/yaml_reader.h"
+#include "oca/diagrams/record/file_collector.h"
 #include "oca/diagrams/record/mcap_bytes.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/opened_files.h"
@@ -20,10 +21,6 @@ namespace oca::record {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool Inside(const fs::path& name) {
-  return !name.empty() && name.is_relative() && *name.begin() != "..";
-}
 
 /// Puts the files that a diagram names by their place to where its sources look for them; false if
 /// one would leave the folder.

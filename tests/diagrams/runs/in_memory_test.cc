@@ -32,7 +32,7 @@ class InMemoryTest : public testing::Test {
 TEST_F(InMemoryTest, KeepsSignalsSideBySideWithNamesAndUnits) {
   InMemory series({"ramp.value", "slow.value"}, Period(1, 2));
   for (int run = 0; run < 2; ++run) {  // the second takes the place of the first
-    Run(loaded_, {.outputs = {&series}});
+    runs::Run(loaded_, {.outputs = {&series}});
     EXPECT_EQ(series.times(), Eigen::Vector3d(0.0, 0.5, 1.0));
     EXPECT_EQ(series.Matrix(),
               (Eigen::MatrixXd(3, 3) << 0.0, 0.0, 0.0, 0.5, -1.0, 0.25, 1.0, -2.0, 0.5).finished());
@@ -45,20 +45,20 @@ TEST_F(InMemoryTest, KeepsSignalsSideBySideWithNamesAndUnits) {
 TEST_F(InMemoryTest, SaysWhatItDoesNotHave) {
   InMemory series({"ramp.value"}, Period(1, 2));
   EXPECT_THAT([&] { series.Matrix(); }, ThrowsMessage<ConfigError>(HasSubstr("got none yet")));
-  Run(loaded_, {.outputs = {&series}});
+  runs::Run(loaded_, {.outputs = {&series}});
   EXPECT_THAT([&] { series.Matrix("slow.value"); },
               ThrowsMessage<ConfigError>(HasSubstr("'slow.value'; expected one of ramp.value")));
 }
 
 TEST_F(InMemoryTest, RefusesASignalThatThereIsNotOrThatIsNoVectorBeforeTheRun) {
   InMemory misspelt({"ramp.valu"}, Period(1, 2));
-  EXPECT_THAT([&] { Run(loaded_, {.outputs = {&misspelt}}); },
+  EXPECT_THAT([&] { runs::Run(loaded_, {.outputs = {&misspelt}}); },
               ThrowsMessage<WiringError>(HasSubstr("value")));
   InMemory objects({"obstacles.obstacles"}, Period(1, 2));
-  EXPECT_THAT([&] { Run(loaded_, {.outputs = {&objects}}); },
+  EXPECT_THAT([&] { runs::Run(loaded_, {.outputs = {&objects}}); },
               ThrowsMessage<WiringError>(HasSubstr("expected a Vector")));
   InMemory never({"ramp.value"}, Period());
-  EXPECT_THROW(Run(loaded_, {.outputs = {&never}}), ConfigError);
+  EXPECT_THROW(runs::Run(loaded_, {.outputs = {&never}}), ConfigError);
 }
 
 }  // namespace in_memory_test
