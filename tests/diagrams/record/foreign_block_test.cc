@@ -165,7 +165,7 @@ loading::LoadedDiagram Foreign(bool limits = true) {
   loaded.simulator.duration = 1.0;
   loaded.diagram = builder.Build();
   for (const auto& leaf : loaded.diagram->systems()) {
-    loaded.systems.push_back({leaf.path, "Foreign_" + leaf.path, {}, nullptr});
+    loaded.systems.push_back({leaf.path, "Foreign_" + leaf.path, {}, nullptr, nullptr});
   }
   for (const auto& judge : loaded.diagram->FindRoles<systems::Judges>()) {
     loaded.metrics.emplace_back(judge.path, judge.role->metrics);

@@ -46,7 +46,7 @@ TEST(PageTest, RefusesAPageWithoutAPlaceForTheSource) {
 }
 
 TEST(PageTest, LoadsTheFileThatTheEnvironmentNames) {
-  const test::TemporaryFolder folder;
+  const oca::test::TemporaryFolder folder;
   const auto path = folder.path() / "page.html";
   std::ofstream(path) << kPage;
   ASSERT_EQ(setenv("OCA_VIEWER", path.c_str(), 1), 0);

@@ -43,7 +43,7 @@ class RecordReportTest : public testing::Test {
     std::ifstream stream(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
   }
-  const test::TemporaryFolder folder_;
+  const oca::test::TemporaryFolder folder_;
   const fs::path page_{folder_.path() / "viewer.html"};
   const fs::path record_{folder_.path() / "a.mcap"}, report_{folder_.path() / "a.html"};
   const fs::path diagram_{folder_.Write("ramp.yaml", kRamp)};

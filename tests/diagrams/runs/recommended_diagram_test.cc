@@ -14,7 +14,7 @@ namespace recommended_diagram_test {
 nlohmann::json MetricsOf(const std::string& name, std::vector<files::Override> overrides) {
   overrides.push_back({"parameters.avoidance", "recommended"});
   const RunResult result =
-      Run(loading::LoadDiagram(OCA_SOURCE_DIR "/diagrams/" + name + ".yaml", overrides), {});
+      runs::Run(loading::LoadDiagram(OCA_SOURCE_DIR "/diagrams/" + name + ".yaml", overrides), {});
   EXPECT_FALSE(result.failure) << result.failure->message;
   return nlohmann::json::parse(MetricsJson(result.metrics));
 }

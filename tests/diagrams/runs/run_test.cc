@@ -69,7 +69,7 @@ class RunTest : public testing::Test {
 };
 
 TEST_F(RunTest, TellsWhatEachJudgeSaysAndTheWorstOfAll) {
-  const RunResult result = Run(Load(kRamp), {});
+  const RunResult result = runs::Run(Load(kRamp), {});
   ASSERT_EQ(result.judgements.size(), 2u);
   EXPECT_EQ(result.judgements[0].judge, "first");
   EXPECT_NEAR(*result.judgements[0].metrics.final_error, 0.0, 1e-9);
@@ -80,11 +80,11 @@ TEST_F(RunTest, TellsWhatEachJudgeSaysAndTheWorstOfAll) {
   ASSERT_EQ(result.expectations.size(), 1u);
   EXPECT_EQ(result.expectations[0].value, result.metrics->final_error);
   EXPECT_FALSE(result.ExpectationsMet());
-  EXPECT_EQ(Run(Load(kRamp), {.judge = false}).expectations.size(), 0u);
+  EXPECT_EQ(runs::Run(Load(kRamp), {.judge = false}).expectations.size(), 0u);
 }
 
 TEST_F(RunTest, SaysWhereAndWhenItFailed) {
-  const RunResult result = Run(Load(kOverflow), {});
+  const RunResult result = runs::Run(Load(kOverflow), {});
   ASSERT_TRUE(result.failure);
   EXPECT_EQ(result.failure->system, "gain");
   EXPECT_EQ(result.failure->port, "out");
@@ -97,7 +97,7 @@ TEST_F(RunTest, SaysWhereAndWhenItFailed) {
 TEST_F(RunTest, WritesTablesOfWhatTheFileRecords) {
   const fs::path folder = folder_.path() / "csv";
   Csv csv(folder);
-  Run(Load(kRamp), {.outputs = {&csv}});
+  runs::Run(Load(kRamp), {.outputs = {&csv}});
   EXPECT_EQ(Text(folder / "rate.value.csv"), "time,value[0]\n0,1\n0.5,1\n1,1\n1.5,1\n2,1\n");
   EXPECT_THAT(Text(folder / "first.metrics.jsonl"), HasSubstr("{\"time\":1,\"value\":{"));
 }
@@ -108,20 +108,20 @@ TEST_F(RunTest, RefusesOutputsThatWouldReplaceWhatItReadsOrOneAnotherBeforeAnyth
   fs::create_hard_link(loaded.file, folder_.path() / "rate.value.csv");
   Csv over_the_file(folder_.path());
   EXPECT_THAT(
-      [&] { Run(loaded, {.outputs = {&over_the_file}}); },
+      [&] { runs::Run(loaded, {.outputs = {&over_the_file}}); },
       ThrowsMessage<ConfigError>(HasSubstr("rate.value.csv is what is run; expected another")));
   EXPECT_EQ(Text(loaded.file), before);
   EXPECT_FALSE(fs::exists(folder_.path() / "first.metrics.jsonl"));
   Csv one(folder_.path() / "new"), other(folder_.path() / "." / "new");
   EXPECT_THAT(
       [&] {
-        Run(loaded, {.outputs = {&one, &other}});
+        runs::Run(loaded, {.outputs = {&one, &other}});
       },
       ThrowsMessage<ConfigError>(HasSubstr("is what csv writes")));
   EXPECT_FALSE(fs::exists(folder_.path() / "new"));
   const fs::path source = folder_.Write("source.mcap", "");
   Csv over_the_source(source);
-  EXPECT_THROW(Run(loaded, {.outputs = {&over_the_source}, .inputs = {{source, "what is run"}}}),
+  EXPECT_THROW(runs::Run(loaded, {.outputs = {&over_the_source}, .inputs = {{source, "what is run"}}}),
                ConfigError);
 }
 
@@ -182,7 +182,7 @@ TEST_F(RunTest, GoesOnWithAnotherDiagramFromTheStatesItHas) {
   Noting noting;
   InMemory series({"x.out"}, Period(1, 2));
   Csv csv(folder_.path() / "csv");
-  const RunResult result = Run(loaded, {.outputs = {&noting, &series, &csv}, .hook = &hook});
+  const RunResult result = runs::Run(loaded, {.outputs = {&noting, &series, &csv}, .hook = &hook});
   EXPECT_EQ(hook.refusal, "");
   EXPECT_EQ(hook.prepared, 2);
   EXPECT_EQ(result.duration, 2.0);
@@ -197,7 +197,7 @@ TEST_F(RunTest, StaysAsItIsIfAnotherDiagramCannotGoOn) {
   const LoadedDiagram loaded = Load(kHalves);
   Switch hook(Load(kHalves, {{"systems.x.initial", "[0, 0]"}, {"systems.rate.value", "[1, 1]"}}));
   Noting noting;
-  const RunResult result = Run(loaded, {.outputs = {&noting}, .hook = &hook});
+  const RunResult result = runs::Run(loaded, {.outputs = {&noting}, .hook = &hook});
   EXPECT_THAT(hook.refusal, HasSubstr("got other systems or states than before"));
   EXPECT_EQ(noting.notes, "begins;careful;ends;");
   EXPECT_EQ(result.duration, 2.0);
@@ -205,7 +205,7 @@ TEST_F(RunTest, StaysAsItIsIfAnotherDiagramCannotGoOn) {
 
 TEST_F(RunTest, CallsItAFailureIfAnOutputCannotBeWrittenToTheEnd) {
   Noting full;
-  const RunResult result = Run(Load(kHalves), {.duration = 0.5, .outputs = {&full}});
+  const RunResult result = runs::Run(Load(kHalves), {.duration = 0.5, .outputs = {&full}});
   ASSERT_TRUE(result.failure);
   EXPECT_EQ(result.failure->system, "");
   EXPECT_EQ(result.failure->message, "the disk is full");

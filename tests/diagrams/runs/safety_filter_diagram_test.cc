@@ -19,7 +19,7 @@ namespace safety_filter_diagram_test {
 std::string FileOf(const std::string& name) { return OCA_SOURCE_DIR "/diagrams/" + name + ".yaml"; }
 
 nlohmann::json MetricsOf(const std::string& name, const std::vector<files::Override>& overrides) {
-  const RunResult result = Run(loading::LoadDiagram(FileOf(name), overrides), {});
+  const RunResult result = runs::Run(loading::LoadDiagram(FileOf(name), overrides), {});
   EXPECT_FALSE(result.failure) << result.failure->message;
   return nlohmann::json::parse(MetricsJson(result.metrics));
 }

@@ -20,7 +20,7 @@ struct Outcome {
   explicit Outcome(const std::vector<files::Override>& overrides,
                    const std::string& file = "static_test") {
     const RunResult result =
-        Run(loading::LoadDiagram(OCA_SOURCE_DIR "/diagrams/" + file + ".yaml", overrides), {});
+        runs::Run(loading::LoadDiagram(OCA_SOURCE_DIR "/diagrams/" + file + ".yaml", overrides), {});
     EXPECT_FALSE(result.failure) << result.failure->message;
     text = MetricsJson(result.metrics);
     metrics = nlohmann::json::parse(text);

@@ -13,7 +13,7 @@ namespace velocity_methods_diagram_test {
 
 nlohmann::json MetricsOf(const std::string& name, const std::vector<files::Override>& overrides) {
   const RunResult result =
-      Run(loading::LoadDiagram(OCA_SOURCE_DIR "/diagrams/" + name + ".yaml", overrides), {});
+      runs::Run(loading::LoadDiagram(OCA_SOURCE_DIR "/diagrams/" + name + ".yaml", overrides), {});
   EXPECT_FALSE(result.failure) << result.failure->message;
   return nlohmann::json::parse(MetricsJson(result.metrics));
 }
