@@ -64,7 +64,7 @@ for case in "${cases[@]}"; do
       const all = JSON.parse(text);
       // Names of expectations change with those of signals, and their order with that.
       all.expectations = (all.expectations ?? []).map(({ name, ...rest }) => JSON.stringify(rest)).sort();
-      for (const key of ["statistics", "wall_seconds", "realtime_factor", "profile", "steps", "evaluations"]) delete all[key];
+      for (const key of ["file", "statistics", "wall_seconds", "realtime_factor", "profile", "steps", "evaluations"]) delete all[key];
       return JSON.stringify(all);
     });
     if (old !== now) { console.log(old.slice(0, 2000)); console.log(now.slice(0, 2000)); process.exit(1); }

@@ -139,7 +139,7 @@ void AddRows(const Database& database, const Results& results) {
   Insertion draws(database, "drawn", 3);
   Insertion metrics(database, "metric", 4);
   for (const SampleRow& row : results.rows) {
-    const Judgement judged = Judge(row, campaign.arrival);
+    const Verdict judged = Judge(row, campaign.arrival);
     const Settings& settings = combinations.at(static_cast<std::size_t>(row.combination));
     samples.Add(row.sample, row.combination, row.seed, std::string(NameOf(row.outcome)), row.error,
                 row.duration, row.steps, judged.clear, judged.sampled_clear, judged.arrived,

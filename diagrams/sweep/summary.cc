@@ -77,10 +77,10 @@ struct Collection {
 
 }  // namespace
 
-Judgement Judge(const SampleRow& row, double arrival) {
+Verdict Judge(const SampleRow& row, double arrival) {
   if (row.outcome != Outcome::kFinished) return {false, false, false, false, false};
   const MotionMetricsValue metrics = row.metrics.value_or(MotionMetricsValue());
-  Judgement judgement;
+  Verdict judgement;
   judgement.met = row.unmet.empty();
   if (metrics.min_distance) {
     judgement.sampled_clear = *metrics.min_distance > 0.0;
@@ -98,7 +98,7 @@ std::string FailureOf(const SampleRow& row, double arrival) {
   if (row.outcome != Outcome::kFinished) {
     return std::string(NameOf(row.outcome)) + (row.error.empty() ? "" : ": " + row.error);
   }
-  const Judgement judgement = Judge(row, arrival);
+  const Verdict judgement = Judge(row, arrival);
   const MotionMetricsValue metrics = row.metrics.value_or(MotionMetricsValue());
   std::vector<std::string> whys;
   if (judgement.sampled_clear == false) {
@@ -127,7 +127,7 @@ Summary Summarize(const Results& results) {
   for (const SampleRow& row : results.rows) {
     const auto number = static_cast<std::size_t>(row.combination);
     CombinationSummary& one = summary.combinations.at(number);
-    const Judgement judgement = Judge(row, campaign.arrival);
+    const Verdict judgement = Judge(row, campaign.arrival);
     ++one.runs;
     Count(judgement.clear, one.clear);
     Count(judgement.sampled_clear, one.sampled_clear);

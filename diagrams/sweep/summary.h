@@ -15,7 +15,7 @@ namespace oca::sweep {
 
 /// What one run was like; empty where its metrics do not tell. A run that did not finish was not
 /// free of contact and did not arrive.
-struct Judgement {
+struct Verdict {
   /// certified_min_distance > 0 if there is one, thus at every time; else as `sampled_clear`.
   std::optional<bool> clear;
   /// min_distance > 0, or of what was looked at nothing ever came within reach; at the control
@@ -25,7 +25,7 @@ struct Judgement {
   std::optional<bool> both;     ///< clear and arrived
   bool met{false};              ///< finished, with all expectations met
 };
-Judgement Judge(const SampleRow& row, double arrival);
+Verdict Judge(const SampleRow& row, double arrival);
 
 /// How many of the runs of which it is known.
 struct Share {

@@ -121,13 +121,13 @@ inline Outside OutsideBox(const Eigen::Vector3d& half, const Eigen::Vector3d& p)
 }
 
 /// A body of revolution, seen in the half-plane (distance from the axis, z).
-struct Profile {
+struct RadialOutside {
   double distance;
   Eigen::Vector2d nearest;
   Eigen::Vector2d normal;
 };
 
-inline Profile OutsideRectangle(const Eigen::Vector2d& half, const Eigen::Vector2d& p) {
+inline RadialOutside OutsideRectangle(const Eigen::Vector2d& half, const Eigen::Vector2d& p) {
   const double side = p.x() - half.x();
   const double cap = std::abs(p.y()) - half.y();
   const double up = std::copysign(1.0, p.y());
@@ -141,7 +141,7 @@ inline Profile OutsideRectangle(const Eigen::Vector2d& half, const Eigen::Vector
 }
 
 /// Triangle from the rim (radius, -half) to the apex (0, half).
-inline Profile OutsideTriangle(double radius, double half, const Eigen::Vector2d& p) {
+inline RadialOutside OutsideTriangle(double radius, double half, const Eigen::Vector2d& p) {
   const double slant = std::hypot(radius, 2.0 * half);
   const Eigen::Vector2d up(-radius / slant, 2.0 * half / slant), out(up.y(), -up.x());
   const Eigen::Vector2d rim(radius, -half);
@@ -160,7 +160,7 @@ inline Profile OutsideTriangle(double radius, double half, const Eigen::Vector2d
   return {distance, corner, gap / distance};
 }
 
-inline Outside Revolve(const Profile& profile, const Eigen::Vector3d& p, double across) {
+inline Outside Revolve(const RadialOutside& profile, const Eigen::Vector3d& p, double across) {
   const double x = across > 0.0 ? p.x() / across : 1.0, y = across > 0.0 ? p.y() / across : 0.0;
   const Eigen::Vector2d &q = profile.nearest, &n = profile.normal;
   return {profile.distance, {x * q.x(), y * q.x(), q.y()}, {x * n.x(), y * n.x(), n.y()}};

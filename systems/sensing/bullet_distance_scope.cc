@@ -106,7 +106,11 @@ std::vector<std::pair<models::Name, models::Name>> BulletDistance::MakeIgnored(
         throw ConfigError(
             fmt::format("obstacle; got '{}'; expected the id of one or model/link", pair[1]));
       }
-      if (slash != std::string::npos) models.Get(model)->FindLink(pair[1].substr(slash + 1));
+      if (slash != std::string::npos) {
+        const auto other = models.all().find(models.FullName(model));
+        const auto& found = other == models.all().end() ? models.Get(model) : other->second;
+        found->FindLink(pair[1].substr(slash + 1));
+      }
     } catch (const std::runtime_error& error) {
       throw ConfigError(fmt::format("ignore[{}]: {}", i, error.what()));
     }

@@ -26,9 +26,11 @@ void ModelSet::AddOuter(const ModelSet& outer) {
 }
 
 void ModelSet::AddInner(const ModelSet& inner) {
-  for (const auto& [name, model] : inner.all_) {
-    full_names_.emplace(name, name);
-    all_.insert_or_assign(name, model);
+  for (const auto& entry :
+       inner.full_names_) {  // its own; what it sees of others stays as it is here
+    const std::string& full = entry.second;
+    full_names_.emplace(full, full);
+    all_.insert_or_assign(full, inner.all_.at(full));
   }
 }
 

@@ -41,7 +41,9 @@ TEST_F(CatalogueCommandsTest, TheReferenceHasEveryTypeWithItsPortsAndParameters)
   const Ran list = run("$S list");
   std::istringstream types(list.out);
   for (std::string line; std::getline(types, line);) {
-    EXPECT_THAT(page.out, HasSubstr("\n## " + line.substr(0, line.find(' ')) + "\n")) << line;
+    const std::string type = line.substr(0, line.find(' '));
+    if (type == "Diagram") continue;  // has its keys in the page of the file
+    EXPECT_THAT(page.out, HasSubstr("\n## " + type + "\n"));
   }
   EXPECT_THAT(page.out, HasSubstr("| input | `delta` | Vector, u |\n"));
   EXPECT_THAT(page.out, HasSubstr("| `force_gain` | number | N m^3 | `1` | >= 0 | gain eta of eq. "
@@ -56,6 +58,7 @@ TEST_F(CatalogueCommandsTest, TheReferenceOfTheFileHasEverySection) {
     EXPECT_THAT(page.out, HasSubstr("\n## " + std::string(key) + "\n"));
   }
   EXPECT_THAT(page.out, HasSubstr("| `NAME.attached[].shape.radius` | number | m |  | > 0 |"));
+  EXPECT_THAT(page.out, HasSubstr("The type `Diagram` "));
   EXPECT_EQ(run("$S docs nothing").status, 64);
 }
 

@@ -84,7 +84,10 @@ TEST_F(RunTest, TellsWhatEachJudgeSaysAndTheWorstOfAll) {
 }
 
 TEST_F(RunTest, SaysWhereAndWhenItFailed) {
-  const RunResult result = runs::Run(Load(kOverflow), {});
+  const LoadedDiagram loaded = Load(kOverflow);
+  EXPECT_FALSE(runs::Run(loaded, {}).failure);  // nobody looked
+  Csv csv(folder_.path() / "csv");
+  const RunResult result = runs::Run(loaded, {.outputs = {&csv}});
   ASSERT_TRUE(result.failure);
   EXPECT_EQ(result.failure->system, "gain");
   EXPECT_EQ(result.failure->port, "out");
@@ -121,8 +124,9 @@ TEST_F(RunTest, RefusesOutputsThatWouldReplaceWhatItReadsOrOneAnotherBeforeAnyth
   EXPECT_FALSE(fs::exists(folder_.path() / "new"));
   const fs::path source = folder_.Write("source.mcap", "");
   Csv over_the_source(source);
-  EXPECT_THROW(runs::Run(loaded, {.outputs = {&over_the_source}, .inputs = {{source, "what is run"}}}),
-               ConfigError);
+  EXPECT_THROW(
+      runs::Run(loaded, {.outputs = {&over_the_source}, .inputs = {{source, "what is run"}}}),
+      ConfigError);
 }
 
 /// Notes what a run calls.

@@ -26,10 +26,10 @@ systems::MotionMetricsValue With(const std::vector<systems::Metric>& values) {
 }
 
 TEST(JudgeTest, BelievesTheCertificateBeforeTheSamples) {
-  const Judgement sure =
+  const Verdict sure =
       Judge(Row(0, With({{"min_distance", 0.1}, {"certified_min_distance", 0.05}})), 0.01);
   EXPECT_EQ(sure.clear, true);
-  const Judgement unsure =
+  const Verdict unsure =
       Judge(Row(0, With({{"min_distance", 0.1}, {"certified_min_distance", -0.05}})), 0.01);
   EXPECT_EQ(unsure.clear, false);
   EXPECT_EQ(unsure.sampled_clear, true);
@@ -52,7 +52,7 @@ TEST(JudgeTest, ArrivesWithinTheArrivalFromBothSides) {
 TEST(JudgeTest, CountsARunThatDidNotFinishAsLost) {
   SampleRow row = Row(0, With({{"min_distance", 1.0}, {"final_error", 0.0}}));
   row.outcome = Outcome::kTimedOut;
-  const Judgement judgement = Judge(row, 0.01);
+  const Verdict judgement = Judge(row, 0.01);
   EXPECT_EQ(judgement.clear, false);
   EXPECT_EQ(judgement.arrived, false);
   EXPECT_FALSE(judgement.met);
