@@ -92,7 +92,15 @@ class Path {
     if (depth_ == 0) {
       for (const Section& section : Sections()) known.emplace_back(section.key);
       if (std::find(known.begin(), known.end(), key) != known.end()) return true;
-      for (std::string& name : UsedFilesOf(parent)) known.push_back(std::move(name));
+      for (std::string& name : UsedFilesOf(parent)) {
+        if (name == key) {
+          problems_.Add(location_, fmt::format("'{0}' is a file that is used; expected a path in "
+                                               "it, {0}.PATH",
+                                               key));
+          return false;
+        }
+        known.push_back(std::move(name));
+      }
     } else {
       const bool named_by_file =
           keys_[0] == "parameters" || keys_[0] == "systems" || keys_[0] == "models";
@@ -130,8 +138,7 @@ bool IsPlain(const std::string& text) {
 }
 
 void Apply(const Override& change, Value& root, Problems& problems) {
-  const std::string name = "-s " + (change.given_as.empty() ? change.path : change.given_as);
-  const Location location{std::make_shared<const std::string>(name), 0, 0};
+  const Location location{std::make_shared<const std::string>(change.Source()), 0, 0};
   if (change.path == "include" || change.path.starts_with("include.")) {
     problems.Add(location, "include: cannot be overridden; expected another path");
     return;
@@ -148,8 +155,10 @@ void Apply(const Override& change, Value& root, Problems& problems) {
 
 }  // namespace
 
+std::string Override::Source() const { return "-s " + (given_as.empty() ? path : given_as); }
+
 Value Override::Read(Problems& problems) const {
-  const std::string name = "-s " + (given_as.empty() ? path : given_as);
+  const std::string name = Source();
   if (!IsPlain(value)) return ReadYaml(value, name, problems);
   std::string problem;
   Value::Data data = ReadPlainScalar(value, problem);

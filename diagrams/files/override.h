@@ -18,6 +18,8 @@ struct Override {
   std::string given_as{};  ///< the path in messages, if it is another
   /// throws ConfigError if `text` is not PATH=VALUE.
   static Override Parse(const std::string& text);
+  /// `-s PATH` as it was given, which messages have for the place.
+  std::string Source() const;
   /// VALUE; what is wrong with it is added to `problems`.
   Value Read(Problems& problems) const;
 };

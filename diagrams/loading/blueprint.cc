@@ -2,6 +2,7 @@
 #include "oca/diagrams/loading/blueprint.h"
 
 #include <fmt/format.h>
+#include <fnmatch.h>
 
 #include <algorithm>
 #include <limits>
@@ -40,14 +41,15 @@ class Loader {
 
   LoadedDiagram Load(bool movable) {
     ReadDocument();
-    ReadNames();
-    ReadSimulator();
+    loaded_.name = file_.stem().string();
+    ReadRun(root(), loaded_, problems_);
     files::ModelSection models(root(), problems_);
     for (const std::string& line : models.warnings()) construction_.warnings.Add("", line);
     const SystemSources sources{models, inner_overrides_};
     Assembly assembly(root(), level_, sources, construction_, builder_, problems_);
     loaded_.models = models.models();
     KeepUsedFiles(assembly.systems());
+    CheckRuns(assembly.systems());
     ReadTolerances(root(), level_, assembly.systems(), problems_);
     loaded_.systems = assembly.systems().TakeBlocks();
     part_.CheckNames(assembly.systems().names(), root().location(), problems_);
@@ -55,7 +57,7 @@ class Loader {
     loaded_.diagram = assembly.Build(movable);
     loaded_.metrics = assembly.Metrics();
     loaded_.opened = opened_.files();
-    if (part_.whole()) ReadOutputs(root(), level_, assembly, problems_);
+    if (part_.whole()) ReadOutputs(root(), level_, assembly, {}, problems_);
     Throw();
     loaded_.warnings = construction_.warnings.Lines();
     return std::move(loaded_);
@@ -81,26 +83,33 @@ class Loader {
     for (const std::string& line : read.warnings) construction_.warnings.Add("", line);
   }
 
-  void ReadNames() {
-    loaded_.name = file_.stem().string();
+  /// What a file says of the run: its name and how it is simulated.
+  static void ReadRun(const Value& root, LoadedDiagram& loaded, Problems& problems) {
     for (const auto& [key, target] :
-         {std::pair{"name", &loaded_.name}, std::pair{"description", &loaded_.description}}) {
-      const Value* const value = root().Find(key);
+         {std::pair{"name", &loaded.name}, std::pair{"description", &loaded.description}}) {
+      const Value* const value = root.Find(key);
       if (value == nullptr || value->null()) continue;
       if (value->string() == nullptr) {
-        problems_.Add(value->location(),
-                      fmt::format("{}: got {}; expected text", key, value->Show()));
+        problems.Add(value->location(),
+                     fmt::format("{}: got {}; expected text", key, value->Show()));
       } else {
         *target = *value->string();
       }
     }
+    if (const Value* const value = root.Find("simulator")) {
+      ReadFields(*value, FieldsOf<files::SimulatorParams>(), "simulator", &loaded.simulator,
+                 problems);
+    }
   }
 
-  void ReadSimulator() {
-    if (const Value* const value = root().Find("simulator")) {
-      ReadFields(*value, FieldsOf<files::SimulatorParams>(), "simulator", &loaded_.simulator,
-                 problems_);
-    }
+  /// What used files say of a run is not of this one, and must be right all the same.
+  static void CheckRuns(const SystemSection& systems) {
+    ForUsedFiles(systems, [](const UsedFile& used, Problems& own) {
+      LoadedDiagram ignored;
+      ReadRun(used.document().root, ignored, own);
+      files::ReadSceneRate(used.document().root, ignored.scene_period, own);
+      CheckRuns(used.assembly().systems());
+    });
   }
 
   void KeepUsedFiles(const SystemSection& systems) {
@@ -130,20 +139,57 @@ class Loader {
     for (const Value::Entry& entry : files::SectionOf(root, "simulator_tolerances", problems)) {
       ReadFields(entry.value, FieldsOf<Tolerances>(), "simulator_tolerances." + entry.key,
                  &loaded_.simulator.integration.tolerances[level.Full(entry.key)], problems);
+      if (entry.value.map() != nullptr) {
+        for (const Value::Entry& field : *entry.value.map()) {
+          RefuseOverridesBelow(systems, level.Full(entry.key + "." + field.key));
+        }
+      }
       if (systems.Names(entry.key)) continue;
       problems.Add(entry.location, fmt::format("simulator_tolerances: no system '{}'{}", entry.key,
                                                DidYouMean(entry.key, systems.names())));
     }
   }
 
+  /// An override in a used file of a tolerance that a file around it gives, by its whole path.
+  static void RefuseOverridesBelow(const SystemSection& systems, const std::string& tolerance) {
+    ForUsedFiles(systems, [&](const UsedFile& used, Problems& own) {
+      const std::string prefix = used.level().path + ".";
+      if (!tolerance.starts_with(prefix)) return;
+      RefuseOverrides(used.overrides(), used.level(),
+                      "simulator_tolerances." + tolerance.substr(prefix.size()), own);
+      RefuseOverridesBelow(used.assembly().systems(), tolerance);
+    });
+  }
+
+  /// Those of what a file around that one has its own value for, which wins.
+  static void RefuseOverrides(const std::vector<files::Override>& overrides, const Level& level,
+                              const std::string& path, Problems& problems) {
+    for (const files::Override& change : overrides) {
+      if (change.path != path && !path.starts_with(change.path + ".") &&
+          !change.path.starts_with(path + ".") &&
+          fnmatch(change.path.c_str(), path.c_str(), 0) != 0) {
+        continue;
+      }
+      problems.Add({std::make_shared<const std::string>(change.Source()), 0, 0},
+                   fmt::format("{}: without effect; a file that uses this one says it of '{}', and "
+                               "its word counts; expected an override of that",
+                               path, level.path));
+    }
+  }
+
   /// What the file says to record and to expect of its systems, it says wherever it is used, unless
   /// the file there says otherwise.
-  void ReadOutputs(const Value& root, const Level& level, Assembly& assembly, Problems& problems) {
+  void ReadOutputs(const Value& root, const Level& level, Assembly& assembly,
+                   const std::vector<files::Override>& overrides, Problems& problems) {
     files::NamedOutputs outputs = assembly.systems().Outputs();
     const files::NamedOutputs named = assembly.systems().NamedByUsedFiles();
     for (auto& signal : files::ReadRecord(root, outputs, named, problems)) {
-      signal.name = level.Full(signal.name);
-      KeepFirst(std::move(signal), loaded_.record);
+      const std::string name = std::exchange(signal.name, level.Full(signal.name));
+      if (!IsIn(signal.name, loaded_.record)) {
+        loaded_.record.push_back(std::move(signal));
+      } else {
+        RefuseOverrides(overrides, level, "record.signals." + name, problems);
+      }
     }
     outputs.insert(outputs.end(), named.begin(), named.end());
     const bool own = level.path.empty();
@@ -152,20 +198,34 @@ class Loader {
     if (own) loaded_.scene_period = files::ReadSceneRate(root, loaded_.scene_period, problems);
     for (auto& expectation : files::ReadExpectations(root, outputs, metrics, loaded_.diagram.get(),
                                                      own ? duration : kEver, problems)) {
-      expectation.name = level.Full(expectation.name);
-      if (expectation.bound.at.value_or(0.0) > duration) continue;  // the other file runs longer
-      KeepFirst(std::move(expectation), loaded_.expectations);
+      const std::string name = std::exchange(expectation.name, level.Full(expectation.name));
+      if (IsIn(expectation.name, loaded_.expectations)) {
+        RefuseOverrides(overrides, level, "expect." + name, problems);
+      } else if (expectation.bound.at.value_or(0.0) > duration) {  // the file runs longer
+        WarnOfExpectation(root, level, name, *expectation.bound.at);
+      } else {
+        loaded_.expectations.push_back(std::move(expectation));
+      }
     }
     ForUsedFiles(assembly.systems(), [&](const UsedFile& used, Problems& of_used) {
-      ReadOutputs(used.document().root, used.level(), used.assembly(), of_used);
+      ReadOutputs(used.document().root, used.level(), used.assembly(), used.overrides(), of_used);
     });
   }
 
+  void WarnOfExpectation(const Value& root, const Level& level, const std::string& name,
+                         double at) {
+    construction_.warnings.Add(
+        level.path,
+        fmt::format("{}: warning: expect.{}.at: got {} s, after the run, which ends at {} s: it is "
+                    "not checked",
+                    root.Find("expect")->Find(name)->location().ToString(), name, at,
+                    loaded_.simulator.duration));
+  }
+
   template <class Named>
-  static void KeepFirst(Named named, std::vector<Named>& all) {
-    const bool taken = std::any_of(all.begin(), all.end(),
-                                   [&](const Named& other) { return other.name == named.name; });
-    if (!taken) all.push_back(std::move(named));
+  static bool IsIn(const std::string& name, const std::vector<Named>& all) {
+    return std::any_of(all.begin(), all.end(),
+                       [&](const Named& other) { return other.name == name; });
   }
 
   template <class Visit>

@@ -78,6 +78,17 @@ bool IsPattern(const std::string& port) {
   return false;
 }
 
+bool IsAmbiguous(const std::string& port) {
+  bool separated = true;
+  for (std::string_view rest = port; !rest.empty();) {
+    const std::size_t place = PlaceAt(rest);
+    if (place > 0 && !separated) return true;
+    separated = place == 0 && (separated || !IsNameCharacter(rest.front()));
+    rest.remove_prefix(std::max<std::size_t>(place, 1));
+  }
+  return false;
+}
+
 std::vector<std::pair<std::string, std::string>> MatchConnections(
     const std::string& from, const std::string& to, const std::vector<std::string>& outputs,
     const std::vector<std::string>& inputs) {

@@ -69,7 +69,8 @@ void ConnectionSection::Read(const Value& item) {
   if (!IsPattern(from) && !IsPattern(to)) return Connect(from, to, location);
   const auto all = MatchConnections(from, to, systems_.OutputNames(), systems_.InputNames());
   for (const auto& [output, input] : all) Connect(output, input, location);
-  if (all.empty() && !from.starts_with(kInputs)) {
+  const bool shows_what_is_there = from.starts_with(kInputs) && IsPattern(from);
+  if (all.empty() && !shows_what_is_there) {
     construction_.warnings.Add(
         level_.path, fmt::format("{}: warning: connections: {} -> {}: no ports have such names",
                                  location.ToString(), from, to));
@@ -82,8 +83,11 @@ std::string ConnectionSection::ReadPort(const std::string& text, const Location&
   const auto last = text.find_last_not_of(" \t");
   const std::string port = first == std::string::npos ? "" : text.substr(first, last - first + 1);
   const std::size_t dot = port.find('.');
-  if (dot != std::string::npos && dot != 0 && port.back() != '.') return port;
-  problems_.Add(location, fmt::format("connections: got '{}'; expected system.port", port));
+  const bool port_of_system = dot != std::string::npos && dot != 0 && port.back() != '.';
+  if (port_of_system && !IsAmbiguous(port)) return port;
+  problems_.Add(location,
+                fmt::format("connections: got '{}'; expected {}", port,
+                            port_of_system ? "a dot between two places for names" : "system.port"));
   return "";
 }
 

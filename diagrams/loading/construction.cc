@@ -31,7 +31,30 @@ std::string SystemIn(const std::string& problem) {
   return port.substr(0, port.rfind('.'));
 }
 
+/// The inputs that a problem leads through, `... -> a.in -> a.out -> b.in -> ...`, in order.
+std::vector<std::string> InputsOnPath(const std::string& problem) {
+  std::vector<std::string> ports;
+  const std::string arrow = " -> ";
+  for (std::size_t at = problem.find(arrow); at != std::string::npos;) {
+    const std::size_t begin = at + arrow.size();
+    ports.push_back(problem.substr(begin, problem.find_first_of(" ;", begin) - begin));
+    at = problem.find(arrow, begin);
+  }
+  return ports;
+}
+
 }  // namespace
+
+const Place* Construction::PlaceOfLoop(const std::string& problem) const {
+  const Place* place = nullptr;
+  for (const std::string& port : InputsOnPath(problem)) {
+    const auto connection = connections.find(port);
+    if (connection == connections.end()) continue;
+    const Place& found = connection->second;
+    if (place == nullptr || found.use.size() < place->use.size()) place = &found;
+  }
+  return place;
+}
 
 void Construction::Add(const Place& place, const std::string& what, Problems& into) {
   if (place.use.empty()) return into.Add(place.location, what);
@@ -47,6 +70,10 @@ void Construction::AddProblemOf(const std::string& system, const std::string& wh
 
 void Construction::AddWiringProblem(const std::string& problem, const Location& otherwise,
                                     Problems& into) {
+  if (problem.starts_with("algebraic loop: ")) {
+    const Place* const place = PlaceOfLoop(problem);
+    return Add(place == nullptr ? Place{otherwise} : *place, problem, into);
+  }
   for (const auto& [input, opened] : open) {
     if (!problem.starts_with(input + ": input not connected")) continue;
     return Add(opened.place, fmt::format("{}: {}", opened.name, problem), into);

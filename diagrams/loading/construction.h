@@ -60,6 +60,8 @@ class Construction {
   void AddProblemOf(const std::string& system, const std::string& what, Problems& into);
 
  private:
+  /// The connection of an algebraic loop that is in the outermost file; the first of these.
+  const Place* PlaceOfLoop(const std::string& problem) const;
   void Add(const Place& place, const std::string& what, Problems& into);
 };
 

@@ -122,36 +122,44 @@ void SystemSection::Make(const Value::Entry& entry, const Value& type, const std
   auto system = row->Make(params, where, sources_.models.models(), problems_);
   if (!system) return;
   const std::string path = level_.Full(entry.key);
-  Made& made = made_[entry.key] = {.system = system.get()};
   construction_.systems[path] = {entry.location, level_.path};
   KeepWarnings(*system, where, entry.location);
-  if (!construction_.part.Has(path)) {
+  const System* made = system.get();
+  if (construction_.part.Has(path)) {
+    made = &builder_.AddSystem(entry.key, std::move(system));
+    built_.push_back({entry.key, made});
+    blocks_.push_back({path, row->type, std::move(params), row, models_});
+  } else {
     outside_.push_back(std::move(system));
-    return;
   }
-  made.system = nullptr;  // until the builder has taken it
-  made.system = &builder_.AddSystem(entry.key, std::move(system));
-  built_.push_back({entry.key, made.system});
-  blocks_.push_back({path, row->type, std::move(params), row, models_});
+  made_[entry.key] = {.system = made};
 }
 
 /// Reads another file as a system of this one.
 void SystemSection::Use(const Value::Entry& entry) {
+  for (const files::Section& section : files::Sections()) {
+    if (entry.key != section.key) continue;
+    problems_.Add(entry.location, fmt::format("systems.{0}: -s {0}.PATH is of the section '{0}' of "
+                                              "the file; expected another name for a used file",
+                                              entry.key));
+    return;
+  }
   SystemSources inner = sources_;
   inner.outer_systems.insert(inner.outer_systems.end(), Entries().begin(), Entries().end());
   auto used = std::make_unique<UsedFile>(entry, level_, inner, construction_, problems_);
   if (!used->read()) return;
   SystemSection& systems = used->assembly().systems();
   for (const std::string& name : systems.names()) names_.push_back(entry.key + "." + name);
-  made_[entry.key] = {.file = used.get()};
+  used_.push_back(std::move(used));
+  if (used_.back()->failed()) return;
   if (!systems.built().empty()) {
-    builder_.AddSystem(entry.key, used->Build());
+    builder_.AddSystem(entry.key, used_.back()->Build());
     for (const Built& built : systems.built()) {
       built_.push_back({entry.key + "." + built.name, built.system});
     }
     for (LoadedDiagram::Block& block : systems.TakeBlocks()) blocks_.push_back(std::move(block));
   }
-  used_.push_back(std::move(used));
+  made_[entry.key] = {.file = used_.back().get()};
 }
 
 void SystemSection::KeepWarnings(const System& system, const std::string& where,

@@ -41,6 +41,8 @@ class SystemSection {
   /// Those that the file names, made or not, and those of files that it uses: `left`, `left.plant`.
   const std::vector<std::string>& names() const { return names_; }
   bool Names(const std::string& name) const;
+  /// Whether all that the file names could be made; what could not has been reported.
+  bool complete() const { return made_.size() == Entries().size(); }
   /// Those of the part, in order; of files that it uses too, with their paths in this file.
   struct Built {
     std::string name;
@@ -65,7 +67,7 @@ class SystemSection {
   std::vector<std::string> InputNames() const;
 
  private:
-  struct Made {
+  struct Made {  // what could be made and is in its builder, or outside of the part
     const System* system{nullptr};  // or
     const UsedFile* file{nullptr};
   };

@@ -67,10 +67,8 @@ UsedFile::UsedFile(const Value::Entry& entry, const Level& outer, const SystemSo
   if (!MayBeRead(entry, problems)) return;
   level_.files.push_back(Canonical(file_));
   const auto overrides = sources.inner_overrides.find(name_);
-  Read(entry, *given,
-       overrides == sources.inner_overrides.end() ? std::vector<files::Override>()
-                                                  : overrides->second,
-       problems);
+  if (overrides != sources.inner_overrides.end()) overrides_ = overrides->second;
+  Read(entry, *given, problems);
   if (document_.root.map() != nullptr) {
     models_ = std::make_unique<files::ModelSection>(
         document_.root, files::ModelSection::Given{sources.models, &given->models, level_.path},
@@ -88,6 +86,7 @@ UsedFile::UsedFile(const Value::Entry& entry, const Level& outer, const SystemSo
         construction_.open[input.path] = {{entry.location, outer.path}, name_ + "." + name};
       }
     }
+    failed_ = !own_.empty() || !assembly_->systems().complete();
   }
   Tell(own_);
 }
@@ -190,18 +189,31 @@ bool UsedFile::MayBeRead(const Value::Entry& entry, Problems& problems) const {
   return false;
 }
 
-void UsedFile::Read(const Value::Entry& entry, const Entry& given,
-                    const std::vector<files::Override>& overrides, Problems& problems) {
+void UsedFile::Read(const Value::Entry& entry, const Entry& given, Problems& problems) {
   const GivenParameters parameters{given.parameters, "systems." + name_ + ".parameters", &problems};
   try {
-    document_ = ReadResolved(file_, overrides, construction_.catalogue, own_, &parameters);
+    document_ = ReadResolved(file_, overrides_, construction_.catalogue, own_, &parameters);
   } catch (const ConfigError& error) {
     if (own_.empty()) {  // it is not to be opened
       problems.Add(entry.value.Find("file")->location(),
                    fmt::format("systems.{}.file: {}", name_, error.what()));
     }
   }
+  RefuseOverridesOfTheRun();
   for (const std::string& line : document_.warnings) construction_.warnings.Add(level_.path, line);
+}
+
+/// What is of the run is said by the file that is run.
+void UsedFile::RefuseOverridesOfTheRun() {
+  for (const files::Override& change : overrides_) {
+    for (const std::string key : {"name", "description", "simulator", "record.scene"}) {
+      if (change.path != key && !change.path.starts_with(key + ".")) continue;
+      own_.Add({std::make_shared<const std::string>(change.Source()), 0, 0},
+               fmt::format("{}: is not looked at in a file that another one uses; expected an "
+                           "override of that of the file that is run, -s {}",
+                           key, change.path));
+    }
+  }
 }
 
 void UsedFile::WarnOfUnusedModels(const Value& models) {

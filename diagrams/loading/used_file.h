@@ -30,10 +30,15 @@ class UsedFile {
 
   /// Whether there is an assembly: the file could be read.
   bool read() const { return assembly_ != nullptr; }
+  /// Whether something is wrong in the file, or in one that it uses, so that its ports may be
+  /// missing; it has been reported.
+  bool failed() const { return failed_; }
   const std::string& name() const { return name_; }
   const Level& level() const { return level_; }
   std::string file() const { return file_.string(); }
   const Value& given() const { return given_; }  ///< parameters, a map
+  /// Those for it, and for files that it uses, with their paths in it.
+  const std::vector<files::Override>& overrides() const { return overrides_; }
   const ResolvedDocument& document() const { return document_; }
   const systems::ModelSet& models() const { return models_->models(); }
   Assembly& assembly() const { return *assembly_; }
@@ -55,8 +60,8 @@ class UsedFile {
                                  Problems& problems) const;
   Value ReadModels(const Value& given, const files::ModelSection& there, Problems& problems) const;
   bool MayBeRead(const Value::Entry& entry, Problems& problems) const;
-  void Read(const Value::Entry& entry, const Entry& given,
-            const std::vector<files::Override>& overrides, Problems& problems);
+  void Read(const Value::Entry& entry, const Entry& given, Problems& problems);
+  void RefuseOverridesOfTheRun();
   void WarnOfUnusedModels(const Value& models);
 
   const std::string name_;
@@ -65,8 +70,10 @@ class UsedFile {
   Level level_;
   std::filesystem::path file_;
   Value given_;
+  std::vector<files::Override> overrides_;
   ResolvedDocument document_;
   Problems own_;
+  bool failed_{false};
   std::unique_ptr<files::ModelSection> models_;
   std::unique_ptr<SystemSources> sources_;
   DiagramBuilder builder_;

@@ -13,6 +13,7 @@ namespace nesting_problems_test {
 using nested_files::kStage;
 using nested_files::TwoStages;
 using testing::AllOf;
+using testing::AnyOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -118,7 +119,168 @@ TEST_F(NestingProblemsTest, RefusesAFileThatDrawsScenarios) {
               HasSubstr("in first and second: sampling: got a file that draws scenarios"));
 }
 
-// The robot of the left arm for a third one between them, turned away: one entry of each section.
+TEST_F(NestingProblemsTest, RefusesAPortThatCannotBeNamedSoAndConnectsNothingToTheFile) {
+  std::string stage = kStage;
+  stage.replace(stage.find("outputs.slow"), 12, "outputs.my-y");
+  folder.Write("stage.yaml", stage);
+  EXPECT_THAT(Refusal("systems:\n"
+                      "  s: {type: Constant, value: [1], unit: rad}\n"
+                      "  f: {type: Diagram, file: stage.yaml}\n"
+                      "  h: {type: Gain, gain: 2}\n"
+                      "connections: [s.value -> f.in, f.gain.out -> h.in, <a>.out -> h.in]\n"),
+              AllOf(HasSubstr("d.yaml:3:3: error: systems.f: "), HasSubstr("'my-y'")));
+}
+
+TEST_F(NestingProblemsTest, ConnectsNothingToASystemThatCannotBeNamedSo) {
+  EXPECT_THAT(Refusal("systems:\n"
+                      "  a-b: {type: Constant, value: [1], unit: rad}\n"
+                      "  h: {type: Gain, gain: 2}\n"
+                      "connections: [a-b.value -> h.in, h.out -> a-b.in, <x>.value -> h.in]\n"),
+              HasSubstr("d.yaml:2:3: error: systems.a-b: "));
+}
+
+TEST_F(NestingProblemsTest, DoesNotAskAFileWithProblemsForItsPorts) {
+  folder.Write("stage.yaml",
+               std::string(kStage).replace(std::string(kStage).find("Gain"), 4, "Gian"));
+  folder.Write("outer.yaml",
+               "systems: {stage: {type: Diagram, file: stage.yaml}}\n"
+               "connections: [inputs.in -> stage.in, stage.slow -> outputs.slow]\n");
+  std::string text = TwoStages();
+  text.replace(text.find("second: {type: Diagram, file: stage"), 35,
+               "second: {type: Diagram, file: outer");
+  const std::string refusal = Refusal(text);
+  EXPECT_EQ(Count(refusal, "error:"), 1) << refusal;
+  EXPECT_THAT(refusal, HasSubstr("stage.yaml:4:16: error: in first and second.stage: "));
+}
+
+TEST_F(NestingProblemsTest, RefusesAnOverrideOfWhatAFileAroundSays) {
+  folder.Write("stage.yaml", std::string(kStage) +
+                                 "simulator_tolerances: {lag: {relative: 1.0e-3}}\n"
+                                 "record: {signals: {lag.out: 10}}\n"
+                                 "expect: {\"lag.out[0]\": {at_most: 100}}\n");
+  const std::string text = TwoStages("", "",
+                                     "simulator_tolerances: {first.lag: {relative: 1.0e-4}}\n"
+                                     "record: {signals: {\"first.*\": 20}}\n"
+                                     "expect: {\"first.lag.out[0]\": {at_most: 50}}\n");
+  for (const auto& [path, value] :
+       {std::pair{"expect.lag.out[0].at_most", "1"}, std::pair{"record.signals.lag.out", "5"},
+        std::pair{"simulator_tolerances.lag.relative", "1.0e-6"}}) {
+    const std::string own = path;
+    EXPECT_EQ(Refusal(text, {{"second." + own, value}}), "");
+    EXPECT_THAT(Refusal(text, {{"first." + own, value}}),
+                AllOf(HasSubstr("-s first." + own + ": error: in first: "),
+                      HasSubstr("without effect; a file that uses this one says it of 'first'")));
+  }
+  EXPECT_EQ(
+      Load(text, {{"second.expect.lag.out[0].at_most", "1"}}).expectations.at(1).bound.at_most, 1);
+}
+
+TEST_F(NestingProblemsTest, RefusesAnOverrideOfTheRunInAUsedFile) {
+  for (const std::string path : {"simulator.duration", "name", "description", "record.scene"}) {
+    EXPECT_THAT(Refusal(TwoStages(), {{"*." + path, "2"}}),
+                AllOf(HasSubstr("-s *." + path + ": error: in first and second: "),
+                      HasSubstr("is not looked at in a file that another one uses"),
+                      HasSubstr("-s " + path)));
+  }
+}
+
+TEST_F(NestingProblemsTest, WarnsOfAnExpectationAfterTheEndOfTheRun) {
+  folder.Write("stage.yaml",
+               std::string(kStage) + "expect: {\"lag.out[0]\": {at_most: 100, at: 5}}\n");
+  const LoadedDiagram loaded = Load(TwoStages());
+  EXPECT_TRUE(loaded.expectations.empty());
+  ASSERT_EQ(loaded.warnings.size(), 1u);
+  EXPECT_THAT(WithoutFolder(loaded.warnings.front()),
+              AllOf(HasSubstr("stage.yaml:10:"),
+                    HasSubstr("warning: in first and second: expect.lag.out[0].at: got 5 s, after "
+                              "the run, which ends at 1 s: it is not checked")));
+  EXPECT_TRUE(Load(TwoStages("", "",
+                             "expect: {\"first.lag.out[0]\": {at_most: 9}, \"second.lag.out[0]\": "
+                             "{at_most: 9}}\n"))
+                  .warnings.empty());
+}
+
+TEST_F(NestingProblemsTest, TellsTheWholePathOfAnOverrideWithAWrongValue) {
+  EXPECT_THAT(Refusal(TwoStages(), {{"first.systems.lag.time_constant", "-1"}}),
+              HasSubstr("-s first.systems.lag.time_constant:1:1: error: in first: "));
+}
+
+TEST_F(NestingProblemsTest, RefusesAUsedFileWithTheNameOfASection) {
+  EXPECT_THAT(Refusal("systems:\n"
+                      "  record: {type: Diagram, file: stage.yaml}\n"
+                      "  simulator: {type: Gain, gain: 2}\n"),
+              AllOf(HasSubstr("d.yaml:2:3: error: systems.record: "),
+                    HasSubstr("expected another name for a used file"),
+                    Not(HasSubstr("systems.simulator"))));
+}
+
+TEST_F(NestingProblemsTest, ChecksWhatAUsedFileSaysOfARun) {
+  folder.Write("stage.yaml", std::string(kStage) +
+                                 "description: 3\n"
+                                 "simulator: {duration: -1, intgrator: rk4}\n"
+                                 "record: {scene: -5}\n");
+  EXPECT_THAT(
+      Refusal(TwoStages()),
+      AllOf(HasSubstr("stage.yaml:10:14: error: in first and second: description: got 3"),
+            HasSubstr("stage.yaml:11:23: error: in first and second: simulator.duration: got -1"),
+            HasSubstr("simulator.intgrator: unknown key"),
+            HasSubstr("record.scene: got -5; expected a rate > 0 Hz")));
+  folder.Write("stage.yaml", std::string(kStage) + "simulator: {duration: 99}\n");
+  EXPECT_EQ(Load(TwoStages()).simulator.duration, 1.0);
+}
+
+TEST_F(NestingProblemsTest, WarnsOfAnInputOfTheFileThatLeadsToNoPort) {
+  folder.Write("stage.yaml", std::string(kStage) +
+                                 "  - inputs.in -> <any>.inn\n"
+                                 "  - inputs.more_<x> -> gain.more_<x>\n");
+  const auto warnings = Load(TwoStages()).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(WithoutFolder(warnings.front()),
+            "stage.yaml:10:5: warning: in first and second: connections: inputs.in -> <any>.inn: "
+            "no ports have such names");
+}
+
+TEST_F(NestingProblemsTest, TellsAnAlgebraicLoopOnceAtItsConnection) {
+  folder.Write("loop.yaml",
+               "systems: {g: {type: Gain, gain: 1}, h: {type: Gain, gain: 1}}\n"
+               "connections:\n"
+               "  - h.out -> g.in\n"
+               "  - g.out -> h.in\n");
+  const std::string refusal = Refusal(
+      "systems: {a: {type: Diagram, file: loop.yaml}, b: {type: Diagram, file: loop.yaml}}\n");
+  EXPECT_EQ(Count(refusal, "algebraic loop"), 1) << refusal;
+  EXPECT_THAT(refusal,
+              AnyOf(HasSubstr("loop.yaml:3:5: error: in a and b: algebraic loop: h.out -> g.in"),
+                    HasSubstr("loop.yaml:4:5: error: in a and b: algebraic loop: g.out -> h.in")));
+}
+
+TEST_F(NestingProblemsTest, TellsAnAlgebraicLoopThroughUsedFilesWhereTheyAreConnected) {
+  folder.Write("gain.yaml",
+               "systems: {g: {type: Gain, gain: 1}, h: {type: Gain, gain: 1}}\n"
+               "connections: [inputs.in -> g.in, g.out -> h.in, h.out -> outputs.out]\n");
+  EXPECT_THAT(Refusal("systems:\n"
+                      "  a: {type: Diagram, file: gain.yaml}\n"
+                      "  b: {type: Diagram, file: gain.yaml}\n"
+                      "connections:\n"
+                      "  - a.out -> b.in\n"
+                      "  - b.out -> a.in\n"),
+              AnyOf(HasSubstr("d.yaml:5:5: error: algebraic loop: "),
+                    HasSubstr("d.yaml:6:5: error: algebraic loop: ")));
+}
+
+TEST_F(NestingProblemsTest, RefusesPlacesForNamesThatNothingSeparates) {
+  for (const std::string pattern : {"<a><b>.out", "<a>_<b>.out", "x.<a>y<b>"}) {
+    EXPECT_THAT(Refusal(TwoStages("", "", "  - " + pattern + " -> <a>.in\n")),
+                HasSubstr("d.yaml:10:5: error: connections: got '" + pattern +
+                          "'; expected a dot between two places for names"));
+  }
+  EXPECT_EQ(Refusal(TwoStages("", "", "  - <a>.<b> -> <b>.links_<a>\n")), "");
+}
+
+TEST_F(NestingProblemsTest, AsksForAPathBehindAUsedFileThatIsOverridden) {
+  EXPECT_EQ(Refusal(TwoStages(), {{"first", "1"}}),
+            "-s first: error: 'first' is a file that is used; expected a path in it, first.PATH");
+}
 
 }  // namespace nesting_problems_test
 }  // namespace oca::loading
