@@ -118,6 +118,26 @@ TEST_F(BlindSpotsTest, NamesModelsOwnLinksAndPairsThatAreLeftOut) {
               ElementsAre(StartsWith("obstacles at links"), "lwr4_link_1 to frame/table (ignore)"));
 }
 
+// Each of two uses of a file keeps an arm of its own, which the other one's file knows nothing of.
+TEST_F(BlindSpotsTest, NamesModelsThatOnlyAnotherUsedFileKnows) {
+  folder.Write("own.yaml",
+               "include: [" OCA_SOURCE_DIR
+               "/diagrams/parts/arm_loop.yaml]\n"
+               "models: {arm: {urdf: package://lwr4/lwr4.urdf, srdf: package://lwr4/lwr4.srdf}}\n");
+  const auto loaded =
+      loading::LoadDiagram(folder.Write("two.yaml",
+                                        "systems:\n"
+                                        "  obstacles: {type: ObstacleSource, obstacles: []}\n"
+                                        "  a: {type: Diagram, file: own.yaml}\n"
+                                        "  b: {type: Diagram, file: own.yaml}\n"
+                                        "connections: [obstacles.obstacles -> <arm>.obstacles]\n"));
+  const auto spots = BlindSpots(loaded);
+  EXPECT_THAT(spots, testing::Contains("model 'b.arm' (not known in the file of a.distance)"));
+  EXPECT_THAT(spots, testing::Contains("model 'a.arm' (not known in the file of b.distance)"));
+  const auto seeing = BlindSpots(loading::LoadDiagram(OCA_SOURCE_DIR "/diagrams/dual_arm.yaml"));
+  EXPECT_THAT(seeing, testing::Each(testing::Not(HasSubstr("not known"))));
+}
+
 TEST_F(BlindSpotsTest, NamesASensorThatAJudgeBelieves) {
   const std::string file = OCA_SOURCE_DIR "/diagrams/scenarios/fault_latency.yaml";
   EXPECT_THAT(BlindSpots(loading::LoadDiagram(file)),
