@@ -188,6 +188,27 @@ TEST_F(BlindSpotsTest, ExpectMayAllowAContact) {
   }
 }
 
+TEST_F(BlindSpotsTest, ALeastDistanceOutOfReachIsMetByWhatIsProved) {
+  const std::vector<files::Override> far{
+      kRequestAlone[0],
+      {"systems.obstacles.obstacles",
+       "[{id: box, shape: {type: box, size: [0.2, 0.2, 0.2]}, pose: {xyz: [0, 3, 0]}}]"}};
+  const auto expected = [&](const std::string& bound) {
+    return runs::Run(Load("collision", "collision", far, "expect: {min_distance: " + bound + "}\n"),
+                     {})
+        .expectations.at(0);
+  };
+  const ExpectationResult met = expected("{at_least: 0.05}");
+  EXPECT_TRUE(met.ok);
+  EXPECT_EQ(met.bound, ">= 0.05, proved by certified_min_distance");
+  EXPECT_GT(met.value.value(), 0.05);
+  for (const char* not_proved : {"{at_least: 9}", "{at_most: 9}", "{at_least: 0, at_most: 9}"}) {
+    const ExpectationResult result = expected(not_proved);
+    EXPECT_FALSE(result.ok) << not_proved;
+    EXPECT_FALSE(result.value) << not_proved;
+  }
+}
+
 TEST_F(BlindSpotsTest, AContactIsToldOnce) {
   const RunResult result = runs::Run(
       Load("collision", "collision", kRequestAlone, "expect: {contact_time: {equal: 0}}\n"), {});
