@@ -7,7 +7,7 @@
 #include <iterator>
 
 #include "oca/framework/dataflow/error.h"
-#include "oca/models/csv_table.h"
+#include "oca/models/csv_names.h"
 
 namespace oca::runs {
 namespace {
