@@ -277,6 +277,24 @@ TEST_F(CommandLineTest, RecordsAreWrittenAsFilesOfSignals) {
   EXPECT_EQ(run("$S run " + Small() + " --csv " + folder + "/lag.out.csv").status, 2);
 }
 
+TEST_F(CommandLineTest, ARunWritesTheValuesThatItsRecordExports) {
+  const std::string place = run.folder().path().string();
+  ASSERT_EQ(run("$S run diagrams/static_test.yaml -t 0.1 --csv " + place + "/csv --record " +
+                place + "/r.mcap")
+                .status,
+            3);
+  ASSERT_EQ(run("$S export " + place + "/r.mcap --csv " + place + "/export").status, 0);
+  std::istringstream ours(run.Read("csv/distance.proximities.jsonl"));
+  std::istringstream theirs(run.Read("export/distance.proximities.jsonl"));
+  int lines = 0;
+  for (std::string one, other; std::getline(ours, one); ++lines) {
+    ASSERT_TRUE(std::getline(theirs, other));
+    EXPECT_EQ(json::parse(one), json::parse(other));
+    EXPECT_TRUE(json::parse(one).at("value").contains("proximities"));
+  }
+  EXPECT_GT(lines, 1);
+}
+
 TEST_F(CommandLineTest, NoEscapeSequencesWithoutATerminal) {
   for (const char* environment : {"", "NO_COLOR=1 ", "TERM=dumb "}) {
     const Ran ran = run(std::string(environment) + "$S run diagrams/static_test.yaml");
