@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <set>
 #include <tuple>
 #include <utility>
 
@@ -331,32 +330,6 @@ void CsvTable::ReadQuoted(std::string& cell) {
     cell += c;
   }
   RefuseRow("quote", "none that closes", "a quote behind the cell");
-}
-
-void AppendCsvName(std::string& line, std::string_view name) {
-  const bool plain = !name.empty() && name.find_first_of("\",;\t\r\n") == name.npos &&
-                     !IsBlank(name.front()) && !IsBlank(name.back()) && !name.starts_with('#') &&
-                     !name.starts_with("//") && !LooksLikeNumber(std::string(name));
-  if (plain) {
-    line += name;
-    return;
-  }
-  line += '"';
-  for (const char c : name) line.append(c == '"' ? 2 : 1, c);
-  line += '"';
-}
-
-std::vector<std::string> UniqueColumns(std::vector<std::string> names) {
-  const std::set<std::string> given(names.begin(), names.end());
-  std::set<std::string> used{"time"};
-  for (std::string& name : names) {
-    const std::string plain = name;
-    for (int i = 2; used.contains(name) || (name != plain && given.contains(name)); ++i) {
-      name = fmt::format("{}_{}", plain, i);
-    }
-    used.insert(name);
-  }
-  return names;
 }
 
 }  // namespace oca::models

@@ -27,7 +27,8 @@ fs::path PlainPath(const fs::path& file) {
   const std::string& name = file.native();
   const bool plain = name.starts_with('/') && name.find("//") == std::string::npos &&
                      name.find("/.") == std::string::npos;  // as most are: saves their parsing
-  return plain ? file : fs::absolute(file).lexically_normal();
+  if (plain || file.empty()) return file;
+  return fs::absolute(file).lexically_normal();
 }
 
 bool LiesBelow(const fs::path& file, const fs::path& folder) {
@@ -63,6 +64,7 @@ bool OpenedFiles::Has(const fs::path& plain) const {
 }
 
 void NoteOpened(const fs::path& file) {
+  if (file.empty()) throw ModelError("file; got an empty name; expected one of a file");
   if (innermost == nullptr) return;
   if (!innermost->Allows(file)) {
     throw ModelError(

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "oca/diagrams/record/json_text.h"
+#include "oca/diagrams/runs/signal_table.h"
 #include "oca/framework/dataflow/signal_shape.h"
 #include "oca/systems/signals/signals.h"
 
@@ -122,10 +123,7 @@ void AppendSignal(std::string& out, const SignalFormat& format, const void* valu
   } else {
     format.type->write_json(value, out);
   }
-  if (out.size() > start && out[start] != '{') {  // a message is an object
-    out.insert(start, "{\"" + format.port + "\":");
-    out += '}';
-  }
+  runs::MakeObject(out, start, format.port);  // as a message is
 }
 
 }  // namespace oca::record

@@ -88,9 +88,39 @@ std::optional<Loop> LoopOf(const Diagram& diagram, const System& mapping, const 
   return loop;
 }
 
+using Drivers = std::vector<std::pair<OutputHandle, InputHandle>>;
+
+Drivers DriversOf(const Diagram& diagram, const System& system) {
+  Drivers drivers;
+  for (int i = 0; i < std::ssize(system.inputs()); ++i) {
+    const InputHandle input{{&system, i}};
+    if (const auto driver = diagram.DriverOf(input)) drivers.emplace_back(*driver, input);
+  }
+  return drivers;
+}
+
+/// The systems and all that they compute from, but what is behind those that `ends` holds for.
+template <class Ends>
+std::vector<const System*> Upstream(const Diagram& diagram, std::vector<const System*> systems,
+                                    const Ends& ends) {
+  for (std::size_t i = 0; i < systems.size(); ++i) {
+    if (ends(*systems[i])) continue;
+    for (const auto& [from, to] : DriversOf(diagram, *systems[i])) {
+      const bool known = std::find(systems.begin(), systems.end(), from.system) != systems.end();
+      if (!known) systems.push_back(from.system);
+    }
+  }
+  return systems;
+}
+
+/// Whether a robot's motion comes from it: what is behind belongs to the loop of that robot.
+bool GivesMotion(const System& system) {
+  return system.role<Kinematics>() != nullptr || system.role<systems::Plant>() != nullptr;
+}
+
 /// A copy of what a loop computes its delta from, with the positions of the arm to be set: those
 /// requested, which foresight knows, and the delta. Obstacles are as the loop's own sensing has
-/// them.
+/// them; other robots are where their own loops lead them, whose forces are none of this one's.
 class Probe {
  public:
   Probe(const loading::LoadedDiagram& loaded, const Loop& loop) : loop_(loop) {
@@ -151,22 +181,10 @@ class Probe {
  private:
   void Copy(const loading::LoadedDiagram& loaded) {
     const Diagram& diagram = *loaded.diagram;
-    std::vector<const System*> needed{loop_.mapping, loop_.kinematics};
-    const auto drivers_of = [&](const System& system) {
-      std::vector<std::pair<OutputHandle, InputHandle>> drivers;
-      for (int i = 0; i < std::ssize(system.inputs()); ++i) {
-        const InputHandle input{{&system, i}};
-        if (const auto driver = diagram.DriverOf(input)) drivers.emplace_back(*driver, input);
-      }
-      return drivers;
-    };
-    for (std::size_t i = 0; i < needed.size(); ++i) {
-      if (needed[i] == loop_.kinematics) continue;
-      for (const auto& [from, to] : drivers_of(*needed[i])) {
-        const bool known = std::find(needed.begin(), needed.end(), from.system) != needed.end();
-        if (!known) needed.push_back(from.system);
-      }
-    }
+    const std::vector<const System*> needed =
+        Upstream(diagram, {loop_.mapping, loop_.kinematics},
+                 [this](const System& system) { return &system == loop_.kinematics; });
+    own_ = Upstream(diagram, {loop_.mapping}, GivesMotion);
     Problems problems;
     for (const auto& block : loaded.systems) {
       const System* const original = diagram.FindSystem(block.name);
@@ -178,7 +196,7 @@ class Probe {
     }
     for (const auto& [original, copy] : copies_) {
       if (original == loop_.kinematics) continue;
-      for (const auto& [from, to] : drivers_of(*original)) {
+      for (const auto& [from, to] : DriversOf(diagram, *original)) {
         builder_.ConnectPorts({{&CopyOf(from.system), from.index}}, {{copy, to.index}});
       }
     }
@@ -190,9 +208,10 @@ class Probe {
             })->second;
   }
 
-  /// The gain takes the slopes of two fields; more than that no method has.
+  /// Those of the loop's own fields, of which the gain takes two; more than that no method has.
   void ConnectSlopes(const System& gain) {
     for (const auto& [original, copy] : copies_) {
+      if (std::find(own_.begin(), own_.end(), original) == own_.end()) continue;
       for (std::size_t i = 0; i < copy->outputs().size() && fields_.size() < 2; ++i) {
         if (copy->outputs()[i].type != &TypeOf<ContactSlopes>()) continue;
         const OutputHandle slopes{{copy, static_cast<int>(i)}};
@@ -219,6 +238,7 @@ class Probe {
   foresight::Positions request_;
   DiagramBuilder builder_;
   std::vector<std::pair<const System*, const System*>> copies_;  // of originals
+  std::vector<const System*> own_;  // originals that compute this loop's delta and no other's
   std::vector<Output<ContactSlopes>> fields_;
   Output<Vector> raw_;
   Output<Vector> gain_;

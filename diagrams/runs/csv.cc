@@ -10,6 +10,9 @@
 namespace oca::runs {
 namespace {
 
+/// `proximities` of `left.distance.proximities`
+std::string PortOf(const std::string& signal) { return signal.substr(signal.rfind('.') + 1); }
+
 bool IsVector(const files::RecordedSignal& signal) {
   return &TypeOfPort(signal.output) == &kVectorType;
 }
@@ -65,6 +68,7 @@ void Csv::Write(File& file, const Context& context) {
   } else {
     file.json.clear();
     EvalJson(file.output, context, file.json);
+    MakeObject(file.json, 0, PortOf(file.signal));
     file.table.Write(time, file.json);
   }
 }

@@ -20,7 +20,8 @@ class ExpectationCheck {
 
   /// When it has to look, ascending, s; the last is the end of the run.
   const std::vector<double>& stops() const { return stops_; }
-  /// Looks at those of one stop.
+  /// Looks at those of one stop. A min_distance without a value, for nothing came within reach, is
+  /// at least what certified_min_distance proves; `bound` then says so.
   void CheckAt(double stop, const loading::LoadedDiagram& loaded, const Context& context);
   /// How they turned out, with what a file expects without saying so: it is listed if it was not
   /// met, unless an expectation of the file allows a contact or says already that there was one.

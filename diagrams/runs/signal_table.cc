@@ -7,7 +7,7 @@
 #include <iterator>
 
 #include "oca/framework/dataflow/error.h"
-#include "oca/models/csv_table.h"
+#include "oca/models/csv_names.h"
 
 namespace oca::runs {
 namespace {
@@ -19,6 +19,12 @@ double Seconds(std::int64_t nanoseconds) { return static_cast<double>(nanosecond
 }  // namespace
 
 std::int64_t Nanoseconds(double t) { return static_cast<std::int64_t>(std::llround(t * 1e9)); }
+
+void MakeObject(std::string& json, std::size_t start, const std::string& port) {
+  if (json.size() <= start || json[start] == '{') return;
+  json.insert(start, "{\"" + port + "\":");
+  json += '}';
+}
 
 void MakeFolder(const fs::path& folder) {
   std::error_code error;

@@ -18,8 +18,8 @@ namespace oca::runs {
 /// Numbers in columns become `SIGNAL.csv`: a line of names as models::CsvTable reads them, `time`
 /// first, then the joints or PORT[0], PORT[1], ...; names are quoted where need be (RFC 4180), and
 /// a joint called time becomes time_2. Anything else becomes `SIGNAL.jsonl`, one object {"time",
-/// "value"} a line. All numbers have as many digits as it takes to read back the same bits; times
-/// are whole nanoseconds, as in records, in s.
+/// "value"} a line, the value as MakeObject has it. All numbers have as many digits as it takes to
+/// read back the same bits; times are whole nanoseconds, as in records, in s.
 class SignalTable {
  public:
   /// The columns of a vector: its joints, or numbered.
@@ -44,6 +44,10 @@ class SignalTable {
   std::ofstream stream_;
   std::string line_;
 };
+
+/// Makes an object of the value of a signal that begins at `start`, unless it is one: a list
+/// becomes {"port": [...]}. So values stand in records and in files of a signal.
+void MakeObject(std::string& json, std::size_t start, const std::string& port);
 
 /// Time of a run as a record has it. t s
 std::int64_t Nanoseconds(double t);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "oca/diagrams/sweep/campaign_tree.h"
@@ -57,13 +58,26 @@ ordered_json TreeOf(const CombinationSummary& one) {
           {"step_seconds", steps}};
 }
 
+/// The end of a path, from one of its dots, that no other setting has: `avoid`, or
+/// `left.parameters.avoid` beside `right.parameters.avoid`.
+std::string ShortName(const std::string& path, const Settings& settings) {
+  std::size_t dot = path.rfind('.');
+  while (dot != std::string::npos) {
+    const bool unique = std::none_of(settings.begin(), settings.end(), [&](const auto& other) {
+      return other.first != path && ("." + other.first).ends_with(path.substr(dot));
+    });
+    if (unique) return path.substr(dot + 1);
+    dot = dot == 0 ? std::string::npos : path.rfind('.', dot - 1);
+  }
+  return path;
+}
+
 }  // namespace
 
 std::string TitleOf(const Settings& settings) {
   std::string title;
   for (const auto& [path, value] : settings) {
-    const std::string name = path.substr(path.rfind('.') + 1);
-    title += fmt::format("{}{}={}", title.empty() ? "" : " ", name, value);
+    title += fmt::format("{}{}={}", title.empty() ? "" : " ", ShortName(path, settings), value);
   }
   return title;
 }

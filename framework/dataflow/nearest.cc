@@ -40,7 +40,8 @@ std::string DidYouMean(std::string_view word, std::span<const std::string> candi
       best_distance = distance;
     }
   }
-  const bool near = best != nullptr && best_distance <= std::max<std::size_t>(2, word.size() / 3) &&
+  const bool near = best != nullptr && best_distance > 0 &&
+                    best_distance <= std::max<std::size_t>(2, word.size() / 3) &&
                     best_distance < word.size();
   return near ? fmt::format("; did you mean '{}'?", *best) : "";
 }

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <random>
 
+#include "oca/models/csv_names.h"
 #include "oca/models/error.h"
 #include "tests/temporary_folder.h"
 

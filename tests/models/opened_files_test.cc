@@ -27,6 +27,16 @@ TEST(OpenedFilesTest, NotesWhatIsReadWhileItLivesOnce) {
   EXPECT_FALSE(opened.Contains(one));
 }
 
+TEST(OpenedFilesTest, RefusesAnEmptyNameWhetherOrNotAnyoneNotes) {
+  const auto refused = ThrowsMessage<ModelError>(HasSubstr("got an empty name; expected one of a"));
+  EXPECT_THAT([] { NoteOpened(""); }, refused);
+  EXPECT_THAT([] { CsvTable table(""); }, refused);
+  const OpenedFiles opened;
+  EXPECT_THAT([] { NoteOpened(""); }, refused);
+  EXPECT_FALSE(opened.Contains(""));
+  EXPECT_FALSE(LiesBelow("", "/"));
+}
+
 TEST(OpenedFilesTest, TellsItsElderUnlessThatIsToBeSpared) {
   const oca::test::TemporaryFolder folder;
   const fs::path one = folder.Write("one.csv", "1\n"), two = folder.Write("two.csv", "2\n");

@@ -170,6 +170,30 @@ TEST_F(CommandLineTest, MisusedWordsEndWithSixtyFourAndASuggestion) {
   EXPECT_THAT(misuse("run x.yaml --seed -1"), HasSubstr("seed"));
   EXPECT_THAT(misuse("graph x.yaml --format svgg"), HasSubstr("svgg"));
   EXPECT_THAT(misuse("run a.yaml b.yaml"), HasSubstr("b.yaml"));
+  for (const char* file :
+       {"run x.yaml --csv", "run x.yaml --record", "run x.yaml --report", "merge x --jsonl",
+        "merge x -o", "sweep x.yaml --samples 1 -o", "plot x.mcap -o", "export x.mcap --csv"}) {
+    EXPECT_THAT(misuse(std::string(file) + " ''"), HasSubstr("got an empty name")) << file;
+  }
+}
+
+TEST_F(CommandLineTest, AFileWithoutANameIsRefusedInWords) {
+  for (const char* command : {"check", "run"}) {
+    const Ran ran = run(std::string("$S ") + command + " ''");
+    EXPECT_EQ(ran.status, 2) << command;
+    EXPECT_THAT(ran.err, HasSubstr("got an empty name; expected one of a file")) << command;
+  }
+  const std::string file =
+      run.folder()
+          .Write("e.yaml",
+                 "models: {arm: {urdf: ''}}\n"
+                 "systems: {o: {type: ObstacleSource, obstacles: [{id: a, shape: {type: mesh, "
+                 "file: ''}, pose: {xyz: [0, 0, 0]}}]}}\n")
+          .string();
+  const Ran ran = run("$S check " + file);
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_THAT(ran.err, HasSubstr("e.yaml:1:10: error: models.arm"));
+  EXPECT_EQ(ran.err.find("filesystem error"), std::string::npos) << ran.err;
 }
 
 TEST_F(CommandLineTest, AnInterruptEndsWithOneHundredAndThirtyAndCompleteRecords) {
@@ -251,6 +275,24 @@ TEST_F(CommandLineTest, RecordsAreWrittenAsFilesOfSignals) {
   EXPECT_EQ(run("$S run diagrams/static_test.yaml -t 0.1 --csv " + folder).status, 3);
   EXPECT_THAT(run.Read("csv/distance.proximities.jsonl"), HasSubstr("{\"time\":0"));
   EXPECT_EQ(run("$S run " + Small() + " --csv " + folder + "/lag.out.csv").status, 2);
+}
+
+TEST_F(CommandLineTest, ARunWritesTheValuesThatItsRecordExports) {
+  const std::string place = run.folder().path().string();
+  ASSERT_EQ(run("$S run diagrams/static_test.yaml -t 0.1 --csv " + place + "/csv --record " +
+                place + "/r.mcap")
+                .status,
+            3);
+  ASSERT_EQ(run("$S export " + place + "/r.mcap --csv " + place + "/export").status, 0);
+  std::istringstream ours(run.Read("csv/distance.proximities.jsonl"));
+  std::istringstream theirs(run.Read("export/distance.proximities.jsonl"));
+  int lines = 0;
+  for (std::string one, other; std::getline(ours, one); ++lines) {
+    ASSERT_TRUE(std::getline(theirs, other));
+    EXPECT_EQ(json::parse(one), json::parse(other));
+    EXPECT_TRUE(json::parse(one).at("value").contains("proximities"));
+  }
+  EXPECT_GT(lines, 1);
 }
 
 TEST_F(CommandLineTest, NoEscapeSequencesWithoutATerminal) {

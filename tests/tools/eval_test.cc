@@ -32,6 +32,13 @@ class EvalTest : public testing::Test {
   Program run;
 };
 
+TEST_F(EvalTest, ADiagramIsNoSystemToEvaluate) {
+  const Ran ran = run("$S eval Diagram");
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_THAT(ran.err, HasSubstr("eval: type; got Diagram, which is a file"));
+  EXPECT_EQ(ran.err.find("did you mean"), std::string::npos);
+}
+
 TEST_F(EvalTest, RepulsiveFieldGivesTheGoldenForces) {
   const auto answers =
       Eval("RepulsiveField --params '{\"force_gain\":1,\"max_distance\":0.3}'",

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "oca/diagrams/files/catalogue.h"
+#include "oca/diagrams/files/diagram_file.h"
 #include "oca/diagrams/files/json_reader.h"
 #include "oca/diagrams/files/package_paths.h"
 #include "oca/diagrams/runs/evaluator.h"
@@ -40,6 +41,9 @@ systems::ModelSet LoadModels(const std::vector<std::string>& arguments) {
 
 int EvalCommand(const EvalArguments& arguments, const files::Catalogue& catalogue, std::istream& in,
                 std::ostream& out) {
+  if (arguments.type == files::kDiagramType) {
+    throw ConfigError("eval: type; got Diagram, which is a file; expected a system of the list");
+  }
   const files::CatalogueRow& row = *catalogue.Find(arguments.type);
   runs::Evaluator evaluator(row, files::ReadJson(arguments.params, "--params"),
                             LoadModels(arguments.models));

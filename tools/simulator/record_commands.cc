@@ -12,6 +12,7 @@
 #include "oca/diagrams/record/report_figures.h"
 #include "oca/diagrams/runs/output_files.h"
 #include "tools/simulator/commands.h"
+#include "tools/simulator/file_name.h"
 #include "tools/simulator/terminal.h"
 
 namespace oca::tools {
@@ -74,7 +75,9 @@ void AddPlot(CLI::App& app, std::function<int()>& command) {
   plot->add_option("--figure", arguments->figure,
                    "a figure of the report, from runs of our own, or what sweeps reached")
       ->check(CLI::IsMember(figures));
-  plot->add_option("-o,--output", arguments->output, "file to write, .svg or .png")->required();
+  plot->add_option("-o,--output", arguments->output, "file to write, .svg or .png")
+      ->required()
+      ->check(FileName());
   plot->callback(
       [&command, arguments] { command = [arguments] { return PlotCommand(*arguments); }; });
 }
@@ -85,7 +88,7 @@ void AddRecordCommands(CLI::App& app, std::function<int()>& command) {
   CLI::App* const exported = app.add_subcommand("export", "write the signals of a record as CSV");
   const auto files = std::make_shared<std::pair<std::string, std::string>>();
   exported->add_option("RECORD", files->first, "record of a run")->required();
-  exported->add_option("--csv", files->second, "folder to write to")->required();
+  exported->add_option("--csv", files->second, "folder to write to")->required()->check(FileName());
   exported->callback([&command, files] {
     command = [files] { return ExportCommand(files->first, files->second); };
   });

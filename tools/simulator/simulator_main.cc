@@ -14,6 +14,7 @@
 #include "oca/framework/dataflow/nearest.h"
 #include "oca/version.h"
 #include "tools/simulator/commands.h"
+#include "tools/simulator/file_name.h"
 #include "tools/simulator/record_commands.h"
 #include "tools/simulator/sweep_commands.h"
 #include "tools/simulator/terminal.h"
@@ -88,11 +89,13 @@ class CommandLine {
     run->add_option("-t,--duration", run_.duration, "seconds to simulate, instead of the file's");
     run->add_option("--seed", run_.seed, "seed of everything random")
         ->check(WholeNumber(10) & CLI::Range(0.0, 2147483647.0));
-    run->add_option("--csv", run_.csv_folder, "folder to write the recorded signals to");
-    run->add_option("--record", run_.record, "MCAP file to record the run into");
+    run->add_option("--csv", run_.csv_folder, "folder to write the recorded signals to")
+        ->check(FileName());
+    run->add_option("--record", run_.record, "MCAP file to record the run into")->check(FileName());
     run->add_option("--record-compression", run_.record_compression, "none, lz4 or zstd")
         ->check(CLI::IsMember({"none", "lz4", "zstd"}));
-    run->add_option("--report", run_.report, "HTML file of the run: opens in a browser, offline");
+    run->add_option("--report", run_.report, "HTML file of the run: opens in a browser, offline")
+        ->check(FileName());
     CLI::Option* const live =
         run->add_option("--live", run_.live,
                         "show the run while it goes on, to browsers and Foxglove: =PORT, or 8765")
@@ -196,8 +199,10 @@ class CommandLine {
     CLI::App* const check = robot->add_subcommand(
         "check-collisions", "find the pairs of links that need no check for collision");
     check->add_option("URDF", collisions_.urdf, "path or package://NAME/PATH")->required();
-    check->add_option("--write-srdf", collisions_.write_srdf,
-                      "file to write the pairs to; what else it holds is kept");
+    check
+        ->add_option("--write-srdf", collisions_.write_srdf,
+                     "file to write the pairs to; what else it holds is kept")
+        ->check(FileName());
     check->add_option("--samples", collisions_.samples, "random positions to look at")
         ->check(WholeNumber(8))
         ->capture_default_str();

@@ -28,6 +28,7 @@
 #include "oca/models/opened_files.h"
 #include "oca/version.h"
 #include "tools/simulator/commands.h"
+#include "tools/simulator/file_name.h"
 #include "tools/simulator/interrupt.h"
 #include "tools/simulator/sweep_report.h"
 #include "tools/simulator/terminal.h"
@@ -259,7 +260,8 @@ void AddSweep(CLI::App& app, std::function<int()>& command, const files::Catalog
   sub->add_option("-o,--output", arguments->folder,
                   "folder of the results; what is in it of the "
                   "same campaign is not run again")
-      ->required();
+      ->required()
+      ->check(FileName());
   sub->add_option("--shard", arguments->shard,
                   "I/N: run samples I, I + N, ... alone; for `merge`. By itself within a Slurm "
                   "array or mpirun");
@@ -283,9 +285,12 @@ void AddSweepCommands(CLI::App& app, std::function<int()>& command,
       app.add_subcommand("merge", "put the shards of a sweep together and sum them up");
   const auto arguments = std::make_shared<MergeArguments>();
   merge->add_option("DIR", arguments->folder, "folder of the shards")->required();
-  merge->add_option("-o,--output", arguments->database,
-                    "SQLite database to write; DIR/results.db if left out");
-  merge->add_option("--jsonl", arguments->lines, "file to write all results to, as JSON lines");
+  merge
+      ->add_option("-o,--output", arguments->database,
+                   "SQLite database to write; DIR/results.db if left out")
+      ->check(FileName());
+  merge->add_option("--jsonl", arguments->lines, "file to write all results to, as JSON lines")
+      ->check(FileName());
   CLI::Option* const json =
       merge->add_flag("--json", arguments->json, "print one JSON object instead of the table");
   merge

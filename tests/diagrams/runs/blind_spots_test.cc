@@ -118,6 +118,26 @@ TEST_F(BlindSpotsTest, NamesModelsOwnLinksAndPairsThatAreLeftOut) {
               ElementsAre(StartsWith("obstacles at links"), "lwr4_link_1 to frame/table (ignore)"));
 }
 
+// Each of two uses of a file keeps an arm of its own, which the other one's file knows nothing of.
+TEST_F(BlindSpotsTest, NamesModelsThatOnlyAnotherUsedFileKnows) {
+  folder.Write("own.yaml",
+               "include: [" OCA_SOURCE_DIR
+               "/diagrams/parts/arm_loop.yaml]\n"
+               "models: {arm: {urdf: package://lwr4/lwr4.urdf, srdf: package://lwr4/lwr4.srdf}}\n");
+  const auto loaded =
+      loading::LoadDiagram(folder.Write("two.yaml",
+                                        "systems:\n"
+                                        "  obstacles: {type: ObstacleSource, obstacles: []}\n"
+                                        "  a: {type: Diagram, file: own.yaml}\n"
+                                        "  b: {type: Diagram, file: own.yaml}\n"
+                                        "connections: [obstacles.obstacles -> <arm>.obstacles]\n"));
+  const auto spots = BlindSpots(loaded);
+  EXPECT_THAT(spots, testing::Contains("model 'b.arm' (not known in the file of a.distance)"));
+  EXPECT_THAT(spots, testing::Contains("model 'a.arm' (not known in the file of b.distance)"));
+  const auto seeing = BlindSpots(loading::LoadDiagram(OCA_SOURCE_DIR "/diagrams/dual_arm.yaml"));
+  EXPECT_THAT(seeing, testing::Each(testing::Not(HasSubstr("not known"))));
+}
+
 TEST_F(BlindSpotsTest, NamesASensorThatAJudgeBelieves) {
   const std::string file = OCA_SOURCE_DIR "/diagrams/scenarios/fault_latency.yaml";
   EXPECT_THAT(BlindSpots(loading::LoadDiagram(file)),
@@ -165,6 +185,27 @@ TEST_F(BlindSpotsTest, ExpectMayAllowAContact) {
         "min_distance: {at_least: 0, at: 0}", "contact_time: {equal: 0, at: 0.5}",
         "contact_time: {at_most: 0, at: 0.5}"}) {
     EXPECT_FALSE(met(not_of_it)) << not_of_it;
+  }
+}
+
+TEST_F(BlindSpotsTest, ALeastDistanceOutOfReachIsMetByWhatIsProved) {
+  const std::vector<files::Override> far{
+      kRequestAlone[0],
+      {"systems.obstacles.obstacles",
+       "[{id: box, shape: {type: box, size: [0.2, 0.2, 0.2]}, pose: {xyz: [0, 3, 0]}}]"}};
+  const auto expected = [&](const std::string& bound) {
+    return runs::Run(Load("collision", "collision", far, "expect: {min_distance: " + bound + "}\n"),
+                     {})
+        .expectations.at(0);
+  };
+  const ExpectationResult met = expected("{at_least: 0.05}");
+  EXPECT_TRUE(met.ok);
+  EXPECT_EQ(met.bound, ">= 0.05, proved by certified_min_distance");
+  EXPECT_GT(met.value.value(), 0.05);
+  for (const char* not_proved : {"{at_least: 9}", "{at_most: 9}", "{at_least: 0, at_most: 9}"}) {
+    const ExpectationResult result = expected(not_proved);
+    EXPECT_FALSE(result.ok) << not_proved;
+    EXPECT_FALSE(result.value) << not_proved;
   }
 }
 

@@ -80,5 +80,17 @@ TEST(ChatterCheckTest, LooksAtEveryArm) {
   EXPECT_NEAR(NumberAfter(warnings[0], "g = "), NumberAfter(warnings[1], "g = "), 0.5);
 }
 
+// Each arm sees the other's links, whose loop has fields of its own.
+TEST(ChatterCheckTest, TakesNoSlopesOfAnotherArm) {
+  for (const std::string still : {"left", "right"}) {
+    const std::string moving = still == "left" ? "right" : "left";
+    const auto warnings =
+        Warnings({{"parameters.relaxation_time", "0.001"}, {still + ".parameters.force_gain", "0"}},
+                 "dual_arm");
+    ASSERT_EQ(warnings.size(), 1u) << still;
+    EXPECT_THAT(warnings[0], HasSubstr(moving + ".systems.relaxation: the loop must chatter"));
+  }
+}
+
 }  // namespace chatter_check_test
 }  // namespace oca::runs

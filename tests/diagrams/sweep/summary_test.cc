@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "oca/diagrams/sweep/summary_json.h"
+
 namespace oca::sweep {
 namespace summary_test {
 
@@ -94,6 +96,16 @@ TEST(SummarizeTest, CountsSharesAndFindsMedianAndWorst) {
             "not arrived, 0.5 rad off; not met: final_error <= 0.1 (got 0.5)");
   EXPECT_EQ(summary.failures[2].why, "failed: lost");
   EXPECT_EQ(summary.failures[2].command, "simulator run f.yaml --seed 0");
+}
+
+TEST(TitleOfTest, NamesSettingsByTheShortestEndOfThePathThatTellsThemApart) {
+  EXPECT_EQ(TitleOf({}), "");
+  EXPECT_EQ(TitleOf({{"parameters.avoid", "true"}, {"parameters.rate", "100"}}),
+            "avoid=true rate=100");
+  EXPECT_EQ(TitleOf({{"left.parameters.avoid", "true"}, {"right.parameters.avoid", "false"}}),
+            "left.parameters.avoid=true right.parameters.avoid=false");
+  EXPECT_EQ(TitleOf({{"avoid", "true"}, {"a.avoid", "false"}, {"b.avoid_not", "1"}}),
+            "avoid=true a.avoid=false avoid_not=1");
 }
 
 }  // namespace summary_test

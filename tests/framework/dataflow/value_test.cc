@@ -87,6 +87,7 @@ TEST(ProblemsTest, AreThrownTogetherOneALine) {
 TEST(DidYouMeanTest, SuggestsTheNearestName) {
   const std::vector<std::string> names{"gain", "max_distance", "min_distance", "period"};
   EXPECT_EQ(DidYouMean("gian", names), "; did you mean 'gain'?");
+  EXPECT_EQ(DidYouMean("gain", names), "");  // the word itself is no other one
   EXPECT_EQ(DidYouMean("max_distanse", names), "; did you mean 'max_distance'?");
   EXPECT_EQ(DidYouMean("perod", names), "; did you mean 'period'?");
   EXPECT_EQ(DidYouMean("", names), "");
