@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "oca/diagrams/files/catalogue.h"
-#include "oca/diagrams/files/run_params.h"
 #include "oca/diagrams/files/document.h"
 #include "oca/diagrams/files/output_sections.h"
+#include "oca/diagrams/files/run_params.h"
 #include "oca/diagrams/sampling/scenario.h"
 #include "oca/framework/dataflow/diagram.h"
 #include "oca/systems/signals/model_set.h"

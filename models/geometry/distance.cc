@@ -7,9 +7,9 @@
 
 #include "oca/models/geometry/bullet_penetration.h"
 #include "oca/models/geometry/closed_forms.h"
+#include "oca/models/geometry/core_forms.h"
 #include "oca/models/geometry/gjk.h"
 #include "oca/models/geometry/nearest_part.h"
-#include "oca/models/geometry/core_forms.h"
 #include "oca/models/geometry/polytope_depth.h"
 #include "oca/models/geometry/segment_forms.h"
 

@@ -87,7 +87,7 @@ std::string GoalLine(const MotionMetricsValue& metrics, bool colour) {
   const double off = *metrics.final_error;
   const std::string arrival =
       off < kAtGoal ? Good("reached", colour) + fmt::format(": {:.2g} rad off", off)
-                     : Bad("NOT REACHED", colour) + fmt::format(": {:.3g} rad off", off);
+                    : Bad("NOT REACHED", colour) + fmt::format(": {:.3g} rad off", off);
   return Line("goal", arrival + Standstill(metrics, off < kAtGoal));
 }
 

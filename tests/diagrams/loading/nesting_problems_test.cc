@@ -59,7 +59,8 @@ TEST_F(NestingProblemsTest, CollectsProblemsOfAllFilesAtOnce) {
       Refusal(TwoStages(", parameters: {constant: -1}", "", "  - source.valeu -> second.out\n"));
   EXPECT_THAT(refusal, HasSubstr("stage.yaml:5:"));
   EXPECT_THAT(refusal, HasSubstr("error: in first: systems.lag.time_constant: got -1"));
-  EXPECT_THAT(refusal, HasSubstr("d.yaml:10:5: error: connections: source: no output port 'valeu'"));
+  EXPECT_THAT(refusal,
+              HasSubstr("d.yaml:10:5: error: connections: source: no output port 'valeu'"));
 }
 
 TEST_F(NestingProblemsTest, TellsWiringProblemsInTheFileAsItNamesPorts) {

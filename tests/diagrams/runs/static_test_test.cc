@@ -19,8 +19,8 @@ constexpr double kJointRange = 2.97;  // rad, of joint 1
 struct Outcome {
   explicit Outcome(const std::vector<files::Override>& overrides,
                    const std::string& file = "static_test") {
-    const RunResult result =
-        runs::Run(loading::LoadDiagram(OCA_SOURCE_DIR "/diagrams/" + file + ".yaml", overrides), {});
+    const RunResult result = runs::Run(
+        loading::LoadDiagram(OCA_SOURCE_DIR "/diagrams/" + file + ".yaml", overrides), {});
     EXPECT_FALSE(result.failure) << result.failure->message;
     text = MetricsJson(result.metrics);
     metrics = nlohmann::json::parse(text);

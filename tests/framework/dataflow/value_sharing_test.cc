@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "oca/framework/dataflow/value.h"
-
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -8,6 +6,8 @@
 #include <thread>
 #include <utility>
 #include <vector>
+
+#include "oca/framework/dataflow/value.h"
 
 namespace oca {
 namespace value_sharing_test {
