@@ -63,7 +63,7 @@ std::unique_ptr<System> CatalogueRow::Make(const Value& params, const std::strin
   problems.Add(own);
   if (!own.empty()) return nullptr;
   try {
-    return build(read.get(), models);
+    return Build(read.get(), models);
   } catch (const WiringError&) {
     throw;  // of the class, not of its parameters
   } catch (const std::exception& error) {
@@ -76,7 +76,19 @@ std::unique_ptr<System> CatalogueRow::Make(const Value& params, const std::strin
 }
 
 std::unique_ptr<System> CatalogueRow::MakeExample(const systems::ModelSet& models) const {
-  return build(example_params.get(), models);
+  std::vector<std::string> wrong;
+  CheckFields(fields(), example_params.get(), new_params().get(), "", wrong);
+  if (!wrong.empty()) {
+    throw ConfigError(fmt::format("catalogue: type '{}': example; got {}", type, wrong.front()));
+  }
+  return Build(example_params.get(), models);
+}
+
+std::unique_ptr<System> CatalogueRow::Build(const void* params,
+                                            const systems::ModelSet& models) const {
+  std::unique_ptr<System> system = build(params, models);
+  if (system != nullptr) return system;
+  throw ConfigError(fmt::format("catalogue: type '{}': made nothing; expected a system", type));
 }
 
 Catalogue& Catalogue::AddRow(CatalogueRow row) {
