@@ -46,8 +46,8 @@ struct BuildOptions {
 /// overrides bring in: another file, or a mesh at another scale. A robot is made again, of what was
 /// read, if its entry under `models` is another; if only its base_pose is, it is placed again.
 ///
-/// Copies share what was read. What a Build gives, and what it refuses, is what LoadDiagram would: problems with their places,
-/// warnings, files, drawn scenario and every number.
+/// Copies share what was read. What a Build gives, and what it refuses, is what LoadDiagram would:
+/// problems with their places, warnings, files, drawn scenario and every number.
 class Blueprint {
  public:
   /// `catalogue` has the types of its systems.

@@ -23,6 +23,20 @@ const auto& FindNamed(const Ports& ports, const std::string& file, const char* k
       names.empty() ? "(none)" : fmt::format("{}", fmt::join(names, ", ")))});
 }
 
+/// `name.port` of all that was made; ports_of(system) or ports_of(used file) are its ports.
+template <class Made, class PortsOf>
+std::vector<std::string> PortNames(const Made& all, const PortsOf& ports_of) {
+  std::vector<std::string> names;
+  for (const auto& [name, made] : all) {
+    if (made.system != nullptr) {
+      for (const auto& port : ports_of(*made.system)) names.push_back(name + "." + port.name);
+    } else {
+      for (const auto& port : ports_of(*made.file)) names.push_back(name + "." + port.first);
+    }
+  }
+  return names;
+}
+
 /// Calls find(); an error begins with the name of the system.
 template <class Find>
 auto InSystem(const std::string& name, const Find& find) {
@@ -77,27 +91,13 @@ std::optional<std::vector<InputAt>> SystemSection::FindInputs(const std::string&
 }
 
 std::vector<std::string> SystemSection::OutputNames() const {
-  std::vector<std::string> names;
-  for (const auto& [name, made] : made_) {
-    if (made.system != nullptr) {
-      for (const auto& output : made.system->outputs()) names.push_back(name + "." + output.name);
-    } else {
-      for (const auto& output : made.file->outputs()) names.push_back(name + "." + output.first);
-    }
-  }
-  return names;
+  return PortNames(
+      made_, [](const auto& owner) -> const auto& { return owner.outputs(); });
 }
 
 std::vector<std::string> SystemSection::InputNames() const {
-  std::vector<std::string> names;
-  for (const auto& [name, made] : made_) {
-    if (made.system != nullptr) {
-      for (const auto& input : made.system->inputs()) names.push_back(name + "." + input.name);
-    } else {
-      for (const auto& input : made.file->inputs()) names.push_back(name + "." + input.first);
-    }
-  }
-  return names;
+  return PortNames(
+      made_, [](const auto& owner) -> const auto& { return owner.inputs(); });
 }
 
 }  // namespace oca::loading

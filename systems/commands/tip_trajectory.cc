@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "oca/models/planning/tip_path.h"
+#include "oca/systems/basics/shared_params.h"
 #include "oca/systems/sensing/model_links.h"
 #include "oca/systems/signals/config_errors.h"
 
@@ -46,7 +47,7 @@ int TipOf(const robot::RobotModel& model, const std::string& link) {
 
 void TipRequest::Params::Describe(Fields<Params>& fields) {
   using P = Params;
-  fields.Add("model", &P::model, "", "name of the robot; may be left out if there is but one");
+  AddModel(fields);
   fields.Add("link", &P::link, "",
              "whose origin is the tip; the last that a joint moves if left out");
   fields.Add("path", &P::path, "", "what the tip draws");
@@ -59,11 +60,7 @@ void TipRequest::Params::Describe(Fields<Params>& fields) {
   fields.Add("start", &P::start, "s", "when the approach begins").AtLeast(0.0);
   fields.Add("approach", &P::approach, "s", "from the posture to the path").Above(0.0);
   fields.Add("duration", &P::duration, "s", "along the path").Above(0.0).AtMost(3600.0);
-  fields
-      .Add("period", &P::period, "s",
-           "0: continuous in time; > 0: sampled for the end of each period and held")
-      .AtLeast(0.0);
-  fields.Add("unit", &P::unit, "", "unit of the position");
+  AddSampling(fields);
 }
 
 TipRequest::Params TipRequest::Example() {
