@@ -160,8 +160,8 @@ const Value* Expressions::Use(const std::string& name, const Location& location)
   return nullptr;
 }
 
-std::vector<std::string> Expressions::Unused(const std::set<std::string>& known) const {
-  std::vector<std::string> lines;
+std::vector<Diagnostic> Expressions::Unused(const std::set<std::string>& known) const {
+  std::vector<Diagnostic> warnings;
   std::vector<std::string> used(used_.begin(), used_.end());
   used.insert(used.end(), known.begin(), known.end());
   for (const auto& [name, place] : places_) {
@@ -169,14 +169,16 @@ std::vector<std::string> Expressions::Unused(const std::set<std::string>& known)
     const auto& source = place.value.file;
     const bool overridden = source && source->starts_with("-s ");
     if (!known.contains(name)) {
-      lines.push_back(fmt::format("{}: warning: parameters.{}: nothing uses it{}",
-                                  place.key.ToString(), name, DidYouMean(name, used)));
+      warnings.push_back(
+          {place.key, fmt::format("parameters.{}: nothing uses it{}", name, DidYouMean(name, used)),
+           Diagnostic::Kind::kWarning});
     } else if (overridden) {
-      lines.push_back(
-          fmt::format("{}: warning: nothing uses it with the parts that are chosen", *source));
+      const Location given{source, 0, 0};
+      warnings.push_back(
+          {given, "nothing uses it with the parts that are chosen", Diagnostic::Kind::kWarning});
     }
   }
-  return lines;
+  return warnings;
 }
 
 Value Expressions::Resolve(const Value& value) {
