@@ -166,17 +166,16 @@ std::vector<Diagnostic> Expressions::Unused(const std::set<std::string>& known) 
   used.insert(used.end(), known.begin(), known.end());
   for (const auto& [name, place] : places_) {
     if (used_.contains(name)) continue;
-    const auto& source = place.value.file;
-    const bool overridden = source && source->starts_with("-s ");
-    if (!known.contains(name)) {
-      warnings.push_back(
-          {place.key, fmt::format("parameters.{}: nothing uses it{}", name, DidYouMean(name, used)),
-           Diagnostic::Kind::kWarning});
-    } else if (overridden) {
-      const Location given{source, 0, 0};
-      warnings.push_back(
-          {given, "nothing uses it with the parts that are chosen", Diagnostic::Kind::kWarning});
+    Location at = place.key;
+    std::string what =
+        fmt::format("parameters.{}: nothing uses it{}", name, DidYouMean(name, used));
+    if (known.contains(name)) {
+      const auto& source = place.value.file;
+      if (!source || !source->starts_with("-s ")) continue;
+      at = {source, 0, 0};
+      what = "nothing uses it with the parts that are chosen";
     }
+    warnings.push_back({at, what, Diagnostic::Kind::kWarning});
   }
   return warnings;
 }
