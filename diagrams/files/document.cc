@@ -13,6 +13,7 @@
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/nearest.h"
 #include "oca/models/file_cache.h"
+#include "oca/models/opened_files.h"
 
 namespace oca::files {
 namespace {
@@ -30,6 +31,14 @@ ReadDocument ReadFile(const fs::path& file) {
   ReadDocument read;
   read.root = ReadYaml(ReadTextFile(file), file.string(), read.problems);
   return read;
+}
+
+/// A file by the way that led to it, for what it names in turn lies from there: a link to it or to
+/// a folder above is not followed. In short, if that is the same file.
+fs::path AsReached(const fs::path& file) {
+  const fs::path plain = models::PlainPath(file);
+  std::error_code error;
+  return fs::equivalent(plain, file, error) ? plain : fs::absolute(file);
 }
 
 /// What a file includes by two ways counts once.
@@ -106,7 +115,7 @@ class Includer {
       return {};
     }
     open_.push_back(canonical);
-    AddSource(canonical);
+    AddSource(AsReached(file));
     if (choices_ > 0) sources_.chosen.insert(file.string());
     Value value;
     try {
@@ -156,7 +165,7 @@ class Includer {
     std::error_code error;
     std::vector<fs::path> found;
     for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
-      if (at->path().extension() == ".yaml") found.push_back(fs::weakly_canonical(at->path()));
+      if (at->path().extension() == ".yaml") found.push_back(AsReached(at->path()));
     }
     std::sort(found.begin(), found.end());
     const std::string head = pattern.substr(0, pattern.find("${"));

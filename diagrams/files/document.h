@@ -11,7 +11,7 @@
 
 namespace oca::files {
 
-/// The files behind a document.
+/// The files behind a document, absolute, each by the way that led to it: links are not followed.
 struct DocumentSources {
   std::vector<std::filesystem::path> files{};  ///< those that were read, first the diagram file
   std::vector<std::filesystem::path> candidates{};  ///< diagram files beside one that was chosen

@@ -160,23 +160,24 @@ const Value* Expressions::Use(const std::string& name, const Location& location)
   return nullptr;
 }
 
-std::vector<std::string> Expressions::Unused(const std::set<std::string>& known) const {
-  std::vector<std::string> lines;
+std::vector<Diagnostic> Expressions::Unused(const std::set<std::string>& known) const {
+  std::vector<Diagnostic> warnings;
   std::vector<std::string> used(used_.begin(), used_.end());
   used.insert(used.end(), known.begin(), known.end());
   for (const auto& [name, place] : places_) {
     if (used_.contains(name)) continue;
-    const auto& source = place.value.file;
-    const bool overridden = source && source->starts_with("-s ");
-    if (!known.contains(name)) {
-      lines.push_back(fmt::format("{}: warning: parameters.{}: nothing uses it{}",
-                                  place.key.ToString(), name, DidYouMean(name, used)));
-    } else if (overridden) {
-      lines.push_back(
-          fmt::format("{}: warning: nothing uses it with the parts that are chosen", *source));
+    Location at = place.key;
+    std::string what =
+        fmt::format("parameters.{}: nothing uses it{}", name, DidYouMean(name, used));
+    if (known.contains(name)) {
+      const auto& source = place.value.file;
+      if (!source || !source->starts_with("-s ")) continue;
+      at = {source, 0, 0};
+      what = "nothing uses it with the parts that are chosen";
     }
+    warnings.push_back({at, what, Diagnostic::Kind::kWarning});
   }
-  return lines;
+  return warnings;
 }
 
 Value Expressions::Resolve(const Value& value) {

@@ -31,10 +31,10 @@ class Expressions {
   void MarkUsed(const std::string& name) { used_.insert(name); }
   /// Parameters that the tree or other parameters use. Complete once everything is resolved.
   const std::set<std::string>& used() const { return used_; }
-  /// A line for each parameter that is not used, with its place and the nearest one that is. One
+  /// A warning for each parameter that is not used, with its place and the nearest one that is. One
   /// that is `known` elsewhere, where other parts are chosen, is no mistake, unless an override
   /// gives it: that has no effect.
-  std::vector<std::string> Unused(const std::set<std::string>& known = {}) const;
+  std::vector<Diagnostic> Unused(const std::set<std::string>& known = {}) const;
 
  private:
   Value ResolveText(const std::string& text, const Location& location);

@@ -100,7 +100,7 @@ void ModelSection::ReadModel(const Value::Entry& entry, const std::string& full_
     problems_.Add(entry.location, fmt::format("{}: {}", where, error.what()));
   }
   for (const std::string& line : warnings) {
-    warnings_.push_back(fmt::format("{}: warning: {}", entry.location.ToString(), line));
+    warnings_.push_back({entry.location, line, Diagnostic::Kind::kWarning});
   }
 }
 

@@ -33,8 +33,8 @@ class ModelSection {
   const systems::ModelSet& models() const { return models_; }
   /// Whether a model could not be loaded; its users would only repeat the problem.
   bool failed() const { return failed_; }
-  /// What to know of the models that did load, a line each, with its place.
-  const std::vector<std::string>& warnings() const { return warnings_; }
+  /// What to know of the models that did load.
+  const std::vector<Diagnostic>& warnings() const { return warnings_; }
   /// `value` with the texts of all keys named `file` made paths from where the program runs; they
   /// are written relative to the file they stand in, or as package://NAME/PATH.
   Value ResolveFiles(const Value& value);
@@ -57,7 +57,7 @@ class ModelSection {
   PackageMap packages_;
   std::map<std::string, Source> sources_;  // by name, of those that did load
   systems::ModelSet models_;
-  std::vector<std::string> warnings_;
+  std::vector<Diagnostic> warnings_;
   bool failed_{false};
 };
 

@@ -44,7 +44,7 @@ class Loader {
     loaded_.name = file_.stem().string();
     ReadRun(root(), loaded_, problems_);
     files::ModelSection models(root(), problems_);
-    for (const std::string& line : models.warnings()) construction_.warnings.Add("", line);
+    for (const Diagnostic& warning : models.warnings()) construction_.warnings.Add("", warning);
     const SystemSources sources{models, inner_overrides_};
     Assembly assembly(root(), level_, sources, construction_, builder_, problems_);
     loaded_.models = models.models();
@@ -59,7 +59,9 @@ class Loader {
     loaded_.opened = opened_.files();
     if (part_.whole()) ReadOutputs(root(), level_, assembly, {}, problems_);
     Throw();
-    loaded_.warnings = construction_.warnings.Lines();
+    for (const Diagnostic& warning : construction_.warnings.all()) {
+      loaded_.warnings.push_back(warning.ToString());
+    }
     return std::move(loaded_);
   }
 
@@ -67,7 +69,9 @@ class Loader {
   const Value& root() const { return loaded_.resolved; }
 
   void Throw() {
-    for (std::string& line : construction_.problems.Lines()) problems_.AddLine(std::move(line));
+    for (const Diagnostic& problem : construction_.problems.all()) {
+      problems_.Add(problem.location, problem.what);
+    }
     problems_.Throw();
   }
 
@@ -80,7 +84,7 @@ class Loader {
     loaded_.scenario = std::move(read.scenario);
     loaded_.resolved = std::move(read.root);
     inner_overrides_ = std::move(read.inner_overrides);
-    for (const std::string& line : read.warnings) construction_.warnings.Add("", line);
+    for (const Diagnostic& warning : read.warnings) construction_.warnings.Add("", warning);
   }
 
   /// What a file says of the run: its name and how it is simulated.
@@ -216,10 +220,10 @@ class Loader {
                          double at) {
     construction_.warnings.Add(
         level.path,
-        fmt::format("{}: warning: expect.{}.at: got {} s, after the run, which ends at {} s: it is "
-                    "not checked",
-                    root.Find("expect")->Find(name)->location().ToString(), name, at,
-                    loaded_.simulator.duration));
+        {root.Find("expect")->Find(name)->location(),
+         fmt::format("expect.{}.at: got {} s, after the run, which ends at {} s: it is not checked",
+                     name, at, loaded_.simulator.duration),
+         Diagnostic::Kind::kWarning});
   }
 
   template <class Named>

@@ -47,7 +47,7 @@ void ConnectionSection::CheckShownInputs() {
       if (own == construction_.connections.end()) continue;
       problems_.Add(own->second.location,
                     fmt::format("{}: two drivers; got this and inputs.{}; expected one",
-                                target.path.substr(level_.path.size() + 1), name));
+                                PathIn(level_.path, target.path), name));
     }
   }
 }
@@ -72,8 +72,9 @@ void ConnectionSection::Read(const Value& item) {
   const bool shows_what_is_there = from.starts_with(kInputs) && IsPattern(from);
   if (all.empty() && !shows_what_is_there) {
     construction_.warnings.Add(
-        level_.path, fmt::format("{}: warning: connections: {} -> {}: no ports have such names",
-                                 location.ToString(), from, to));
+        level_.path,
+        {location, fmt::format("connections: {} -> {}: no ports have such names", from, to),
+         Diagnostic::Kind::kWarning});
   }
 }
 
@@ -137,7 +138,8 @@ void ConnectionSection::ShowOutput(const std::string& from, const std::string& n
   if (!fresh) {
     problems_.Add(location, fmt::format("connections: outputs.{}: two drivers; got {} and {}; "
                                         "expected one",
-                                        name, shown->second.path, output->path));
+                                        name, PathIn(level_.path, shown->second.path),
+                                        PathIn(level_.path, output->path)));
   } else if (level_.path.empty() && construction_.part.whole()) {
     builder_.ExportOutput(name, output->handle);
   }
@@ -165,8 +167,9 @@ void ConnectionSection::Import(const OutputAt& from, const InputAt& to, const Lo
     problems_.Add(location, fmt::format("part: {} and {} would both become the input {}",
                                         imported->second, from.path, name));
   } else if (&got != &expected) {
-    problems_.Add(location, fmt::format("{} -> {}: type; got {}; expected {}", from.path, to.path,
-                                        got.name, expected.name));
+    problems_.Add(location,
+                  fmt::format("{} -> {}: type; got {}; expected {}", PathIn(level_.path, from.path),
+                              PathIn(level_.path, to.path), got.name, expected.name));
   } else {
     construction_.root.ExportInput(name, to.handle);
   }

@@ -19,7 +19,7 @@ struct ResolvedDocument {
   Value root;                   ///< the same without parameters, ${...} worked out
   sampling::Scenario scenario;  ///< what was drawn
   files::DocumentSources sources;
-  std::vector<std::string> warnings;  ///< of parameters that nothing uses, a line each
+  std::vector<Diagnostic> warnings;  ///< of parameters that nothing uses
   /// Of files that it uses, by the names of the systems that they are.
   std::map<std::string, std::vector<files::Override>> inner_overrides;
 };

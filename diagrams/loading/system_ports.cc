@@ -18,9 +18,9 @@ const auto& FindNamed(const Ports& ports, const std::string& file, const char* k
   if (const auto found = ports.find(name); found != ports.end()) return found->second;
   std::vector<std::string> names;
   for (const auto& port : ports) names.push_back(port.first);
-  throw WiringError({fmt::format(
+  throw WiringError(fmt::format(
       "no {0} '{1}' of {2}{3}; its {0}s are: {4}", kind, name, file, DidYouMean(name, names),
-      names.empty() ? "(none)" : fmt::format("{}", fmt::join(names, ", ")))});
+      names.empty() ? "(none)" : fmt::format("{}", fmt::join(names, ", "))));
 }
 
 /// `name.port` of all that was made; ports_of(system) or ports_of(used file) are its ports.
@@ -43,7 +43,7 @@ auto InSystem(const std::string& name, const Find& find) {
   try {
     return find();
   } catch (const WiringError& error) {
-    throw WiringError({fmt::format("{}: {}", name, error.what())});
+    throw WiringError(fmt::format("{}: {}", name, error.what()));
   }
 }
 
@@ -56,7 +56,7 @@ std::pair<const SystemSection::Made*, std::string> SystemSection::Follow(
   const auto found = made_.find(name);
   if (found != made_.end()) return {&found->second, path.substr(dot + 1)};
   if (!Names(name)) {
-    throw WiringError({fmt::format("no system '{}'{}", name, DidYouMean(name, names_))});
+    throw WiringError(fmt::format("no system '{}'{}", name, DidYouMean(name, names_)));
   }
   return {nullptr, ""};
 }

@@ -167,7 +167,7 @@ void SystemSection::KeepWarnings(const System& system, const std::string& where,
   for (const auto* const remarks : system.roles<systems::Remarks>()) {
     for (const std::string& line : remarks->warnings) {
       construction_.warnings.Add(
-          level_.path, fmt::format("{}: warning: {}: {}", location.ToString(), where, line));
+          level_.path, {location, fmt::format("{}: {}", where, line), Diagnostic::Kind::kWarning});
     }
   }
 }

@@ -73,8 +73,8 @@ UsedFile::UsedFile(const Value::Entry& entry, const Level& outer, const SystemSo
     models_ = std::make_unique<files::ModelSection>(
         document_.root, files::ModelSection::Given{sources.models, &given->models, level_.path},
         own_);
-    for (const std::string& line : models_->warnings()) {
-      construction_.warnings.Add(level_.path, line);
+    for (const Diagnostic& warning : models_->warnings()) {
+      construction_.warnings.Add(level_.path, warning);
     }
     WarnOfUnusedModels(given->models);
     sources_ = std::make_unique<SystemSources>(
@@ -200,7 +200,9 @@ void UsedFile::Read(const Value::Entry& entry, const Entry& given, Problems& pro
     }
   }
   RefuseOverridesOfTheRun();
-  for (const std::string& line : document_.warnings) construction_.warnings.Add(level_.path, line);
+  for (const Diagnostic& warning : document_.warnings) {
+    construction_.warnings.Add(level_.path, warning);
+  }
 }
 
 /// What is of the run is said by the file that is run.
@@ -227,9 +229,10 @@ void UsedFile::WarnOfUnusedModels(const Value& models) {
       for (const Value::Entry& other : *own->map()) names.push_back(other.key);
     }
     construction_.warnings.Add(
-        outer_, fmt::format("{}: warning: systems.{}.models.{}: nothing in {} uses it{}",
-                            entry.location.ToString(), name_, entry.key, file_.string(),
-                            DidYouMean(entry.key, names)));
+        outer_, {entry.location,
+                 fmt::format("systems.{}.models.{}: nothing in {} uses it{}", name_, entry.key,
+                             file_.string(), DidYouMean(entry.key, names)),
+                 Diagnostic::Kind::kWarning});
   }
 }
 
@@ -254,7 +257,7 @@ std::unique_ptr<Diagram> UsedFile::Build() {
 }
 
 void UsedFile::Tell(Problems& found) {
-  for (const std::string& line : found.all()) construction_.problems.Add(level_.path, line);
+  for (const Diagnostic& problem : found.all()) construction_.problems.Add(level_.path, problem);
   found = Problems();
 }
 

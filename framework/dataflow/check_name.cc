@@ -14,7 +14,7 @@ void CheckName(const std::string& name, const char* what) {
   const auto good = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
   if (name.empty() || !std::all_of(name.begin(), name.end(), good)) {
     throw WiringError(
-        {fmt::format("{} name: got '{}'; expected letters, digits and underscores", what, name)});
+        fmt::format("{} name: got '{}'; expected letters, digits and underscores", what, name));
   }
 }
 

@@ -23,7 +23,7 @@ auto InSystemOf(const std::string& path, const Find& find) {
   try {
     return find();
   } catch (const WiringError& error) {
-    throw WiringError({fmt::format("{}: {}", path.substr(0, path.rfind('.')), error.what())});
+    throw WiringError(fmt::format("{}: {}", path.substr(0, path.rfind('.')), error.what()));
   }
 }
 
@@ -43,7 +43,7 @@ Diagram::~Diagram() = default;
 
 const Schedule& Diagram::schedule() const {
   if (own_schedule_ == nullptr) {
-    throw WiringError({"diagram: it is nested in another one, whose root makes the contexts"});
+    throw WiringError("diagram: it is nested in another one, whose root makes the contexts");
   }
   return *own_schedule_;
 }
@@ -59,8 +59,8 @@ std::pair<const System*, std::string> Diagram::SplitPath(const std::string& path
   std::vector<std::string> names;
   AddPaths(*this, "", names);
   const std::string got = path.substr(0, dot);
-  throw WiringError({fmt::format("no {} port '{}': no system '{}'{}; systems are: {}", kind, path,
-                                 got, DidYouMean(got, names), fmt::join(names, ", "))});
+  throw WiringError(fmt::format("no {} port '{}': no system '{}'{}; systems are: {}", kind, path,
+                                got, DidYouMean(got, names), fmt::join(names, ", ")));
 }
 
 InputHandle Diagram::FindInput(const std::string& path) const {
@@ -95,7 +95,7 @@ void Diagram::SetRoot(const Diagram* root) {
 
 const Wiring& Diagram::wiring() const {
   if (root_ != nullptr) return *root_->own_wiring_;
-  throw WiringError({"diagram: it is nested in another one, which has not been built"});
+  throw WiringError("diagram: it is nested in another one, which has not been built");
 }
 
 DiagramBuilder::DiagramBuilder() : diagram_(new Diagram) {}
@@ -104,11 +104,11 @@ DiagramBuilder::~DiagramBuilder() = default;
 const System& DiagramBuilder::AddSystem(std::string name, std::unique_ptr<System> system) {
   internal::CheckName(name, "system");
   if (system == nullptr) {
-    throw WiringError({fmt::format("system '{}': got nothing; expected a system", name)});
+    throw WiringError(fmt::format("system '{}': got nothing; expected a system", name));
   }
   for (const Diagram::Child& child : diagram_->children_) {
     if (child.name == name) {
-      throw WiringError({fmt::format("system name: '{}' is taken", name)});
+      throw WiringError(fmt::format("system name: '{}' is taken", name));
     }
   }
   if (auto* nested = dynamic_cast<Diagram*>(system.get())) {
@@ -129,7 +129,7 @@ void DiagramBuilder::ConnectPorts(const OutputHandle& from, const InputHandle& t
 void DiagramBuilder::ExportInput(std::string name, const InputHandle& input, int size) {
   internal::CheckName(name, "input");
   if (input.system == nullptr) {
-    throw WiringError({fmt::format("exported input '{}': its port belongs to no system", name)});
+    throw WiringError(fmt::format("exported input '{}': its port belongs to no system", name));
   }
   auto& exported = diagram_->exported_inputs_;
   const auto same = std::find_if(exported.begin(), exported.end(),
@@ -148,11 +148,11 @@ void DiagramBuilder::ExportOutput(std::string name, const OutputHandle& output) 
   internal::CheckName(name, "output");
   for (const auto& other : diagram_->exported_outputs_) {
     if (other.first == name) {
-      throw WiringError({fmt::format("output name: '{}' is exported twice", name)});
+      throw WiringError(fmt::format("output name: '{}' is exported twice", name));
     }
   }
   if (output.system == nullptr) {
-    throw WiringError({fmt::format("exported output '{}': its port belongs to no system", name)});
+    throw WiringError(fmt::format("exported output '{}': its port belongs to no system", name));
   }
   const System::OutputInfo& inner = output.system->outputs().at(output.index);
   diagram_->AddOutput({name, inner.type, inner.spec, {}, -1});

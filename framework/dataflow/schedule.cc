@@ -286,8 +286,7 @@ const Schedule::InputEntry& Schedule::input(const InputHandle& handle) const {
 const Schedule& Schedule::Of(const Handle& handle, const Context& context) {
   const Schedule* const schedule = handle.system == nullptr ? nullptr : handle.system->schedule_;
   if (schedule == nullptr || schedule != context.schedule_) {
-    throw WiringError(
-        {"port or state: its system is not part of the diagram that made the context"});
+    throw WiringError("port or state: its system is not part of the diagram that made the context");
   }
   return *schedule;
 }

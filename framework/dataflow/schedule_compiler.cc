@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oca/framework/dataflow/schedule_compiler.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <iterator>
 #include <utility>
@@ -196,6 +194,28 @@ void ScheduleCompiler::Renumber(const std::vector<int>& order) {
   }
 }
 
+WiringProblem ScheduleCompiler::ProblemOfLoop(const std::vector<int>& loop) const {
+  WiringProblem problem{.text = {"algebraic loop: "}};
+  const auto add = [&](const PortPath& port) {
+    if (problem.text.size() > 1) problem.text.push_back(" -> ");
+    problem.text.push_back(port);
+  };
+  for (std::size_t i = 0; i <= loop.size(); ++i) {
+    const NodeInfo& to = nodes_[loop[i % loop.size()]];
+    if (i > 0) {
+      for (const Read& read : CalculationOf(to).reads) {
+        if (read.kind != Read::Kind::kInput || NodeOf(to.leaf, read) != loop[i - 1]) continue;
+        problem.inputs.push_back(wiring_.PathOfInput(to.leaf, read.index));
+        add(problem.inputs.back());
+        break;
+      }
+    }
+    if (to.output >= 0) add(wiring_.PathOfOutput(to.leaf, to.output));
+  }
+  problem.text.push_back("; break it with a delay, a hold or any system whose output is a state");
+  return problem;
+}
+
 std::vector<int> ScheduleCompiler::ReportLoop(const std::vector<int>& open_predecessors) {
   int node = 0;
   while (open_predecessors[node] == 0) ++node;
@@ -208,27 +228,13 @@ std::vector<int> ScheduleCompiler::ReportLoop(const std::vector<int>& open_prede
   }
   walk.erase(walk.begin(), std::find(walk.begin(), walk.end(), node));
   std::reverse(walk.begin(), walk.end());
-  // The path begins with an output; a loop has one, for only ports lead from system to system.
-  std::rotate(walk.begin(),
-              std::find_if(walk.begin(), walk.end(), [&](int i) { return nodes_[i].output >= 0; }),
-              walk.end());
-  std::string path;
-  for (std::size_t i = 0; i <= walk.size(); ++i) {
-    const NodeInfo& to = nodes_[walk[i % walk.size()]];
-    if (i > 0) {
-      for (const Read& read : CalculationOf(to).reads) {
-        if (read.kind != Read::Kind::kInput || NodeOf(to.leaf, read) != walk[i - 1]) continue;
-        path += " -> " + wiring_.NameOfInput(to.leaf, read.index);
-        break;
-      }
-    }
-    if (to.output < 0) continue;
-    path += (i > 0 ? " -> " : "") + wiring_.NameOfOutput(to.leaf, to.output);
-  }
-  wiring_.problems().push_back(fmt::format(
-      "algebraic loop: {}; break it with a delay, a hold or any system whose output is a "
-      "state",
-      path));
+  // The path begins with an output, the first of those that the diagram has on it; a loop has one,
+  // for only ports lead from system to system.
+  const auto rank = [&](int i) { return std::pair(nodes_[i].output < 0, i); };
+  const auto first = std::min_element(walk.begin(), walk.end(),
+                                      [&](int one, int other) { return rank(one) < rank(other); });
+  std::rotate(walk.begin(), first, walk.end());
+  wiring_.problems().push_back(ProblemOfLoop(walk));
   return walk;
 }
 

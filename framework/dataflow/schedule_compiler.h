@@ -39,7 +39,9 @@ class ScheduleCompiler {
   void MakeSources();
   void FindNodes();
   void OrderNodes();
+  /// Finds a loop among the nodes that have open predecessors, and adds it to the problems.
   std::vector<int> ReportLoop(const std::vector<int>& open_predecessors);
+  WiringProblem ProblemOfLoop(const std::vector<int>& loop) const;
   void Renumber(const std::vector<int>& order);
   void MakeGroups();
   void MakeClasses();

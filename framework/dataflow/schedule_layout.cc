@@ -40,7 +40,7 @@ std::uint32_t ScheduleCompiler::Allocate(std::size_t bytes, std::size_t align) {
   arena_ = (arena_ + align - 1) / align * align;
   const std::size_t offset = arena_;
   arena_ += bytes;
-  if (arena_ >= Slot::kNone) throw WiringError({"diagram: its values need more than 4 GB"});
+  if (arena_ >= Slot::kNone) throw WiringError("diagram: its values need more than 4 GB");
   return static_cast<std::uint32_t>(offset);
 }
 

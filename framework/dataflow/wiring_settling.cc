@@ -18,7 +18,7 @@ struct Term {
   std::optional<Value> value;
   int variable{-1};  // global
   int shift{0};
-  std::string port;
+  PortPath port;
 };
 
 int Shift(int value, int /*shift*/) { return value; }
@@ -44,13 +44,13 @@ class Equalities {
     }
   }
 
-  void Report(const char* what, std::vector<std::string>& problems) const {
+  void Report(const std::string& what, std::vector<WiringProblem>& problems) const {
     for (const auto& [a, b] : all_) {
       const auto x = Get(a);
       const auto y = Get(b);
       if (!x || !y || *x == *y) continue;
-      problems.push_back(fmt::format("{} -> {}: {}; got {}; expected {}", a.port, b.port, what,
-                                     Show(*x), Show(*y)));
+      const std::string rest = fmt::format(": {}; got {}; expected {}", what, Show(*x), Show(*y));
+      problems.push_back({{a.port, " -> ", b.port, rest}, {b.port}, b.port.system});
     }
   }
 
@@ -73,7 +73,7 @@ class Equalities {
   std::vector<std::optional<Value>> values_;
 };
 
-/// Calls visit(from spec, from leaf, from name, to spec, to leaf, to name) for every connection
+/// Calls visit(from spec, from leaf, from port, to spec, to leaf, to port) for every connection
 /// between vector ports, and between the inputs that share one exported input.
 template <class Visit>
 void VisitVectorPairs(const Wiring& wiring, const Visit& visit) {
@@ -85,8 +85,8 @@ void VisitVectorPairs(const Wiring& wiring, const Visit& visit) {
       if (driver.leaf < 0 || system.inputs()[input].type != &kVectorType) continue;
       const auto& output = leaves[driver.leaf].system->outputs()[driver.output];
       if (output.type != &kVectorType) continue;
-      visit(output.spec, driver.leaf, wiring.NameOfOutput(driver.leaf, driver.output),
-            system.inputs()[input].spec, leaf, wiring.NameOfInput(leaf, input));
+      visit(output.spec, driver.leaf, wiring.PathOfOutput(driver.leaf, driver.output),
+            system.inputs()[input].spec, leaf, wiring.PathOfInput(leaf, input));
     }
   }
   for (const auto& targets : wiring.exported()) {
@@ -94,8 +94,8 @@ void VisitVectorPairs(const Wiring& wiring, const Visit& visit) {
       const auto& first = leaves[targets[0].leaf].system->inputs()[targets[0].input];
       const auto& other = leaves[targets[i].leaf].system->inputs()[targets[i].input];
       if (first.type != &kVectorType || other.type != &kVectorType) continue;
-      visit(first.spec, targets[0].leaf, wiring.NameOfInput(targets[0].leaf, targets[0].input),
-            other.spec, targets[i].leaf, wiring.NameOfInput(targets[i].leaf, targets[i].input));
+      visit(first.spec, targets[0].leaf, wiring.PathOfInput(targets[0].leaf, targets[0].input),
+            other.spec, targets[i].leaf, wiring.PathOfInput(targets[i].leaf, targets[i].input));
     }
   }
 }
@@ -110,7 +110,7 @@ void Wiring::SettleSizes() {
     count += leaf.system->size_variables();
   }
   Equalities<int> sizes(count);
-  const auto term = [&](const PortSpec& spec, int leaf, std::string port) {
+  const auto term = [&](const PortSpec& spec, int leaf, PortPath port) {
     Term<int> result{{}, -1, 0, std::move(port)};
     if (spec.size.variable() >= 0) {
       result.variable = first[leaf] + spec.size.variable();
@@ -119,17 +119,17 @@ void Wiring::SettleSizes() {
     }
     return result;
   };
-  VisitVectorPairs(*this, [&](const PortSpec& from, int from_leaf, std::string from_name,
-                              const PortSpec& to, int to_leaf, std::string to_name) {
-    sizes.Add(term(from, from_leaf, std::move(from_name)), term(to, to_leaf, std::move(to_name)));
+  VisitVectorPairs(*this, [&](const PortSpec& from, int from_leaf, PortPath from_port,
+                              const PortSpec& to, int to_leaf, PortPath to_port) {
+    sizes.Add(term(from, from_leaf, std::move(from_port)), term(to, to_leaf, std::move(to_port)));
   });
   for (std::size_t i = 0; i < exported_.size(); ++i) {
     const Diagram::ExportedInput& exported = root_.exported_inputs()[i];
     if (exported.size < 0 || exported_[i].empty()) continue;
     const Target& target = exported_[i].front();
     if (InfoOf(target).type != &kVectorType) continue;
-    sizes.Add({exported.size, -1, 0, exported.name},
-              term(InfoOf(target).spec, target.leaf, NameOfInput(target.leaf, target.input)));
+    sizes.Add({exported.size, -1, 0, {"", exported.name}},
+              term(InfoOf(target).spec, target.leaf, PathOfInput(target.leaf, target.input)));
   }
   sizes.Settle();
   sizes.Report("size", problems_);
@@ -149,7 +149,7 @@ void Wiring::SettleUnits() {
     count += leaf.system->unit_variables();
   }
   Equalities<Unit> units(count);
-  const auto term = [&](const PortSpec& spec, int leaf, std::string port) {
+  const auto term = [&](const PortSpec& spec, int leaf, PortPath port) {
     Term<Unit> result{{}, -1, 0, std::move(port)};
     if (spec.unit.variable() >= 0) {
       result.variable = first[leaf] + spec.unit.variable();
@@ -159,9 +159,9 @@ void Wiring::SettleUnits() {
     }
     return result;
   };
-  VisitVectorPairs(*this, [&](const PortSpec& from, int from_leaf, std::string from_name,
-                              const PortSpec& to, int to_leaf, std::string to_name) {
-    units.Add(term(from, from_leaf, std::move(from_name)), term(to, to_leaf, std::move(to_name)));
+  VisitVectorPairs(*this, [&](const PortSpec& from, int from_leaf, PortPath from_port,
+                              const PortSpec& to, int to_leaf, PortPath to_port) {
+    units.Add(term(from, from_leaf, std::move(from_port)), term(to, to_leaf, std::move(to_port)));
   });
   units.Settle();
   units.Report("unit", problems_);
