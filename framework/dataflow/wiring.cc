@@ -141,22 +141,21 @@ void Wiring::CheckUnconnected() {
 void Wiring::CheckInitialValues() {
   for (std::size_t leaf = 0; leaf < leaves_.size(); ++leaf) {
     for (const System::StateInfo& state : leaves_[leaf].system->states()) {
-      const std::string name = fmt::format("{}.{}", leaves_[leaf].path, state.name);
+      const auto add = [&](const std::string& what) {
+        problems_.push_back(fmt::format("{}.{}: {}", leaves_[leaf].path, state.name, what));
+      };
       if (state.type == &kVectorType && !state.initial.scalar()) {
         const int size = SizeOf(static_cast<int>(leaf), state.spec.size);
         if (state.initial.values().size() != size) {
-          problems_.push_back(fmt::format("{}: initial value; got {} numbers; expected {}", name,
-                                          state.initial.values().size(), size));
+          add(fmt::format("initial value; got {} numbers; expected {}",
+                          state.initial.values().size(), size));
         }
       }
       if (state.type == &kVectorType && !state.initial.values().allFinite()) {
-        problems_.push_back(
-            fmt::format("{}: initial value; got a NaN or an infinity; expected "
-                        "finite numbers",
-                        name));
+        add("initial value; got a NaN or an infinity; expected finite numbers");
       }
       if (state.continuous && state.derivative.function == nullptr) {
-        problems_.push_back(fmt::format("{}: continuous state without a derivative", name));
+        add("continuous state without a derivative");
       }
     }
   }
