@@ -84,13 +84,13 @@ TEST(ResolutionTest, TakesNothingOverThatAnOverrideSaysAnew) {
 
 TEST(ResolutionTest, TakesNothingOverFromAFileWithOtherParameters) {
   ResolvedFile one({}, {});
-  const YamlText other("{a: 1, b: 2, c: 3, twice: \"${2 * a}\", at: [\"${a}\", 7]}");
+  const YamlText other("{a: 1, b: 2, c: 3, rest: 0, twice: \"${2 * a}\", at: [\"${a}\", 7]}");
   Problems problems;
   Expressions expressions(other.value, problems,
                           std::make_shared<const Resolution>(std::move(one.resolution)));
   const Value systems = At(YamlText(ResolvedFile::kFile).value, "systems");
   EXPECT_EQ(Number(At(expressions.Resolve(systems), "first", "gain")), 2.0);
-  EXPECT_THAT(expressions.used(), testing::ElementsAre("a", "at", "b", "twice"));
+  EXPECT_THAT(expressions.used(), testing::ElementsAre("a", "at", "b", "rest", "twice"));
 }
 
 }  // namespace resolution_test
