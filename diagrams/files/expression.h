@@ -15,8 +15,8 @@ namespace oca::files {
 
 class ArithmeticError;
 
-/// What the expressions of a file came to. Who resolves the file again, with other parameters, takes
-/// over what has not changed and uses no parameter that has: it shares lists and maps with it.
+/// What the expressions of a file came to. Who resolves the file again, with other parameters,
+/// takes over what has not changed and uses no parameter that has, and shares lists and maps of it.
 struct Resolution {
   /// A parameter, or a list or map with expressions in it.
   struct Part {

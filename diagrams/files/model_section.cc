@@ -164,8 +164,8 @@ std::string ModelSection::FormOf(const Value& entry) const {
                                               reinterpret_cast<std::uintptr_t>(at.file.get()),
                                               static_cast<std::uintptr_t>(at.line),
                                               static_cast<std::uintptr_t>(at.column)};
-  return std::string(reinterpret_cast<const char*>(numbers.data()), sizeof numbers) +
-         files::FormOf(packages_);
+  std::string form = files::FormOf(packages_);
+  return form.append(reinterpret_cast<const char*>(numbers.data()), sizeof numbers);
 }
 
 Value ModelSection::ResolveFiles(const Value& value, Problems& problems) const {
