@@ -54,22 +54,34 @@ bool Before(const Catalogue::Row& row, const std::string& type) { return row->ty
 
 }  // namespace
 
-std::unique_ptr<System> CatalogueRow::Make(const Value& params, const std::string& where,
+std::shared_ptr<const void> CatalogueRow::Read(const Value& given, const std::string& where,
+                                               Problems& problems) const {
+  std::shared_ptr<void> read = new_params();
+  Problems own;
+  ReadFields(given, fields(), where, read.get(), own);
+  problems.Add(own);
+  return own.empty() ? read : nullptr;
+}
+
+std::unique_ptr<System> CatalogueRow::Make(const Value& given, const std::string& where,
                                            const systems::ModelSet& models,
                                            Problems& problems) const {
-  const std::shared_ptr<void> read = new_params();
-  Problems own;
-  ReadFields(params, fields(), where, read.get(), own);
-  problems.Add(own);
-  if (!own.empty()) return nullptr;
+  const std::shared_ptr<const void> params = Read(given, where, problems);
+  return params == nullptr ? nullptr : Make(params.get(), given, where, models, problems);
+}
+
+std::unique_ptr<System> CatalogueRow::Make(const void* params, const Value& given,
+                                           const std::string& where,
+                                           const systems::ModelSet& models,
+                                           Problems& problems) const {
   try {
-    return Build(read.get(), models);
+    return Build(params, models);
   } catch (const WiringError&) {
     throw;  // of the class, not of its parameters
   } catch (const std::exception& error) {
     // One that follows from what has been reported says nothing new.
-    if (problems.empty() || !HasGap(params)) {
-      problems.Add(params.location(), (where.empty() ? "" : where + ": ") + error.what());
+    if (problems.empty() || !HasGap(given)) {
+      problems.Add(given.location(), (where.empty() ? "" : where + ": ") + error.what());
     }
   }
   return nullptr;

@@ -15,11 +15,11 @@ namespace {
 
 template <class Infos>
 int IndexOf(const Infos& infos, const std::string& name, const char* kind) {
-  std::vector<std::string> names;
   for (const auto& info : infos) {
     if (info.name == name) return static_cast<int>(&info - infos.data());
-    names.push_back(info.name);
   }
+  std::vector<std::string> names;
+  for (const auto& info : infos) names.push_back(info.name);
   throw WiringError(
       fmt::format("no {} port '{}'{}; {} ports are: {}", kind, name, DidYouMean(name, names), kind,
                   names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
@@ -97,7 +97,7 @@ OutputHandle System::AddOutput(OutputInfo info) {
                     "expected one that is",
                     info.name, info.type->name));
   }
-  CheckReads(fmt::format("output '{}'", info.name), info.calculation);
+  CheckReads("output '" + info.name + "'", info.calculation);
   outputs_.push_back(std::move(info));
   return {{this, static_cast<int>(outputs_.size()) - 1}};
 }

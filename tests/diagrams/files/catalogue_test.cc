@@ -153,6 +153,26 @@ TEST(CatalogueTest, AnExampleIsWhatItsFieldsSay) {
               ThrowsMessage<ConfigError>(HasSubstr("'Scale': example; got factor: got -1")));
 }
 
+TEST(CatalogueTest, ARowReadsParametersAndMakesAnyNumberOfSystemsOfThem) {
+  auto catalogue = Catalogue();
+  catalogue.Add<Foreign>("Foreign");
+  const CatalogueRow& row = *catalogue.Find("Foreign");
+  const auto given = [](double factor) {
+    return Value(Value::Map{{"factor", {}, Value(factor, {})}}, {});
+  };
+  Problems problems;
+  const auto params = row.Read(given(4.0), "systems.x", problems);
+  EXPECT_EQ(JsonOfFields(row.fields(), params.get()).dump(), R"({"factor":4})");
+  const auto one = row.Make(params.get(), given(4.0), "systems.x", {}, problems);
+  EXPECT_NE(one, row.Make(params.get(), given(4.0), "systems.x", {}, problems));
+  EXPECT_TRUE(problems.empty());
+  EXPECT_EQ(row.Read(given(-1.0), "systems.x", problems), nullptr);
+  const auto unlucky = row.Read(given(13.0), "systems.x", problems);
+  EXPECT_EQ(row.Make(unlucky.get(), given(13.0), "systems.x", {}, problems), nullptr);
+  EXPECT_THAT(problems.Lines(), testing::ElementsAre(HasSubstr("systems.x.factor: got -1"),
+                                                     HasSubstr("systems.x: brings bad luck")));
+}
+
 class ForeignFileTest : public testing::Test {
  protected:
   loading::LoadedDiagram Load(const std::string& systems, const Catalogue& catalogue) {
