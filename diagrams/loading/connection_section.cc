@@ -12,8 +12,8 @@ namespace oca::loading {
 namespace {
 
 /// The name behind `inputs.` or `outputs.`; empty if the path is another.
-std::string NameBehind(const std::string& ports, const std::string& path) {
-  return path.starts_with(ports) ? path.substr(ports.size()) : "";
+std::string NameBehind(std::string_view ports, const std::string& path) {
+  return path.starts_with(ports) ? path.substr(ports.size()) : std::string();
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ void ConnectionSection::CheckShownInputs() {
       if (own == construction_.connections.end()) continue;
       problems_.Add(own->second.location,
                     fmt::format("{}: two drivers; got this and inputs.{}; expected one",
-                                target.path.substr(level_.path.size() + 1), name));
+                                PathIn(level_.path, target.path), name));
     }
   }
 }
@@ -63,8 +63,8 @@ void ConnectionSection::Read(const Value& item) {
     return;
   }
   const Location& location = item.location();
-  const std::string from = ReadPort(text->substr(0, arrow), location);
-  const std::string to = ReadPort(text->substr(arrow + 2), location);
+  const std::string from = ReadPort(std::string_view(*text).substr(0, arrow), location);
+  const std::string to = ReadPort(std::string_view(*text).substr(arrow + 2), location);
   if (from.empty() || to.empty()) return;
   if (!IsPattern(from) && !IsPattern(to)) return Connect(from, to, location);
   const auto all = MatchConnections(from, to, systems_.OutputNames(), systems_.InputNames());
@@ -72,16 +72,18 @@ void ConnectionSection::Read(const Value& item) {
   const bool shows_what_is_there = from.starts_with(kInputs) && IsPattern(from);
   if (all.empty() && !shows_what_is_there) {
     construction_.warnings.Add(
-        level_.path, fmt::format("{}: warning: connections: {} -> {}: no ports have such names",
-                                 location.ToString(), from, to));
+        level_.path,
+        {location, fmt::format("connections: {} -> {}: no ports have such names", from, to),
+         Diagnostic::Kind::kWarning});
   }
 }
 
 /// `system.port`; empty, with a problem, if it is something else.
-std::string ConnectionSection::ReadPort(const std::string& text, const Location& location) {
+std::string ConnectionSection::ReadPort(std::string_view text, const Location& location) {
   const auto first = text.find_first_not_of(" \t");
   const auto last = text.find_last_not_of(" \t");
-  const std::string port = first == std::string::npos ? "" : text.substr(first, last - first + 1);
+  std::string port;
+  if (first != std::string_view::npos) port = text.substr(first, last - first + 1);
   const std::size_t dot = port.find('.');
   const bool port_of_system = dot != std::string::npos && dot != 0 && port.back() != '.';
   if (port_of_system && !IsAmbiguous(port)) return port;
@@ -93,7 +95,7 @@ std::string ConnectionSection::ReadPort(const std::string& text, const Location&
 
 void ConnectionSection::Connect(const std::string& from, const std::string& to,
                                 const Location& location) {
-  if (!made_.emplace(from, to).second) return;
+  if (!made_.insert(from + " -> " + to).second) return;
   const std::string input = NameBehind(kInputs, from);
   const std::string output = NameBehind(kOutputs, to);
   try {
@@ -137,7 +139,8 @@ void ConnectionSection::ShowOutput(const std::string& from, const std::string& n
   if (!fresh) {
     problems_.Add(location, fmt::format("connections: outputs.{}: two drivers; got {} and {}; "
                                         "expected one",
-                                        name, shown->second.path, output->path));
+                                        name, PathIn(level_.path, shown->second.path),
+                                        PathIn(level_.path, output->path)));
   } else if (level_.path.empty() && construction_.part.whole()) {
     builder_.ExportOutput(name, output->handle);
   }
@@ -165,8 +168,9 @@ void ConnectionSection::Import(const OutputAt& from, const InputAt& to, const Lo
     problems_.Add(location, fmt::format("part: {} and {} would both become the input {}",
                                         imported->second, from.path, name));
   } else if (&got != &expected) {
-    problems_.Add(location, fmt::format("{} -> {}: type; got {}; expected {}", from.path, to.path,
-                                        got.name, expected.name));
+    problems_.Add(location,
+                  fmt::format("{} -> {}: type; got {}; expected {}", PathIn(level_.path, from.path),
+                              PathIn(level_.path, to.path), got.name, expected.name));
   } else {
     construction_.root.ExportInput(name, to.handle);
   }

@@ -30,7 +30,7 @@ void VelocityLoop::Params::Describe(Fields<Params>& fields) {
 VelocityLoop::VelocityLoop(const Params& params, const ModelSet& models)
     : params_(Checked(params)),
       model_(MovableModel(models, params.model)),
-      c_(DeclareDiscreteState("c", PositionSpec(*model_), 0.0)),
+      c_(DeclareDiscreteState("c", DeltaSpec(*model_), 0.0)),
       u_(DeclareDiscreteState("u", RateSpec(*model_), 0.0)),
       position(DeclareInput<Vector>("position", DeltaSpec(*model_))),
       velocity(DeclareOptionalInput<Vector>("velocity", RateSpec(*model_))),

@@ -38,8 +38,8 @@ void MotionLimiter::Params::Describe(Fields<Params>& fields) {
 MotionLimiter::MotionLimiter(const Params& params, const ModelSet& models)
     : params_(Validated(params)),
       model_(MovableModel(models, params.model)),
-      c_(DeclareDiscreteState("c", PositionSpec(*model_), 0.0)),
-      r_(DeclareDiscreteState("r", PositionSpec(*model_), 0.0)),
+      c_(DeclareDiscreteState("c", DeltaSpec(*model_), 0.0)),
+      r_(DeclareDiscreteState("r", DeltaSpec(*model_), 0.0)),
       v_(DeclareDiscreteState("v", RateSpec(*model_), 0.0)),
       a_(DeclareDiscreteState("a", {model_->num_positions(), RateSpec(*model_).unit.Rate()}, 0.0)),
       started_(DeclareDiscreteState("started", {1, Unit::Any()}, 0.0)),
@@ -47,7 +47,7 @@ MotionLimiter::MotionLimiter(const Params& params, const ModelSet& models)
       request(DeclareInput<Vector>("request", DeltaSpec(*model_))),
       measured_position(DeclareOptionalInput<Vector>("measured_position", PositionSpec(*model_))),
       position(DeclareOutput<Vector, &MotionLimiter::CalcPosition>(
-          "position", PositionSpec(*model_), request, c_, r_, v_, a_, started_)),
+          "position", DeltaSpec(*model_), request, c_, r_, v_, a_, started_)),
       velocity(DeclareOutput<Vector, &MotionLimiter::CalcVelocity>(
           "velocity", RateSpec(*model_), request, c_, r_, v_, a_, started_)),
       clips(DeclareOutput<MotionClips, &MotionLimiter::CalcClips>("clips", {}, request, c_, r_, v_,

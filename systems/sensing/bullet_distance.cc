@@ -112,8 +112,8 @@ void BulletDistance::DeclareRoles(const Params& params, const ModelSet& models) 
   }
   DeclareRole(std::move(measures));
   DeclareRole(BlindSpots{.spots =
-                             [params, models](const std::string& own_name) {
-                               return DistanceBlindSpots(params, models, own_name);
+                             [params, models](const std::string& own_name, bool one_robot) {
+                               return DistanceBlindSpots(params, models, own_name, one_robot);
                              },
                          .behind = obstacles});
   DeclareRole(Plots{.id = "distance", .title = "Distances", .signal = proximities, .unit = "m"});

@@ -38,11 +38,10 @@ class Spots {
   Spots(const BulletDistance::Params& params, const ModelSet& models, const std::string& own_name)
       : params_(params), models_(models), own_name_(own_name) {}
 
-  std::vector<std::string> Find() {
+  std::vector<std::string> Find(bool one_robot) {
     const auto model = models_.Get(params_.model);
     own_ = models_.FullName(params_.model);
-    const bool only = params_.model.empty() || models_.all().size() == 1;
-    const std::string of = only ? "" : fmt::format(" of '{}'", own_);
+    const std::string of = one_robot ? "" : fmt::format(" of '{}'", own_);
     AddUnseen(*model, of);
     AddUnmovable(*model, of);
     if (!params_.self_collision && HasOwnPairs(*model)) {
@@ -121,8 +120,9 @@ class Spots {
 }  // namespace
 
 std::vector<std::string> DistanceBlindSpots(const BulletDistance::Params& params,
-                                            const ModelSet& models, const std::string& own_name) {
-  return Spots(params, models, own_name).Find();
+                                            const ModelSet& models, const std::string& own_name,
+                                            bool one_robot) {
+  return Spots(params, models, own_name).Find(one_robot);
 }
 
 }  // namespace oca::systems

@@ -99,8 +99,8 @@ TEST_P(DeclaredConformanceTest, RefusesAnUnknownKeyAtItsPlace) {
   ASSERT_TRUE(problems.empty());
   EXPECT_EQ(row().Make(value, "systems.it", models_, problems), nullptr);
   ASSERT_EQ(problems.all().size(), 1u);
-  EXPECT_THAT(problems.all().front(), testing::StartsWith("f.yaml:1:"));
-  EXPECT_THAT(problems.all().front(), HasSubstr("systems.it.no_such_key: unknown key"));
+  EXPECT_THAT(problems.all().front().ToString(), testing::StartsWith("f.yaml:1:"));
+  EXPECT_THAT(problems.all().front().ToString(), HasSubstr("systems.it.no_such_key: unknown key"));
 }
 
 TEST_P(DeclaredConformanceTest, RefusesEveryParameterOfTheWrongType) {
@@ -111,7 +111,7 @@ TEST_P(DeclaredConformanceTest, RefusesEveryParameterOfTheWrongType) {
     EXPECT_EQ(row().Make(files::ReadJson(example.dump(), "f"), "it", models_, problems), nullptr)
         << field.key;
     ASSERT_FALSE(problems.empty()) << field.key;
-    EXPECT_THAT(problems.all().front(), HasSubstr("it." + field.key));
+    EXPECT_THAT(problems.all().front().ToString(), HasSubstr("it." + field.key));
   }
 }
 

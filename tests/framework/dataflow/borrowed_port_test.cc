@@ -78,7 +78,7 @@ std::string RefusalOfBorrowing(Borrower::Use use) {
   try {
     const Borrower borrower(use, &lender);
   } catch (const WiringError& error) {
-    return error.problems.front();
+    return error.what();
   }
   return "accepted";
 }

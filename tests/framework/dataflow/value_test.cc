@@ -84,6 +84,12 @@ TEST(ProblemsTest, AreThrownTogetherOneALine) {
   }
 }
 
+TEST(DiagnosticTest, ShowsItsPlaceItsKindAndWhatItSays) {
+  EXPECT_EQ((Diagnostic{{kFile, 1, 2}, "what"}).ToString(), "arm.yaml:1:2: error: what");
+  EXPECT_EQ((Diagnostic{{}, "what: error: no", Diagnostic::Kind::kWarning}).ToString(),
+            "parameters: warning: what: error: no");
+}
+
 TEST(DidYouMeanTest, SuggestsTheNearestName) {
   const std::vector<std::string> names{"gain", "max_distance", "min_distance", "period"};
   EXPECT_EQ(DidYouMean("gian", names), "; did you mean 'gain'?");

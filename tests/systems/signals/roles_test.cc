@@ -156,10 +156,10 @@ TEST(RolesTest, ADistanceBlockSaysWhatItLooksAt) {
   EXPECT_EQ(measures->others[1].links, distance.FindInput("links_other"));
   EXPECT_THAT(measures->ignored,
               ElementsAre(std::pair<std::string, std::string>("planar2_link_1", "ball")));
-  EXPECT_THAT(distance.role<BlindSpots>()->spots("sight"), Contains(HasSubstr("(ignore)")));
+  EXPECT_THAT(distance.role<BlindSpots>()->spots("sight", false), Contains(HasSubstr("(ignore)")));
   params.others = {"third"};
   const BulletDistance blind(params, models);
-  EXPECT_THAT(blind.role<BlindSpots>()->spots("sight"),
+  EXPECT_THAT(blind.role<BlindSpots>()->spots("sight", false),
               Contains("model 'other' (not among others of sight)"));
 }
 
