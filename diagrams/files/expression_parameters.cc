@@ -288,9 +288,9 @@ std::vector<Diagnostic> Expressions::Unused(const std::set<std::string>& known) 
            fmt::format("parameters.{}: nothing uses it{}", name, DidYouMean(name, others)),
            Diagnostic::Kind::kWarning});
     } else if (overridden) {
-      warnings.push_back({{source, 0, 0},
-                          "nothing uses it with the parts that are chosen",
-                          Diagnostic::Kind::kWarning});
+      const Location at{source, 0, 0};
+      warnings.push_back(
+          {at, "nothing uses it with the parts that are chosen", Diagnostic::Kind::kWarning});
     }
   }
   return warnings;
