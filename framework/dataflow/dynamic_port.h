@@ -23,12 +23,12 @@ void CheckType(const InputHandle& input, const SignalType& type, const std::stri
 }  // namespace internal
 
 template <class T>
-Input<T> Typed(const InputHandle& input, const std::string& path = {}) {
+Input<T> Typed(const InputHandle& input, const std::string& path) {
   internal::CheckType(input, TypeOf<T>(), path);
   return Input<T>(input);
 }
 template <class T>
-Output<T> Typed(const OutputHandle& output, const std::string& path = {}) {
+Output<T> Typed(const OutputHandle& output, const std::string& path) {
   internal::CheckType(output, TypeOf<T>(), path);
   return Output<T>(output);
 }
