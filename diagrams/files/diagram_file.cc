@@ -62,8 +62,7 @@ const std::vector<Section>& DiagramKeys() {
       {"file", "the diagram file, relative to this one, or package://NAME/PATH; required"},
       {"parameters",
        "values for its parameters, in place of its own: a map, or a list of maps of which the "
-       "later "
-       "ones win"},
+       "later ones win"},
       {"models", "models of this file that stand for its own, by their names there"},
   };
   return keys;

@@ -262,8 +262,8 @@ class Includer {
 
 }  // namespace
 
-Value LoadFiles(const fs::path& file, const std::vector<Override>& overrides, Problems& problems,
-                DocumentSources* sources, const Value* parameters) {
+MergedFiles LoadFiles(const fs::path& file, const std::vector<Override>& overrides,
+                      Problems& problems, const Value* parameters) {
   Texts texts = TextsOf(overrides);
   AddTexts(parameters, texts);
   std::string form = "with includes";
@@ -276,19 +276,19 @@ Value LoadFiles(const fs::path& file, const std::vector<Override>& overrides, Pr
     return merged;
   });
   problems.Add(read->problems);
-  if (sources != nullptr) *sources = read->sources;
   const Value& root = read->root;
   if (root.map() == nullptr && problems.empty()) {
     problems.Add({std::make_shared<const std::string>(file.string()), 1, 1},
                  root.null() ? "is empty; expected a map with systems"
                              : fmt::format("got {}; expected a map with systems", root.Show()));
   }
-  return root;
+  return {root, {read, &read->sources}};
 }
 
 Value LoadDocument(const fs::path& file, const std::vector<Override>& overrides, Problems& problems,
                    DocumentSources* sources) {
-  Value root = LoadFiles(file, overrides, problems, sources);
+  auto [root, read] = LoadFiles(file, overrides, problems);
+  if (sources != nullptr) *sources = *read;
   if (problems.empty()) ApplyOverrides(overrides, root, problems);
   return root;
 }

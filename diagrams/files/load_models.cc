@@ -72,6 +72,12 @@ Read ReadModel(const std::string& where, const ModelParams& params, const Packag
   return read;
 }
 
+template <class Numbers>
+std::string BytesOf(const Numbers& numbers) {
+  return {reinterpret_cast<const char*>(numbers.data()),
+          sizeof(double) * static_cast<std::size_t>(numbers.size())};
+}
+
 /// Tells what ReadModel makes from what else it makes of the same URDF.
 std::string FormOf(const std::string& where, const ModelParams& params,
                    const PackageMap& packages) {
@@ -79,15 +85,12 @@ std::string FormOf(const std::string& where, const ModelParams& params,
       fmt::format("{}\n{}\n{} {}", where, params.srdf, static_cast<int>(params.collision),
                   static_cast<int>(params.visual_as_collision));
   for (const auto* const limits : {&params.acceleration_limits, &params.jerk_limits}) {
-    form += limits->has_value() ? fmt::format("\n{}", fmt::join((*limits)->values(), " ")) : "\n";
+    form += limits->has_value() ? '\n' + BytesOf((*limits)->values()) : "\n";
   }
   for (const AttachedParams& object : params.attached) {
     form += "\n" + JsonOfFields(FieldsOf<AttachedParams>(), &object).dump();
   }
-  for (const auto& [name, folder] : packages) {
-    form += fmt::format("\n{} {}", name, folder.native());
-  }
-  return form;
+  return form + files::FormOf(packages);
 }
 
 }  // namespace
@@ -103,8 +106,7 @@ std::shared_ptr<const robot::RobotModel> LoadModel(const std::string& where,
   if (warn) {
     for (const std::string& line : read->lines) warn(line);
   }
-  const std::string pose =
-      fmt::format("\nbase {}", fmt::join(X_WB.data(), X_WB.data() + X_WB.matrix().size(), " "));
+  const std::string pose = "\nbase " + BytesOf(X_WB.matrix());
   return *models::MakeOnce<ModelPtr>(params.urdf, form + pose, [&]() -> ModelPtr {
     return std::make_shared<const robot::RobotModel>(read->model->At(X_WB));
   });

@@ -37,9 +37,13 @@ class ModelSection {
   const std::vector<Diagnostic>& warnings() const { return warnings_; }
   /// `value` with the texts of all keys named `file` made paths from where the program runs; they
   /// are written relative to the file they stand in, or as package://NAME/PATH.
-  Value ResolveFiles(const Value& value);
+  Value ResolveFiles(const Value& value, Problems& problems) const;
+  /// A text that tells what ResolveFiles makes of an entry of the file, its parameters worked out,
+  /// from what is made of any other that is still there.
+  std::string FormOf(const Value& entry) const;
 
  private:
+  struct Read;
   /// An entry of `models`, its files being paths.
   struct Source {
     std::string where;
@@ -47,9 +51,10 @@ class ModelSection {
     PackageMap packages;
   };
 
-  Value ResolveName(const Value& name);
+  Value ResolveName(const Value& name, Problems& problems) const;
   void ReadPackages(const Value& root);
   void ReadModel(const Value::Entry& entry, const std::string& full_name);
+  void ReadEntry(const std::string& where, Read& read) const;
   void Take(const Value::Entry& given, const Value* own, const ModelSection& outer);
   std::filesystem::path Resolve(const std::string& name, const Location& location) const;
 

@@ -31,12 +31,10 @@ namespace fs = std::filesystem;
 class Loader {
  public:
   Loader(const fs::path& file, const std::vector<files::Override>& overrides,
-         const files::Catalogue& catalogue, const Part& part)
-      : file_(file), part_(part), construction_(part, catalogue, builder_) {
+         const files::Catalogue& catalogue, EarlierResolutions& earlier, const Part& part)
+      : file_(file), part_(part), construction_(part, catalogue, earlier, builder_) {
     loaded_.file = file.string();
     loaded_.overrides = overrides;
-    std::error_code ignored;
-    level_.files.push_back(fs::weakly_canonical(file, ignored));
   }
 
   LoadedDiagram Load(bool movable) {
@@ -76,10 +74,10 @@ class Loader {
   }
 
   void ReadDocument() {
-    ResolvedDocument read =
-        ReadResolved(file_, loaded_.overrides, construction_.catalogue, problems_);
-    loaded_.sources = std::move(read.sources.files);
-    loaded_.candidates = std::move(read.sources.candidates);
+    ResolvedDocument read = ReadResolved(file_, loaded_.overrides, construction_, problems_);
+    level_.files.push_back(read.sources->files.front());
+    loaded_.sources = read.sources->files;
+    loaded_.candidates = read.sources->candidates;
     loaded_.document = std::move(read.document);
     loaded_.scenario = std::move(read.scenario);
     loaded_.resolved = std::move(read.root);
@@ -119,8 +117,8 @@ class Loader {
   void KeepUsedFiles(const SystemSection& systems) {
     for (const auto& used : systems.used_files()) {
       const ResolvedDocument& read = used->document();
-      AddNew(read.sources.files, loaded_.sources);
-      AddNew(read.sources.candidates, loaded_.candidates);
+      AddNew(read.sources->files, loaded_.sources);
+      AddNew(read.sources->candidates, loaded_.candidates);
       loaded_.models.AddInner(used->models());
       loaded_.used_files.push_back(
           {used->level().path, used->file(), read.document, read.root, *used->given().map()});
@@ -129,8 +127,11 @@ class Loader {
   }
 
   static void AddNew(const std::vector<fs::path>& files, std::vector<fs::path>& all) {
-    for (const fs::path& file : files) {
-      if (std::find(all.begin(), all.end(), file) == all.end()) all.push_back(file);
+    for (const fs::path& file : files) {  // as texts: paths compare part by part
+      const bool there = std::any_of(all.begin(), all.end(), [&](const fs::path& other) {
+        return other.native() == file.native();
+      });
+      if (!there) all.push_back(file);
     }
   }
 
@@ -259,7 +260,8 @@ class Loader {
 Blueprint::Blueprint(fs::path file, files::Catalogue catalogue)
     : file_(std::move(file)),
       catalogue_(std::move(catalogue)),
-      read_(std::make_shared<models::FileCache>()) {}
+      read_(std::make_shared<models::FileCache>()),
+      earlier_(std::make_shared<EarlierResolutions>()) {}
 
 LoadedDiagram Blueprint::Build(const std::vector<files::Override>& overrides,
                                const BuildOptions& options) const {
@@ -268,7 +270,7 @@ LoadedDiagram Blueprint::Build(const std::vector<files::Override>& overrides,
   }
   const models::FileCache::Use use(*read_);
   const Part part(options.part.value_or(std::vector<std::string>{}));
-  return Loader(file_, overrides, catalogue_, part).Load(options.movable);
+  return Loader(file_, overrides, catalogue_, *earlier_, part).Load(options.movable);
 }
 
 }  // namespace oca::loading

@@ -12,8 +12,8 @@ namespace oca::loading {
 namespace {
 
 /// The name behind `inputs.` or `outputs.`; empty if the path is another.
-std::string NameBehind(const std::string& ports, const std::string& path) {
-  return path.starts_with(ports) ? path.substr(ports.size()) : "";
+std::string NameBehind(std::string_view ports, const std::string& path) {
+  return path.starts_with(ports) ? path.substr(ports.size()) : std::string();
 }
 
 }  // namespace
@@ -63,8 +63,8 @@ void ConnectionSection::Read(const Value& item) {
     return;
   }
   const Location& location = item.location();
-  const std::string from = ReadPort(text->substr(0, arrow), location);
-  const std::string to = ReadPort(text->substr(arrow + 2), location);
+  const std::string from = ReadPort(std::string_view(*text).substr(0, arrow), location);
+  const std::string to = ReadPort(std::string_view(*text).substr(arrow + 2), location);
   if (from.empty() || to.empty()) return;
   if (!IsPattern(from) && !IsPattern(to)) return Connect(from, to, location);
   const auto all = MatchConnections(from, to, systems_.OutputNames(), systems_.InputNames());
@@ -79,10 +79,11 @@ void ConnectionSection::Read(const Value& item) {
 }
 
 /// `system.port`; empty, with a problem, if it is something else.
-std::string ConnectionSection::ReadPort(const std::string& text, const Location& location) {
+std::string ConnectionSection::ReadPort(std::string_view text, const Location& location) {
   const auto first = text.find_first_not_of(" \t");
   const auto last = text.find_last_not_of(" \t");
-  const std::string port = first == std::string::npos ? "" : text.substr(first, last - first + 1);
+  std::string port;
+  if (first != std::string_view::npos) port = text.substr(first, last - first + 1);
   const std::size_t dot = port.find('.');
   const bool port_of_system = dot != std::string::npos && dot != 0 && port.back() != '.';
   if (port_of_system && !IsAmbiguous(port)) return port;
@@ -94,7 +95,7 @@ std::string ConnectionSection::ReadPort(const std::string& text, const Location&
 
 void ConnectionSection::Connect(const std::string& from, const std::string& to,
                                 const Location& location) {
-  if (!made_.emplace(from, to).second) return;
+  if (!made_.insert(from + " -> " + to).second) return;
   const std::string input = NameBehind(kInputs, from);
   const std::string output = NameBehind(kOutputs, to);
   try {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "oca/diagrams/files/catalogue.h"
+#include "oca/diagrams/loading/earlier_resolutions.h"
 #include "oca/diagrams/loading/part.h"
 #include "oca/diagrams/loading/told_once.h"
 #include "oca/framework/dataflow/diagram.h"
@@ -34,11 +35,13 @@ struct Place {
 /// What the file that is built and all those that it uses share on the way to a diagram.
 class Construction {
  public:
-  Construction(const Part& only, const files::Catalogue& types, DiagramBuilder& builder)
-      : part(only), catalogue(types), root(builder) {}
+  Construction(const Part& only, const files::Catalogue& types, EarlierResolutions& resolved,
+               DiagramBuilder& builder)
+      : part(only), catalogue(types), earlier(resolved), root(builder) {}
 
   const Part& part;
   const files::Catalogue& catalogue;
+  EarlierResolutions& earlier;
   DiagramBuilder& root;  ///< of the diagram as a whole
 
   std::map<std::string, std::string> imports{};  ///< inputs of a part: the outputs they stand for

@@ -10,6 +10,7 @@
 #include "oca/diagrams/loading/assembly.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/nearest.h"
+#include "oca/models/file_cache.h"
 
 namespace oca::loading {
 namespace {
@@ -18,9 +19,12 @@ namespace fs = std::filesystem;
 
 constexpr int kMostUses = 200;
 
+/// Looked up once while a cache is in use.
 fs::path Canonical(const fs::path& file) {
-  std::error_code ignored;
-  return fs::weakly_canonical(file, ignored);
+  return *models::ReadOnce<fs::path>(file, "canonical", [&] {
+    std::error_code ignored;
+    return fs::weakly_canonical(file, ignored);
+  });
 }
 
 /// A map, or a list of maps of which the later ones win; nullopt if it is something else.
@@ -119,7 +123,7 @@ std::optional<UsedFile::Entry> UsedFile::ReadEntry(const Value::Entry& entry,
   if (const Value* const value = entry.value.Find("models"); value && !value->null()) {
     given.models = ReadModels(*value, sources.models, problems);
   }
-  const Value resolved = sources.models.ResolveFiles(entry.value);
+  const Value resolved = sources.models.ResolveFiles(entry.value, problems);
   const Value* const file = resolved.Find("file");
   if (file == nullptr || file->string() == nullptr) {
     if (file != nullptr && file->null()) return std::nullopt;  // has been told
@@ -192,7 +196,7 @@ bool UsedFile::MayBeRead(const Value::Entry& entry, Problems& problems) const {
 void UsedFile::Read(const Value::Entry& entry, const Entry& given, Problems& problems) {
   const GivenParameters parameters{given.parameters, "systems." + name_ + ".parameters", &problems};
   try {
-    document_ = ReadResolved(file_, overrides_, construction_.catalogue, own_, &parameters);
+    document_ = ReadResolved(file_, overrides_, construction_, own_, level_.path, &parameters);
   } catch (const ConfigError& error) {
     if (own_.empty()) {  // it is not to be opened
       problems.Add(entry.value.Find("file")->location(),

@@ -9,6 +9,7 @@
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/error.h"
 #include "oca/models/robot/kinematics.h"
+#include "oca/systems/basics/shared_params.h"
 #include "oca/systems/sensing/distance_blind_spots.h"
 #include "oca/systems/sensing/model_links.h"
 #include "oca/systems/signals/roles.h"
@@ -53,7 +54,7 @@ double SpeedOf(const LinkCollider& link, const LinkPoses& poses) {
 }  // namespace
 
 void BulletDistance::Params::Describe(Fields<Params>& fields) {
-  fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
+  AddModel(fields);
   fields.Add("max_distance", &Params::max_distance, "m", "distance beyond which pairs are left out")
       .Above(0.0);
   fields.Add("ignore", &Params::ignore, "",

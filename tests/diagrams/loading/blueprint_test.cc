@@ -152,6 +152,28 @@ TEST(BlueprintTest, BuildsWhatALoadGivesWhateverAnOverrideChanges) {
   EXPECT_EQ(refusals, 7);
 }
 
+/// Parameters that the file gives to those that it uses, and parameters of these alone.
+TEST(BlueprintTest, BuildsWhatALoadGivesOfFilesThatAreUsed) {
+  const fs::path file = kFolder / "dual_arm.yaml";
+  const Blueprint blueprint(file);
+  const std::vector<Overrides> variations{
+      {},
+      {{"parameters.max_distance", "0.3"}},
+      {{"parameters.max_distance", "0.35"}, {"left.parameters.start.1", "0.9"}},
+      {{"left.parameters.reach", "[0, 0, 0, 0, 0, 0, 0]"}},
+      {{"right.systems.plant.initial_position", "${reach}"}},
+      {{"models.left.base_pose.xyz.1", "0.5"}},
+      {{"parameters.avoidance", "vortex"}},
+      {{"parameters.rate", "-3"}},
+      {}};
+  for (const Overrides& overrides : variations) {
+    std::vector<std::string> built, fresh;
+    const std::string refused = RefusalOf([&] { built = Everything(blueprint.Build(overrides)); });
+    EXPECT_EQ(refused, RefusalOf([&] { fresh = Everything(LoadDiagram(file, overrides)); }));
+    EXPECT_EQ(built, fresh);
+  }
+}
+
 TEST(BlueprintTest, DrawsEachSeedAsALoadDoes) {
   const fs::path file = kFolder / "scenarios/random_static.yaml";
   const Blueprint blueprint(file);

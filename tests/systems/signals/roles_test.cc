@@ -18,11 +18,11 @@
 #include "oca/systems/judging/motion_metrics.h"
 #include "oca/systems/methods/elastic_band.h"
 #include "oca/systems/methods/flacco_de_luca.h"
-#include "oca/systems/methods/motion_limiter.h"
 #include "oca/systems/methods/safety_filter.h"
 #include "oca/systems/methods/servo_scaling.h"
 #include "oca/systems/methods/task_priority.h"
 #include "oca/systems/plants/integrator_plant.h"
+#include "oca/systems/plants/motion_limiter.h"
 #include "oca/systems/sensing/bullet_distance.h"
 #include "oca/systems/sensing/obstacle_source.h"
 #include "tests/systems/test_models.h"
@@ -111,7 +111,7 @@ TEST(RolesTest, ADeltaIsFollowedFromTheMappingToTheOverlay) {
   EXPECT_EQ(DeltaLimiter(DeltaLimiter::Example()).role<CarriesDelta>()->relaxation_time,
             std::nullopt);
   const DeltaOverlay overlay({.period = Period(1, 100)});
-  EXPECT_EQ(overlay.role<AddsDelta>()->request, overlay.position_in);
+  EXPECT_EQ(overlay.role<AddsDelta>()->request, overlay.request);
 }
 
 TEST(RolesTest, WhatARobotsLoopReplacesSaysSo) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "oca/systems/commands/tip_error.h"
+#include "oca/systems/judging/tip_error.h"
 
 #include <gtest/gtest.h>
 

@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "oca/systems/basics/linear_interpolator.h"
+#include "oca/systems/commands/linear_interpolator.h"
+
+#include "oca/systems/basics/shared_params.h"
 
 namespace oca::systems {
 
 void LinearRequest::Params::Describe(Fields<Params>& fields) {
-  fields.Add("key_points", &Params::key_points, "", "points in order of time");
-  fields.Add("file", &Params::file, "", "CSV file of key points (time, p1..pn) instead");
-  fields.Add(
-      "joints", &Params::joints, "",
-      "names of the columns of positions in `file`, in the order of the joints; none: p1..pn");
-  fields
-      .Add("period", &Params::period, "s",
-           "0: continuous in time; > 0: sampled for the end of each period and held")
-      .AtLeast(0.0);
-  fields.Add("unit", &Params::unit, "", "unit of the position");
+  AddKeyPoints(fields);
+  AddSampling(fields);
 }
 
 LinearRequest::Params LinearRequest::Example() {

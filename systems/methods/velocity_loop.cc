@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "oca/systems/plants/velocity_loop.h"
+#include "oca/systems/methods/velocity_loop.h"
 
-#include <fmt/format.h>
-
-#include <limits>
-
-#include "oca/framework/dataflow/error.h"
 #include "oca/models/motion/following.h"
 #include "oca/models/robot/robot_model.h"
+#include "oca/systems/basics/require.h"
+#include "oca/systems/basics/shared_params.h"
 #include "oca/systems/sensing/model_links.h"
 
 namespace oca::systems {
@@ -15,19 +12,15 @@ namespace {
 
 VelocityLoop::Params Checked(const VelocityLoop::Params& params) {
   Validated(params);
-  if (params.position_gain * params.period.seconds() <=
-      1.0 + std::numeric_limits<double>::epsilon()) {
-    return params;
-  }
-  throw ConfigError(fmt::format("position_gain: got {} 1/s; expected at most 1 / period, {} 1/s",
-                                params.position_gain, 1.0 / params.period.seconds()));
+  RequireGain("position_gain", params.position_gain, params.period);
+  return params;
 }
 
 }  // namespace
 
 void VelocityLoop::Params::Describe(Fields<Params>& fields) {
-  fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
-  fields.Add("period", &Params::period, "s", "control period").Above(0.0).Required();
+  AddModel(fields);
+  AddControlPeriod(fields);
   fields
       .Add("position_gain", &Params::position_gain, "1/s",
            "how fast the arm returns to the request; at most 1 / period")
@@ -37,7 +30,7 @@ void VelocityLoop::Params::Describe(Fields<Params>& fields) {
 VelocityLoop::VelocityLoop(const Params& params, const ModelSet& models)
     : params_(Checked(params)),
       model_(MovableModel(models, params.model)),
-      c_(DeclareDiscreteState("c", PositionSpec(*model_), 0.0)),
+      c_(DeclareDiscreteState("c", DeltaSpec(*model_), 0.0)),
       u_(DeclareDiscreteState("u", RateSpec(*model_), 0.0)),
       position(DeclareInput<Vector>("position", DeltaSpec(*model_))),
       velocity(DeclareOptionalInput<Vector>("velocity", RateSpec(*model_))),

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "oca/systems/methods/obstacle_prediction.h"
+#include "oca/models/planning/obstacle_prediction.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-namespace oca::systems {
+namespace oca::planning {
 namespace obstacle_prediction_test {
 
 using Eigen::Vector3d;
+using geometry::Obstacle;
+using geometry::ObstacleBody;
 
 Obstacle At(const Vector3d& p, const Vector3d& linear = Vector3d::Zero(),
             const Vector3d& angular = Vector3d::Zero()) {
@@ -52,4 +54,4 @@ TEST(ObstaclePredictionTest, IsAsForeseenWithinFiveMillimetresNowAndSoon) {
 }
 
 }  // namespace obstacle_prediction_test
-}  // namespace oca::systems
+}  // namespace oca::planning

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "oca/systems/basics/linear_interpolator.h"
+#include "oca/systems/commands/linear_interpolator.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "oca/systems/methods/band_memory.h"
+#include "oca/systems/signals/band_memory.h"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "oca/systems/plants/velocity_loop.h"
+#include "oca/systems/methods/velocity_loop.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "oca/systems/methods/motion_limiter.h"
+#include "oca/systems/plants/motion_limiter.h"
 
 #include <gtest/gtest.h>
 
@@ -40,14 +40,14 @@ class MotionLimiterTest : public testing::Test {
   /// What is sent within period number `tick` if `request` is asked for from its start.
   static Eigen::VectorXd Within(Bench& bench, int tick, const Eigen::VectorXd& request) {
     bench.AdvanceTo((tick + 0.5) * kDt);
-    bench->position_in.Fix(bench.context(), request);
+    bench->request.Fix(bench.context(), request);
     return bench->position.Eval(bench.context());
   }
 };
 
 TEST_F(MotionLimiterTest, PassesWhatKeepsTheLimitsWithoutDelayAndToTheLastBit) {
   Bench bench(Hundred(), Arm(10));
-  bench->position_in.Fix(bench.context(), One(0.0));
+  bench->request.Fix(bench.context(), One(0.0));
   const Eigen::VectorXd request = One(0.5 * 10 * kDt * kDt);
   EXPECT_EQ(Within(bench, 0, request), request);
   EXPECT_TRUE(bench->clips.Eval(bench.context()).clips.empty());
@@ -55,7 +55,7 @@ TEST_F(MotionLimiterTest, PassesWhatKeepsTheLimitsWithoutDelayAndToTheLastBit) {
 
 TEST_F(MotionLimiterTest, SpeedsUpByNoMoreThanTheAcceleration) {
   Bench bench(Hundred(), Arm(10));
-  bench->position_in.Fix(bench.context(), One(0.0));
+  bench->request.Fix(bench.context(), One(0.0));
   // Velocities 0.1, 0.2, 0.3 rad/s.
   EXPECT_DOUBLE_EQ(Within(bench, 0, One(1))[0], 0.001);
   EXPECT_DOUBLE_EQ(Within(bench, 1, One(1))[0], 0.003);
@@ -71,7 +71,7 @@ TEST_F(MotionLimiterTest, SpeedsUpByNoMoreThanTheAcceleration) {
 
 TEST_F(MotionLimiterTest, KeepsVelocityAndPositionOfAModelWithoutFurtherLimits) {
   Bench bench(Hundred(), TestModels("lwr4"));
-  bench->position_in.Fix(bench.context(), One(0.0));
+  bench->request.Fix(bench.context(), One(0.0));
   const double fastest = 110 * M_PI / 180;
   EXPECT_NEAR(Within(bench, 0, One(9))[0], fastest * kDt, 1e-12);
   EXPECT_EQ(bench->clips.Eval(bench.context()).clips[0].limit, motion::MotionLimit::kVelocity);
@@ -84,7 +84,7 @@ TEST_F(MotionLimiterTest, StartsWhereTheArmIsMeasured) {
   const auto& request = builder.Add<Constant>("request", Constant::Params{One(1.0), "rad"});
   const auto& measured = builder.Add<Constant>("measured", Constant::Params{One(0.5), "rad"});
   const auto& limiter = builder.Add<MotionLimiter>("limiter", Hundred(), Arm(10));
-  builder.Connect(request.value, limiter.position_in);
+  builder.Connect(request.value, limiter.request);
   builder.Connect(measured.value, limiter.measured_position);
   const auto diagram = builder.Build();
   Simulator simulator(*diagram);
@@ -96,7 +96,7 @@ TEST_F(MotionLimiterTest, StartsWhereTheArmIsMeasured) {
 
 TEST_F(MotionLimiterTest, LetsAJointOutsideItsRangeOnlyComeBack) {
   Bench bench(Hundred(), Arm(10));
-  bench->position_in.Fix(bench.context(), One(3.1));  // beyond 170 degrees
+  bench->request.Fix(bench.context(), One(3.1));  // beyond 170 degrees
   EXPECT_EQ(Within(bench, 0, One(3.2))[0], 3.1);
   EXPECT_EQ(bench->clips.Eval(bench.context()).clips.at(0).limit, motion::MotionLimit::kPosition);
   EXPECT_DOUBLE_EQ(Within(bench, 1, One(0.0))[0], 3.099);
@@ -110,7 +110,7 @@ TEST_F(MotionLimiterTest, LeadsAJointThatStandsAtOrBeyondALimitToItsGoal) {
       for (const double side : {1.0, -1.0}) {
         Bench bench(Hundred(), arm);
         const Eigen::VectorXd start = side * (upper.array() + off).matrix();
-        bench->position_in.Fix(bench.context(), start);
+        bench->request.Fix(bench.context(), start);
         Eigen::VectorXd before = Within(bench, 0, start);
         EXPECT_EQ(before, start);
         for (int k = 1; k < 700; ++k) {
@@ -129,7 +129,7 @@ TEST_F(MotionLimiterTest, LeadsAJointThatStandsAtOrBeyondALimitToItsGoal) {
 TEST_F(MotionLimiterTest, CatchesUpWithoutShootingPast) {
   for (const double jerk : {robot::kUnlimited, 200.0}) {
     Bench bench(Hundred(), Arm(10, jerk));
-    bench->position_in.Fix(bench.context(), One(0.0));
+    bench->request.Fix(bench.context(), One(0.0));
     double request = 0.0;
     double furthest = -1.0;
     for (int k = 0; k < 100; ++k) {
@@ -146,7 +146,7 @@ TEST_F(MotionLimiterTest, CatchesUpWithoutShootingPast) {
 TEST_F(MotionLimiterTest, AnswersARequestFromAnywhere) {
   for (const double jerk : {robot::kUnlimited, 200.0}) {
     Bench bench(Hundred(), Arm(10, jerk));
-    bench->position_in.Fix(bench.context(), One(0.0));
+    bench->request.Fix(bench.context(), One(0.0));
     double position = 0.0;
     for (int k = 0; k < 800; ++k) {
       position = Within(bench, k, One(k / 200 % 2 == 0 ? 1e308 : -1e308))[0];
@@ -163,7 +163,7 @@ TEST_F(MotionLimiterTest, PassesAnythingWhenDisabled) {
   auto params = Hundred();
   params.enabled = false;
   Bench bench(params, Arm(10));
-  bench->position_in.Fix(bench.context(), One(0.0));
+  bench->request.Fix(bench.context(), One(0.0));
   EXPECT_EQ(Within(bench, 3, One(1e5)), One(1e5));
   EXPECT_TRUE(bench->clips.Eval(bench.context()).clips.empty());
 }
@@ -181,7 +181,7 @@ void Harass(const ModelSet& set, int ticks, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   Eigen::VectorXd request = Eigen::VectorXd::Zero(7);
-  bench->position_in.Fix(bench.context(), request);
+  bench->request.Fix(bench.context(), request);
   Eigen::VectorXd before = request;
   Eigen::VectorXd speed = request;
   Eigen::VectorXd acceleration = request;
@@ -192,7 +192,7 @@ void Harass(const ModelSet& set, int ticks, unsigned seed) {
       if (random() % 500 == 0) request[j] = 1e9 * unit(random);
     }
     bench.AdvanceTo((k + 0.5) * kDt);
-    bench->position_in.Fix(bench.context(), request);
+    bench->request.Fix(bench.context(), request);
     const Eigen::VectorXd now = bench->position.Eval(bench.context());
     const Eigen::VectorXd u = (now - before) / kDt;
     const Eigen::VectorXd a = (u - speed) / kDt;

@@ -1,29 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "oca/systems/methods/band_memory.h"
+#include "oca/systems/signals/band_memory.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace oca::systems {
 namespace band_memory_test {
 
-planning::BandCurve Curve(double start) {
-  std::vector<double> times;
-  for (int i = 0; i < 8; ++i) times.push_back(start + 0.25 * i);
-  return {2, times};
-}
-
-TEST(BandMemoryTest, ChangesToTheNextBandWhenItsTimeHasCome) {
-  BandMemory memory;
-  EXPECT_TRUE(memory.At(1.0).empty());
-  memory.held = Curve(0.0);
-  EXPECT_EQ(&memory.At(5.0), &memory.held);
-  memory.next = Curve(1.0);
-  memory.change = 1.0;
-  EXPECT_EQ(&memory.At(0.999), &memory.held);
-  EXPECT_EQ(&memory.At(1.0), &memory.next);
-}
-
-TEST(BandMemoryTest, WritesWhatThePlanCameTo) {
+TEST(BandMemorySignalTest, WritesWhatThePlanCameTo) {
   BandMemory memory;
   memory.plans = 3;
   memory.start = planning::BandStart::kDetour;
@@ -37,10 +22,10 @@ TEST(BandMemoryTest, WritesWhatThePlanCameTo) {
                   R"("link":"wrist","obstacle":"box","time":0.0,"cost":0.0,"evaluations":0})");
 }
 
-TEST(BandMemoryTest, ABandThatIsNotFiniteIsNoSignal) {
+TEST(BandMemorySignalTest, ABandThatIsNotFiniteIsNoSignal) {
   BandMemory memory;
   EXPECT_TRUE(Signal<BandMemory>::Check(memory, Look::kFinite).ok());
-  memory.next = Curve(0.0);
+  memory.next = planning::BandCurve(2, {0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75});
   memory.next.controls()(0, 0) = std::nan("");
   EXPECT_FALSE(Signal<BandMemory>::Check(memory, Look::kFinite).ok());
 }

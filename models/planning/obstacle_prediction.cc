@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "oca/systems/methods/obstacle_prediction.h"
+#include "oca/models/planning/obstacle_prediction.h"
 
 #include <algorithm>
 
-namespace oca::systems {
+namespace oca::planning {
 namespace {
 
 constexpr double kSameSpeed = 1e-6;     // m/s, rad/s: stands
@@ -14,19 +14,20 @@ constexpr double kForeseenLever = 0.5;  // m; at which a turn counts
 
 }  // namespace
 
-bool Stands(const Obstacle& obstacle) {
+bool Stands(const geometry::Obstacle& obstacle) {
   return obstacle.linear.norm() < kSameSpeed && obstacle.angular.norm() < kSameSpeed;
 }
 
-bool SameStanding(const std::vector<Obstacle>& seen, const std::vector<Obstacle>& now) {
+bool SameStanding(const std::vector<geometry::Obstacle>& seen,
+                  const std::vector<geometry::Obstacle>& now) {
   return std::equal(seen.begin(), seen.end(), now.begin(), now.end(),
-                    [](const Obstacle& a, const Obstacle& b) {
+                    [](const geometry::Obstacle& a, const geometry::Obstacle& b) {
                       return a.body == b.body && Stands(b) && Stands(a) &&
                              (a.X_WO.matrix() - b.X_WO.matrix()).cwiseAbs().maxCoeff() < kSamePlace;
                     });
 }
 
-Eigen::Isometry3d Foreseen(const Obstacle& obstacle, double ahead) {
+Eigen::Isometry3d Foreseen(const geometry::Obstacle& obstacle, double ahead) {
   Eigen::Isometry3d X = obstacle.X_WO;
   X.translation() += ahead * obstacle.linear;
   const double angle = ahead * obstacle.angular.norm();
@@ -36,9 +37,10 @@ Eigen::Isometry3d Foreseen(const Obstacle& obstacle, double ahead) {
   return X;
 }
 
-bool AsForeseen(const std::vector<Obstacle>& seen, const std::vector<Obstacle>& now, double since) {
+bool AsForeseen(const std::vector<geometry::Obstacle>& seen,
+                const std::vector<geometry::Obstacle>& now, double since) {
   return std::equal(seen.begin(), seen.end(), now.begin(), now.end(),
-                    [&](const Obstacle& then, const Obstacle& here) {
+                    [&](const geometry::Obstacle& then, const geometry::Obstacle& here) {
                       const Eigen::Isometry3d X = Foreseen(then, since);
                       const double away = (X.translation() - here.X_WO.translation()).norm() +
                                           (X.linear() - here.X_WO.linear()).norm() * kForeseenLever;
@@ -48,4 +50,4 @@ bool AsForeseen(const std::vector<Obstacle>& seen, const std::vector<Obstacle>& 
                     });
 }
 
-}  // namespace oca::systems
+}  // namespace oca::planning

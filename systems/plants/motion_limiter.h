@@ -19,7 +19,7 @@ struct MotionClip {
   int joint{0};  ///< from 0
   motion::MotionLimit limit{motion::MotionLimit::kNone};
   motion::MotionLimit yields{motion::MotionLimit::kNone};
-  double amount{0.0};  ///< position out minus position in
+  double amount{0.0};  ///< position minus request
 };
 /// JSON: [{"joint", "limit": "position" | "velocity" | "acceleration" | "jerk",
 /// "yields": the same or "none", "amount"}]
@@ -30,10 +30,10 @@ struct MotionClips {
 /// The last stage before the joints: whatever is requested, the joints are sent within the limits
 /// of the model, at every tick, and so that they can always stop within them.
 ///
-///     position_out = c + u period,   u = clamp(w + catch_up(r - c), range(c, v, a))
+///     position = c + u period,   u = clamp(w + catch_up(r - c), range(c, v, a))
 ///
 /// c, v, a are position, velocity and acceleration of the command at the last tick, r is the
-/// request there and w = (position - r) / period its velocity. The range is that of
+/// request there and w = (request - r) / period its velocity. The range is that of
 /// motion::StoppableVelocities: position, velocity, acceleration and jerk limits of the model, the
 /// last two where it has any. A command that was held back, c != r, catches up no faster than it
 /// can brake by half the acceleration (and half the jerk, if that is limited), so that it
@@ -42,8 +42,8 @@ struct MotionClips {
 /// within the limits passes unchanged. The command is that of a joint which moves straight from
 /// tick to tick, as with a deadbeat JointServo.
 ///
-/// in    position           n  u    target for the end of the period, held between ticks
-///       measured_position  n  u    optional; where the command starts, else at `position`
+/// in    request            n  u    target for the end of the period, held between ticks
+///       measured_position  n  u    optional; where the command starts, else at `request`
 /// out   position  n  u
 ///       velocity  n  u/s           of the period: u
 ///       clips     MotionClips      the joints whose request was changed
@@ -84,31 +84,27 @@ class MotionLimiter final : public System {
   struct Past {
     VectorView c, r, v, a, started;
   };
-  Answer Answers(VectorView request, const Past& past, Eigen::Index joint) const;
-  double Wish(double request, double c, double r, double v,
-              const motion::JointLimits& limits) const;
-  void Start(VectorView request, std::optional<VectorView> measured, MutableVectorView c,
+  Answer Answers(VectorView asked, const Past& past, Eigen::Index joint) const;
+  double Wish(double asked, double c, double r, double v, const motion::JointLimits& limits) const;
+  void Start(VectorView asked, std::optional<VectorView> measured, MutableVectorView c,
              MutableVectorView r) const;
-  void Update(VectorView request, VectorView command, VectorView rate, MutableVectorView c,
+  void Update(VectorView asked, VectorView command, VectorView rate, MutableVectorView c,
               MutableVectorView r, MutableVectorView v, MutableVectorView a,
               MutableVectorView started) const;
-  void CalcPosition(VectorView request, VectorView c, VectorView r, VectorView v, VectorView a,
+  void CalcPosition(VectorView asked, VectorView c, VectorView r, VectorView v, VectorView a,
                     VectorView started, MutableVectorView out) const;
-  void CalcVelocity(VectorView request, VectorView c, VectorView r, VectorView v, VectorView a,
+  void CalcVelocity(VectorView asked, VectorView c, VectorView r, VectorView v, VectorView a,
                     VectorView started, MutableVectorView out) const;
-  void CalcClips(VectorView request, VectorView c, VectorView r, VectorView v, VectorView a,
+  void CalcClips(VectorView asked, VectorView c, VectorView r, VectorView v, VectorView a,
                  VectorView started, MotionClips& out) const;
 
  public:
-  const Input<Vector> position_in;  ///< port `position`
+  const Input<Vector> request;
   const OptionalInput<Vector> measured_position;
   const Output<Vector> position;
   const Output<Vector> velocity;
   const Output<MotionClips> clips;
 };
-
-/// "none", "position", ...
-const char* NameOf(motion::MotionLimit limit);
 
 }  // namespace oca::systems
 
