@@ -13,6 +13,13 @@ using testing::ElementsAre;
 
 const auto kFile = std::make_shared<const std::string>("used: error: .yaml");
 
+Diagnostic At(int line, const std::string& what) {
+  Diagnostic diagnostic;
+  diagnostic.location = {kFile, line, 2};
+  diagnostic.what = what;
+  return diagnostic;
+}
+
 std::vector<std::string> LinesOf(const ToldOnce& told) {
   std::vector<std::string> lines;
   for (const Diagnostic& one : told.all()) lines.push_back(one.ToString());
@@ -22,20 +29,22 @@ std::vector<std::string> LinesOf(const ToldOnce& told) {
 // Whatever the name of the file, or the text, says of errors.
 TEST(ToldOnceTest, TellsWhatUsesHaveInCommonOnceWithAllOfThem) {
   ToldOnce told;
-  const Diagnostic same{{kFile, 1, 2}, "what: warning: of it"};
+  const Diagnostic same = At(1, "what: warning: of it");
   told.Add("left", same);
-  told.Add("right", {{kFile, 3, 4}, "other"});
+  told.Add("right", At(3, "other"));
   told.Add("right", same);
   told.Add("right", same);
   EXPECT_THAT(LinesOf(told),
               ElementsAre("used: error: .yaml:1:2: error: in left and right: what: warning: of it",
-                          "used: error: .yaml:3:4: error: in right: other"));
+                          "used: error: .yaml:3:2: error: in right: other"));
 }
 
 TEST(ToldOnceTest, TellsOfTheFileThatIsBuiltWithoutAUse) {
   ToldOnce told;
-  told.Add("", {{kFile, 1, 2}, "what", Diagnostic::Kind::kWarning});
-  told.Add("", {{kFile, 1, 2}, "what"});
+  Diagnostic warning = At(1, "what");
+  warning.kind = Diagnostic::Kind::kWarning;
+  told.Add("", warning);
+  told.Add("", At(1, "what"));
   EXPECT_THAT(LinesOf(told), ElementsAre("used: error: .yaml:1:2: warning: what",
                                          "used: error: .yaml:1:2: error: what"));
 }

@@ -85,9 +85,12 @@ TEST(ProblemsTest, AreThrownTogetherOneALine) {
 }
 
 TEST(DiagnosticTest, ShowsItsPlaceItsKindAndWhatItSays) {
-  EXPECT_EQ((Diagnostic{{kFile, 1, 2}, "what"}).ToString(), "arm.yaml:1:2: error: what");
-  EXPECT_EQ((Diagnostic{{}, "what: error: no", Diagnostic::Kind::kWarning}).ToString(),
-            "parameters: warning: what: error: no");
+  Diagnostic diagnostic;
+  diagnostic.location = {kFile, 1, 2};
+  diagnostic.what = "what: error: no";
+  EXPECT_EQ(diagnostic.ToString(), "arm.yaml:1:2: error: what: error: no");
+  diagnostic.kind = Diagnostic::Kind::kWarning;
+  EXPECT_EQ(diagnostic.ToString(), "arm.yaml:1:2: warning: what: error: no");
 }
 
 TEST(DidYouMeanTest, SuggestsTheNearestName) {
