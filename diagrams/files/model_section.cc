@@ -61,7 +61,7 @@ ModelSection::ModelSection(const Value& root, const Given& given, Problems& prob
       Take(entry, same == own.end() ? nullptr : &same->value, given.outer);
     }
   }
-  models_.AddOuter(given.outer.models_);
+  models_.AddOuter(given.outer.models_, given.lets_in);
 }
 
 void ModelSection::ReadPackages(const Value& root) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -21,6 +22,8 @@ class ModelSection {
     const ModelSection& outer;
     const Value* models{nullptr};  ///< a map from names here to names there; nullptr: none
     std::string path;              ///< of the use in the diagram as a whole: `left`
+    /// Whether its connections take in the links of a model there, by the name there.
+    std::function<bool(const std::string&)> lets_in;
   };
 
   /// Loads every model; what is wrong is added to `problems`.

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "oca/diagrams/loading/connection_pattern.h"
 #include "oca/diagrams/loading/loaded_diagram.h"
 #include "oca/framework/dataflow/dynamic_port.h"
@@ -16,7 +18,33 @@ std::string NameBehind(std::string_view ports, const std::string& path) {
   return path.starts_with(ports) ? path.substr(ports.size()) : std::string();
 }
 
+std::string Trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t");
+  const auto last = text.find_last_not_of(" \t");
+  if (first == std::string_view::npos) return "";
+  return std::string(text.substr(first, last - first + 1));
+}
+
+/// Whether the name of a port is this one, or a pattern that begins as this one does.
+bool CanStandFor(const std::string& port, const std::string& name) {
+  return port == name || (IsPattern(port) && name.starts_with(port.substr(0, port.find('<'))));
+}
+
 }  // namespace
+
+bool TakesIn(const Value& root, const std::string& input) {
+  const Value* const value = root.Find("connections");
+  if (value == nullptr || value->list() == nullptr) return false;
+  return std::any_of(value->list()->begin(), value->list()->end(), [&](const Value& item) {
+    const std::string* const text = item.string();
+    const std::size_t arrow = text == nullptr ? std::string::npos : text->find("->");
+    if (arrow == std::string::npos) return false;
+    const std::string from = NameBehind(kInputs, Trimmed(text->substr(0, arrow)));
+    const std::string to = Trimmed(text->substr(arrow + 2));
+    return !from.empty() &&
+           (CanStandFor(from, input) || CanStandFor(to.substr(to.rfind('.') + 1), input));
+  });
+}
 
 ConnectionSection::ConnectionSection(const Value& root, const Level& level,
                                      const SystemSection& systems, Construction& construction,
@@ -80,10 +108,7 @@ void ConnectionSection::Read(const Value& item) {
 
 /// `system.port`; empty, with a problem, if it is something else.
 std::string ConnectionSection::ReadPort(std::string_view text, const Location& location) {
-  const auto first = text.find_first_not_of(" \t");
-  const auto last = text.find_last_not_of(" \t");
-  std::string port;
-  if (first != std::string_view::npos) port = text.substr(first, last - first + 1);
+  std::string port = Trimmed(text);
   const std::size_t dot = port.find('.');
   const bool port_of_system = dot != std::string::npos && dot != 0 && port.back() != '.';
   if (port_of_system && !IsAmbiguous(port)) return port;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "oca/diagrams/loading/assembly.h"
+#include "oca/diagrams/loading/connection_section.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/nearest.h"
 #include "oca/models/file_cache.h"
@@ -74,9 +75,12 @@ UsedFile::UsedFile(const Value::Entry& entry, const Level& outer, const SystemSo
   if (overrides != sources.inner_overrides.end()) overrides_ = overrides->second;
   Read(entry, *given, problems);
   if (document_.root.map() != nullptr) {
+    const auto lets_in = [&](const std::string& model) {
+      return TakesIn(document_.root, systems::LinksInput(model));
+    };
     models_ = std::make_unique<files::ModelSection>(
-        document_.root, files::ModelSection::Given{sources.models, &given->models, level_.path},
-        own_);
+        document_.root,
+        files::ModelSection::Given{sources.models, &given->models, level_.path, lets_in}, own_);
     for (const Diagnostic& warning : models_->warnings()) {
       construction_.warnings.Add(level_.path, warning);
     }

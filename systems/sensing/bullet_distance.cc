@@ -65,7 +65,7 @@ void BulletDistance::Params::Describe(Fields<Params>& fields) {
              "whether links of the robot itself count as obstacles, but for adjacent ones and "
              "those disabled in the SRDF");
   fields.Add("others", &Params::others, "",
-             "models whose links count as obstacles; [\"*\"]: all others of the diagram");
+             "models whose links count as obstacles; [\"*\"]: all others in sight of the file");
 }
 
 BulletDistance::BulletDistance(const Params& params, const ModelSet& models)
@@ -126,9 +126,7 @@ std::vector<Input<LinkPoses>> BulletDistance::DeclareOtherLinks() {
   }
   std::vector<Input<LinkPoses>> inputs;
   for (std::size_t i = 0; i < moving_others_; ++i) {
-    std::string port = "links_" + others_[i].name;
-    std::replace(port.begin(), port.end(), '.', '_');
-    inputs.push_back(DeclareInput<LinkPoses>(port));
+    inputs.push_back(DeclareInput<LinkPoses>(LinksInput(others_[i].local_name)));
   }
   return inputs;
 }
@@ -287,9 +285,9 @@ void BulletDistance::CheckNames(const LinkPoses& poses) const {
 void BulletDistance::CheckVelocities(const Other& other, const LinkPoses& poses) const {
   if (poses.velocities.size() == poses.size()) return;
   throw ConfigError(fmt::format(
-      "links_{0}: got poses without velocities; expected both: connect the input `velocity` of the "
-      "RobotKinematics of '{0}'",
-      other.name));
+      "{}: got poses without velocities; expected both: connect the input `velocity` of the "
+      "RobotKinematics of '{}'",
+      LinksInput(other.local_name), other.name));
 }
 
 }  // namespace oca::systems

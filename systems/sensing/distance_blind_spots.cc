@@ -70,7 +70,8 @@ class Spots {
     const auto& others = params_.others;
     return params_.calculate_link_forces &&
            std::any_of(others.begin(), others.end(), [&](const std::string& name) {
-             return name == "*" || models_.FullName(name) == other;
+             return name == "*" ? models_.in_sight().contains(other)
+                                : models_.FullName(name) == other;
            });
   }
 
@@ -102,12 +103,17 @@ class Spots {
       if (LooksAt(name)) {
         AddUnseen(*model, fmt::format(" of '{}'", name));
       } else if (HasSolids(*model) || !robot::DrawnOnly(*model).empty()) {
-        found_.push_back(fmt::format("model '{}' ({})", name,
-                                     params_.calculate_link_forces
-                                         ? "not among others of " + own_name_
-                                         : "calculate_link_forces is off"));
+        found_.push_back(fmt::format("model '{}' ({})", name, WhyNot(name)));
       }
     }
+  }
+
+  std::string WhyNot(const std::string& other) const {
+    if (!params_.calculate_link_forces) return "calculate_link_forces is off";
+    const auto& others = params_.others;
+    const bool all = others.size() == 1 && others.front() == "*";
+    return all ? fmt::format("its links do not come into the file of {}", own_name_)
+               : "not among others of " + own_name_;
   }
 
   const BulletDistance::Params& params_;
