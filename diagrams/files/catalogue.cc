@@ -75,7 +75,7 @@ std::unique_ptr<System> CatalogueRow::Make(const void* params, const Value& give
                                            const systems::ModelSet& models,
                                            Problems& problems) const {
   try {
-    return build(params, models);
+    return Build(params, models);
   } catch (const WiringError&) {
     throw;  // of the class, not of its parameters
   } catch (const std::exception& error) {
@@ -88,7 +88,19 @@ std::unique_ptr<System> CatalogueRow::Make(const void* params, const Value& give
 }
 
 std::unique_ptr<System> CatalogueRow::MakeExample(const systems::ModelSet& models) const {
-  return build(example_params.get(), models);
+  std::vector<std::string> wrong;
+  CheckFields(fields(), example_params.get(), new_params().get(), "", wrong);
+  if (!wrong.empty()) {
+    throw ConfigError(fmt::format("catalogue: type '{}': example; got {}", type, wrong.front()));
+  }
+  return Build(example_params.get(), models);
+}
+
+std::unique_ptr<System> CatalogueRow::Build(const void* params,
+                                            const systems::ModelSet& models) const {
+  std::unique_ptr<System> system = build(params, models);
+  if (system != nullptr) return system;
+  throw ConfigError(fmt::format("catalogue: type '{}': made nothing; expected a system", type));
 }
 
 Catalogue& Catalogue::AddRow(CatalogueRow row) {

@@ -39,7 +39,11 @@ struct CatalogueRow {
   std::unique_ptr<System> Make(const Value& given, const std::string& where,
                                const systems::ModelSet& models, Problems& problems) const;
   /// The small valid instance; a model that it needs is the `planar2` arm.
+  /// throws ConfigError if the example is not what its fields say
   std::unique_ptr<System> MakeExample(const systems::ModelSet& models) const;
+
+ private:
+  std::unique_ptr<System> Build(const void* params, const systems::ModelSet& models) const;
 };
 
 /// What a class must have to be a row: parameters that describe themselves, what it says of itself,

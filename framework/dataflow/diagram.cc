@@ -5,9 +5,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
 
+#include "oca/framework/dataflow/check_name.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/nearest.h"
 #include "oca/framework/dataflow/schedule.h"
@@ -17,11 +17,13 @@
 namespace oca {
 namespace {
 
-void CheckName(const std::string& name, const char* what) {
-  const auto good = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
-  if (name.empty() || !std::all_of(name.begin(), name.end(), good)) {
-    throw WiringError(
-        {fmt::format("{} name: got '{}'; expected letters, digits and underscores", what, name)});
+/// A port that `find` finds in a system; what it lacks is told with the system's path.
+template <class Find>
+auto InSystemOf(const std::string& path, const Find& find) {
+  try {
+    return find();
+  } catch (const WiringError& error) {
+    throw WiringError({fmt::format("{}: {}", path.substr(0, path.rfind('.')), error.what())});
   }
 }
 
@@ -63,12 +65,13 @@ std::pair<const System*, std::string> Diagram::SplitPath(const std::string& path
 
 InputHandle Diagram::FindInput(const std::string& path) const {
   const auto [system, port] = SplitPath(path, "input");
-  return system == this ? System::FindInput(port) : system->FindInput(port);
+  if (system == this) return System::FindInput(port);
+  return InSystemOf(path, [&] { return system->FindInput(port); });
 }
 
 OutputHandle Diagram::FindOutput(const std::string& path) const {
   const auto [system, port] = SplitPath(path, "output");
-  if (system != this) return system->FindOutput(port);
+  if (system != this) return InSystemOf(path, [&] { return system->FindOutput(port); });
   return exported_outputs_[System::FindOutput(port).index].second;
 }
 
@@ -99,7 +102,7 @@ DiagramBuilder::DiagramBuilder() : diagram_(new Diagram) {}
 DiagramBuilder::~DiagramBuilder() = default;
 
 const System& DiagramBuilder::AddSystem(std::string name, std::unique_ptr<System> system) {
-  CheckName(name, "system");
+  internal::CheckName(name, "system");
   if (system == nullptr) {
     throw WiringError({fmt::format("system '{}': got nothing; expected a system", name)});
   }
@@ -124,7 +127,7 @@ void DiagramBuilder::ConnectPorts(const OutputHandle& from, const InputHandle& t
 }
 
 void DiagramBuilder::ExportInput(std::string name, const InputHandle& input, int size) {
-  CheckName(name, "input");
+  internal::CheckName(name, "input");
   if (input.system == nullptr) {
     throw WiringError({fmt::format("exported input '{}': its port belongs to no system", name)});
   }
@@ -135,13 +138,14 @@ void DiagramBuilder::ExportInput(std::string name, const InputHandle& input, int
     same->to.push_back(input);
     return;
   }
-  diagram_->AddInput(input.system->inputs().at(input.index));
-  diagram_->inputs_.back().name = name;
+  System::InputInfo info = input.system->inputs().at(input.index);
+  info.name = name;
+  diagram_->AddInput(std::move(info));
   exported.push_back({std::move(name), {input}, size});
 }
 
 void DiagramBuilder::ExportOutput(std::string name, const OutputHandle& output) {
-  CheckName(name, "output");
+  internal::CheckName(name, "output");
   for (const auto& other : diagram_->exported_outputs_) {
     if (other.first == name) {
       throw WiringError({fmt::format("output name: '{}' is exported twice", name)});

@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include "oca/framework/dataflow/check_name.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/nearest.h"
 
@@ -22,6 +23,15 @@ int IndexOf(const Infos& infos, const std::string& name, const char* kind) {
   throw WiringError(
       {fmt::format("no {} port '{}'{}; {} ports are: {}", kind, name, DidYouMean(name, names), kind,
                    names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")))});
+}
+
+/// Of a port that is about to be declared.
+template <class Infos>
+void CheckPortName(const Infos& infos, const std::string& name, const char* kind) {
+  internal::CheckName(name, kind);
+  for (const auto& info : infos) {
+    if (info.name == name) throw WiringError({fmt::format("{} name: '{}' is taken", kind, name)});
+  }
 }
 
 }  // namespace
@@ -52,6 +62,7 @@ Size System::DeclareSize(
 }
 
 InputHandle System::AddInput(InputInfo info) {
+  CheckPortName(inputs_, info.name, "input");
   if (info.type != &kVectorType && info.type->read_json == nullptr) {
     throw WiringError(
         {fmt::format("input '{}': type; got {}, which is not read from JSON; expected "
@@ -79,6 +90,7 @@ void System::CheckReads(const std::string& what, const Calculation& calculation)
 }
 
 OutputHandle System::AddOutput(OutputInfo info) {
+  CheckPortName(outputs_, info.name, "output");
   if (info.type != &kVectorType && info.type->write_json == nullptr) {
     throw WiringError(
         {fmt::format("output '{}': type; got {}, which is not written as JSON; "

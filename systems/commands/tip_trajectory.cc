@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "oca/models/motion/tip_path.h"
+#include "oca/models/planning/tip_path.h"
 #include "oca/systems/sensing/model_links.h"
 #include "oca/systems/signals/config_errors.h"
 
@@ -28,10 +28,10 @@ void CheckPathKeys(const TipRequest::Params& params) {
   CheckGiven(params.radius.has_value(), !line, "radius", kind);
 }
 
-motion::TipPath TipPathOf(const TipRequest::Params& params) {
+planning::TipPath TipPathOf(const TipRequest::Params& params) {
   return params.path == TipPath::kLine
-             ? motion::LinePath(*params.from, *params.to)
-             : motion::CirclePath(*params.centre, *params.normal, *params.radius);
+             ? planning::LinePath(*params.from, *params.to)
+             : planning::CirclePath(*params.centre, *params.normal, *params.radius);
 }
 
 int TipOf(const robot::RobotModel& model, const std::string& link) {
@@ -82,8 +82,8 @@ TipRequest::Params TipRequest::Resolved(Params params, const ModelSet& models) {
   const auto model = MovableModel(models, params.model);
   const int link = TipOf(*model, params.link);
   params.points = WithConfigErrors([&] {
-    return motion::KeyPointsAlong(*model, link, path, params.posture,
-                                  {params.start, params.approach, params.duration});
+    return planning::KeyPointsAlong(*model, link, path, params.posture,
+                                    {params.start, params.approach, params.duration});
   });
   return params;
 }

@@ -294,8 +294,10 @@ int SimulatorMain(int argc, char** argv, const files::Catalogue& catalogue) {
     return CommandLine(catalogue).Main(argc, argv);
   } catch (const std::exception& error) {
     Tell("error: {}\n", error.what());
-    return kRunFailed;
+  } catch (...) {  // of a block of somebody else's
+    Tell("error: an exception of an unknown type\n");
   }
+  return kRunFailed;
 }
 
 }  // namespace oca::tools

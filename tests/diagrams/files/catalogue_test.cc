@@ -152,6 +152,27 @@ TEST(CatalogueTest, ARowReadsParametersAndMakesAnyNumberOfSystemsOfThem) {
                                                    HasSubstr("systems.x: brings bad luck")));
 }
 
+TEST(CatalogueTest, ACallableThatMakesNothingIsToldOf) {
+  Catalogue catalogue;
+  catalogue.Add("Nothing", kNormDoc, []() -> std::unique_ptr<System> { return nullptr; });
+  const CatalogueRow& row = *catalogue.Find("Nothing");
+  const auto made_nothing =
+      ThrowsMessage<ConfigError>(HasSubstr("'Nothing': made nothing; expected a system"));
+  EXPECT_THAT([&] { row.MakeExample({}); }, made_nothing);
+  Problems problems;
+  EXPECT_EQ(row.Make(Value(Value::Map{}, {}), "systems.x", {}, problems), nullptr);
+  EXPECT_THAT([&] { problems.Throw(); },
+              ThrowsMessage<ConfigError>(HasSubstr("systems.x: catalogue: type 'Nothing'")));
+}
+
+TEST(CatalogueTest, AnExampleIsWhatItsFieldsSay) {
+  Catalogue catalogue;
+  catalogue.Add("Scale", kNormDoc, Foreign::Params{-1.0},
+                [](const Foreign::Params&) { return MakeNorm(); });
+  EXPECT_THAT([&] { catalogue.Find("Scale")->MakeExample({}); },
+              ThrowsMessage<ConfigError>(HasSubstr("'Scale': example; got factor: got -1")));
+}
+
 class ForeignFileTest : public testing::Test {
  protected:
   loading::LoadedDiagram Load(const std::string& systems, const Catalogue& catalogue) {

@@ -8,7 +8,7 @@
 #include "oca/models/motion/key_points.h"
 #include "oca/models/robot/robot_model.h"
 
-namespace oca::motion {
+namespace oca::planning {
 
 /// A path of a point in the base frame of a robot, m; s from 0 to 1.
 using TipPath = std::function<Eigen::Vector3d(double s)>;
@@ -35,7 +35,8 @@ struct TipTiming {
 /// throws ModelError `path: ...` if the path leaves the reach of the robot or takes a joint beyond
 ///        its limits, `posture: ...` if that is of another length
 /// source Siciliano, Sciavicco, Villani, Oriolo, Robotics, section 3.5
-std::vector<KeyPoint> KeyPointsAlong(const robot::RobotModel& model, int link, const TipPath& path,
-                                     const Eigen::VectorXd& posture, const TipTiming& timing);
+std::vector<motion::KeyPoint> KeyPointsAlong(const robot::RobotModel& model, int link,
+                                             const TipPath& path, const Eigen::VectorXd& posture,
+                                             const TipTiming& timing);
 
-}  // namespace oca::motion
+}  // namespace oca::planning

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "oca/models/motion/tip_path.h"
+#include "oca/models/planning/tip_path.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "oca/models/error.h"
 #include "oca/models/robot/kinematics.h"
 
-namespace oca::motion {
+namespace oca::planning {
 namespace {
 
 using Eigen::Vector3d;
@@ -95,8 +95,9 @@ TipPath CirclePath(const Vector3d& centre, const Vector3d& normal, double radius
   };
 }
 
-std::vector<KeyPoint> KeyPointsAlong(const robot::RobotModel& model, int link, const TipPath& path,
-                                     const VectorXd& posture, const TipTiming& timing) {
+std::vector<motion::KeyPoint> KeyPointsAlong(const robot::RobotModel& model, int link,
+                                             const TipPath& path, const VectorXd& posture,
+                                             const TipTiming& timing) {
   if (posture.size() != model.num_positions()) {
     throw models::ModelError(
         fmt::format("posture: got {} numbers; expected {}", posture.size(), model.num_positions()));
@@ -106,7 +107,7 @@ std::vector<KeyPoint> KeyPointsAlong(const robot::RobotModel& model, int link, c
   CheckJoints(model, q, path(0.0), 0.0);
   CheckJoints(model, q, path(0.0), solver.Solve(path(0.0), q));
   const VectorXd first = q;
-  std::vector<KeyPoint> points;
+  std::vector<motion::KeyPoint> points;
   const auto add = [&](double time, const VectorXd& position) {
     points.push_back({.time = time, .position = position});
   };
@@ -125,4 +126,4 @@ std::vector<KeyPoint> KeyPointsAlong(const robot::RobotModel& model, int link, c
   return points;
 }
 
-}  // namespace oca::motion
+}  // namespace oca::planning

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "oca/models/motion/tip_path.h"
+#include "oca/models/planning/tip_path.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include "oca/models/robot/kinematics.h"
 #include "oca/models/robot/urdf.h"
 
-namespace oca::motion {
+namespace oca::planning {
 namespace tip_path_test {
 
 using Eigen::Vector3d;
@@ -80,4 +80,4 @@ TEST(TipPathTest, IsRefusedBeyondReachAndLimitsAndFromAnotherPosture) {
 }
 
 }  // namespace tip_path_test
-}  // namespace oca::motion
+}  // namespace oca::planning
