@@ -38,7 +38,7 @@ ReadDocument ReadFile(const fs::path& file) {
 fs::path AsReached(const fs::path& file) {
   const fs::path plain = models::PlainPath(file);
   std::error_code error;
-  return fs::equivalent(plain, file, error) ? plain : fs::absolute(file);
+  return fs::equivalent(plain, file, error) ? plain : fs::absolute(file, error);
 }
 
 /// What a file includes by two ways counts once.

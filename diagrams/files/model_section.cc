@@ -107,6 +107,7 @@ void ModelSection::ReadModel(const Value::Entry& entry, const std::string& full_
   const std::string where = "models." + entry.key;
   Read fresh{entry.value};
   std::shared_ptr<const Read> read;
+  Problems thrown;
   try {
     read = models::MakeOnce<Read>("models." + full_name, FormOf(entry.value), [&] {
       ReadEntry(where, fresh);
@@ -117,11 +118,12 @@ void ModelSection::ReadModel(const Value::Entry& entry, const std::string& full_
       sources_[entry.key] = {where, read->params, packages_};
     }
   } catch (const std::runtime_error& error) {
-    fresh.problems.Add(entry.location, fmt::format("{}: {}", where, error.what()));
+    thrown.Add(entry.location, fmt::format("{}: {}", where, error.what()));
   }
   const Read& found = read == nullptr ? fresh : *read;
-  failed_ = failed_ || found.model == nullptr;
+  failed_ = failed_ || found.model == nullptr || !thrown.empty();
   problems_.Add(found.problems);
+  problems_.Add(thrown);
   for (const std::string& line : found.warnings) {
     warnings_.push_back({entry.location, line, Diagnostic::Kind::kWarning});
   }
