@@ -44,6 +44,10 @@ Grid ReadCsv(const fs::path& file) {
       }
       grid.values.push_back(height);
     }
+    if (grid.values.size() > kMostCells) {
+      throw models::ModelError(fmt::format("{}: cells; got {}; expected at most {}", table.where(),
+                                           grid.values.size(), kMostCells));
+    }
   }
   return grid;
 }
@@ -132,8 +136,9 @@ Compound LoadHeightmap(const fs::path& file, double cell, double scale) {
     for (std::size_t first = 0, last = 0; first < grid.width; first = last) {
       const double value = grid.values[row * grid.width + first];
       if (map.parts.size() >= kMostBoxes) {
-        models::internal::RefuseText(file, 0, "boxes of unequal heights", "more",
-                                     fmt::format("at most {}", kMostBoxes));
+        models::internal::RefuseText(
+            file, 0, "boxes of unequal heights", "more",
+            fmt::format("at most {}; equal neighbours in a row are one", kMostBoxes));
       }
       while (last < grid.width && grid.values[row * grid.width + last] == value) ++last;
       const double length = cell * static_cast<double>(last - first);

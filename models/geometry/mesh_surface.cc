@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "oca/models/file_cache.h"
+#include "oca/models/geometry/flat_points.h"
 
 namespace oca::geometry {
 namespace {
@@ -19,6 +20,7 @@ using Eigen::Vector3d;
 
 constexpr double kWeld = 1e-6;       // of the extent
 constexpr double kTolerated = 0.01;  // of the mesh: what a hull may add without a word
+constexpr double kPlane = 1e-6;      // thickness of what counts as a plane, of the extent
 
 bool IsClosed(const TriangleMesh& mesh) {
   struct Pass {
@@ -127,8 +129,11 @@ MeshHull LoadMeshHull(const std::filesystem::path& file, const Eigen::Vector3d& 
   const std::string form = fmt::format("{} {} {}", scale.x(), scale.y(), scale.z());
   return *models::ReadOnce<MeshHull>(file, form, [&]() -> MeshHull {
     const TriangleMesh mesh = LoadMesh(file, scale);
-    const auto hull = MakeConvexHull(mesh.vertices, file.string());
-    return {hull, DescribeHullExcess(mesh, *hull)};
+    std::vector<Vector3d> points = mesh.vertices;
+    const double thickness = internal::PadFlat(points, kPlane);
+    const auto hull = MakeConvexHull(points, file.string());
+    if (thickness == 0.0) return {hull, DescribeHullExcess(mesh, *hull), ""};
+    return {hull, "", fmt::format("is flat; counts as {:.3g} m thick", thickness)};
   });
 }
 

@@ -12,6 +12,7 @@
 
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/nearest.h"
+#include "oca/models/geometry/decomposition.h"
 #include "oca/version.h"
 #include "tools/simulator/commands.h"
 #include "tools/simulator/file_name.h"
@@ -57,6 +58,10 @@ class CommandLine {
     } catch (const CLI::ParseError& error) {
       return Usage(error, argc, argv);
     }
+    TaskProgress progress;
+    const geometry::DecompositionListener listener([&](std::string_view mesh, double share) {
+      progress.Show(fmt::format("decomposing '{}' into convex parts, which are kept", mesh), share);
+    });
     try {
       const int status = command_();
       return FlushOutput() ? status : kRunFailed;

@@ -159,8 +159,8 @@ TEST(MeshTest, RefusesAFileThatIsMissingEmptyOrAFolder) {
 
 TEST(MeshTest, RefusesAnUnknownExtension) {
   const test::TemporaryFolder folder;
-  EXPECT_THAT(RefusalOf(folder.Write("a.ply", "ply")), HasSubstr("got extension '.ply'"));
-  EXPECT_THAT(RefusalOf(folder.Write("a", "x")), HasSubstr("expected .stl, .obj, .dae"));
+  EXPECT_THAT(RefusalOf(folder.Write("a.3ds", "x")), HasSubstr("got extension '.3ds'"));
+  EXPECT_THAT(RefusalOf(folder.Write("a", "x")), HasSubstr("expected .stl, .obj, .dae, .ply"));
 }
 
 TEST(MeshTest, RefusesAFileAboveAHundredMegabytes) {
