@@ -120,7 +120,7 @@ Compound LoadHeightmap(const fs::path& file, double cell, double scale) {
                                    "lengths above 0 m");
     }
   }
-  const std::string kind = file.extension().string();
+  const std::string kind = models::internal::Lower(file.extension().string());
   if (kind != ".csv" && kind != ".pgm") {
     models::internal::RefuseText(file, 0, "extension", "'" + kind + "'", ".pgm or .csv");
   }

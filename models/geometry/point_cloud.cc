@@ -35,7 +35,7 @@ std::vector<Vector3d> ReadTable(const fs::path& file) {
 }
 
 std::vector<Vector3d> ReadPoints(const fs::path& file) {
-  const std::string kind = file.extension().string();
+  const std::string kind = models::internal::Lower(file.extension().string());
   if (kind == ".csv" || kind == ".xyz") return ReadTable(file);
   if (kind == ".pcd") return internal::ReadPcd(file, models::internal::ReadWhole(file));
   if (kind == ".ply") {

@@ -65,7 +65,7 @@ const Vector3d kFirst(1.0, 2.0, 3.0), kSecond(-0.5, 0.25, 1e-3);
 TEST_F(PointCloudTest, ReadsTablesWithNamesCommentsAndMoreColumns) {
   EXPECT_THAT(Points("a.csv", "x,y,z,intensity\n1,2,3,9\r\n# seen\n\n-0.5,0.25,1e-3,7\n"),
               ElementsAre(kFirst, kSecond));
-  EXPECT_THAT(Points("a.xyz", "1 2 3\n-0.5\t+0.25 0.001"), ElementsAre(kFirst, kSecond));
+  EXPECT_THAT(Points("A.XYZ", "1 2 3\n-0.5\t+0.25 0.001"), ElementsAre(kFirst, kSecond));
 }
 
 TEST_F(PointCloudTest, ReadsPly) {
