@@ -8,7 +8,8 @@
 
 namespace oca::geometry::internal {
 
-/// The points of a PCD file (ascii, binary or binary_compressed), finite or not. `text` is the file.
+/// The points of a PCD file (ascii, binary or binary_compressed), finite or not. `text` is the
+/// content of the file.
 ///
 /// throws ModelError `file:line: ...`, or without a line for what is behind a binary header: no
 ///        PCD, a field of no scalar type, no x, y, z, fewer points than announced, damaged data
