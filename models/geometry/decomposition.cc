@@ -30,10 +30,6 @@ using Eigen::Vector3d;
 
 constexpr double kScale = 1000.0;  // to which HACD brings the diagonal
 
-// The time grows with more than the square of it: 22 s for a torus of 1800 triangles, though 4 s
-// for a link of 3000, most of which are flat.
-constexpr std::size_t kMostTriangles = 4000;
-
 /// HACD knows no data of a caller beside its callback.
 struct Listening {
   const DecompositionListener::Show* show;
@@ -88,7 +84,8 @@ DecompositionListener::~DecompositionListener() { listener = outer_; }
 
 std::vector<std::shared_ptr<const ConvexHull>> DecomposeMesh(const TriangleMesh& mesh,
                                                              std::string_view name,
-                                                             double concavity) {
+                                                             double concavity,
+                                                             std::size_t most_triangles) {
   if (!(concavity > 0.0 && concavity < 1.0)) {
     throw models::ModelError(
         fmt::format("{}: concavity; got {}; expected between 0 and 1", name, concavity));
@@ -100,7 +97,7 @@ std::vector<std::shared_ptr<const ConvexHull>> DecomposeMesh(const TriangleMesh&
   }
   const DecompositionListener::Show* const show = listener != nullptr ? &listener->show_ : nullptr;
   listening = {show, name};
-  const internal::CoarseMesh coarse = internal::Coarsen(welded, kMostTriangles);
+  const internal::CoarseMesh coarse = internal::Coarsen(welded, most_triangles);
   const std::vector<long> cluster = Partition(coarse.mesh, concavity);
   listening = {};
   std::map<long, std::vector<Vector3d>> points;

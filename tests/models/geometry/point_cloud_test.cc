@@ -292,6 +292,11 @@ TEST_F(PointCloudTest, RefusesWhatIsNoHeightmap) {
   EXPECT_THAT(MapRefusal("map.pgm", "P2 2 1 9\n4 10\n"), HasSubstr("grey value; got 10"));
   EXPECT_THAT(MapRefusal("map.pgm", "P5 2 1 100\n\x64\x65"), HasSubstr("got 101 as pixel 1"));
   EXPECT_THAT(MapRefusal("map.pgm", "P5 10000 10000 255\nx"), HasSubstr("cells; got 100000000"));
+  std::string steps;
+  for (int i = 0; i < 1'001'000; ++i) steps += i % 2 == 0 ? '\x01' : '\x02';
+  EXPECT_THAT(
+      MapRefusal("map.pgm", "P5 1001 1000 255\n" + steps),
+      HasSubstr("map.pgm: boxes of unequal heights; got 1001000; expected at most 1000000"));
   EXPECT_THAT(MapRefusal("map.pgm", "P5 4294967297 1 255\nx"), HasSubstr("width; got"));
   EXPECT_THAT(MapRefusal("map.pgm", "P2 -2 1 9\n4\n"), HasSubstr("width; got -2"));
 }
