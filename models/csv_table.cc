@@ -24,6 +24,8 @@ using internal::Shown;
 using internal::ToNumber;
 using internal::Trimmed;
 
+constexpr std::size_t kMostColumns = 1'000'000;  // each takes dozens of bytes while it is read
+
 bool IsControl(char c) {
   const auto byte = static_cast<unsigned char>(c);
   return (byte < 0x20 && c != '\t' && c != '\r' && c != '\n') || byte == 0x7f;
@@ -270,6 +272,9 @@ bool CsvTable::ReadRow() {
     quoted_.clear();
     do {
       ReadCell();
+      if (cells_.size() > kMostColumns) {
+        RefuseRow("row", fmt::format("more than {} values", kMostColumns), "no more");
+      }
     } while (!AtEnd());
     TakeLineEnd();
     return true;

@@ -42,7 +42,7 @@ class CsvTable {
   bool Has(std::string_view name) const;
 
   /// Goes on to the next row of values; false behind the last.
-  /// throws ModelError for a row of another length and for quotes that do not fit
+  /// throws ModelError for a row of another length or a million values, for quotes that do not fit
   bool NextRow();
 
   /// How many columns there are; 0 without any row.

@@ -4,14 +4,25 @@
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
+#include <new>
 #include <utility>
 
+#include "oca/models/error.h"
 #include "oca/models/opened_files.h"
 
 namespace oca::models {
 namespace {
 
 thread_local FileCache* cache_in_use = nullptr;
+
+template <class Read>
+auto WithinMemory(const std::string& file, const Read& read) {
+  try {
+    return read();
+  } catch (const std::bad_alloc&) {
+    throw ModelError(file + ": too large; got no memory for it; expected a smaller file");
+  }
+}
 
 }  // namespace
 
@@ -48,13 +59,13 @@ std::shared_ptr<FileCache::Entry> FileCache::EntryOf(Keep keep, const std::strin
 
 std::shared_ptr<const void> FileCache::Get(Keep keep, const std::string& file, std::type_index type,
                                            const std::string& form, const Read& read) {
-  if (cache_in_use == nullptr) return read();
+  if (cache_in_use == nullptr) return WithinMemory(file, read);
   const std::shared_ptr<Entry> entry = cache_in_use->EntryOf(keep, file, type, form);
   if (!entry->done) {
     const std::lock_guard lock(entry->reading);
     if (!entry->done) {
       const OpenedFiles opened;
-      entry->value = read();
+      entry->value = WithinMemory(file, read);
       entry->opened = opened.files();
       entry->done = true;
       return entry->value;

@@ -78,7 +78,7 @@ class FileCache {
 
 /// What `read` reads of a file, which goes by a text of its own, its path as a rule, or read of it before if this thread uses a FileCache. `form` tells
 /// it from all else of type T that is read of the file. OpenedFiles hears of the files either way.
-/// throws what `read` throws
+/// throws what `read` throws, for the lack of memory a ModelError that names the file
 template <class T>
 std::shared_ptr<const T> ReadOnce(const std::string& file, const std::string& form,
                                   const std::function<T()>& read) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "oca/models/error.h"
 #include "oca/models/geometry/ball_tree.h"
@@ -49,17 +50,15 @@ void CheckThickness(const Vector3d& half, std::string_view where) {
                   2 * half.minCoeff(), 2 * half.maxCoeff(), kFlattest));
 }
 
-void CheckPose(const Eigen::Isometry3d& X, std::string_view where) {
+bool IsRigid(const Eigen::Isometry3d& X) {
   const Eigen::Matrix3d R = X.linear();
   const double skew = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (X.translation().allFinite() && skew <= 1e-9 && R.determinant() > 0.0) return;
-  throw models::ModelError(fmt::format(
-      "{}: pose; got a NaN, an infinity or no rotation; expected a finite rigid motion", where));
+  return X.translation().allFinite() && skew <= 1e-9 && R.determinant() > 0.0;
 }
 
 }  // namespace
 
-Collider::Collider(const Shape& shape, std::string_view where) : shape_(shape) {
+Collider::Collider(Shape shape, std::string_view where) : shape_(std::move(shape)) {
   const auto size = [&](double value, std::string_view what) {
     return CheckedSize(value, where, what);
   };
@@ -136,18 +135,23 @@ void Collider::Prepare(const Compound& compound, std::string_view where) {
         fmt::format("{}: compound; got no parts; expected at least one", where));
   }
   Eigen::AlignedBox3d box;
+  parts_.reserve(compound.parts.size());
   for (std::size_t i = 0; i < compound.parts.size(); ++i) {
     const CompoundPart& part = compound.parts[i];
-    const std::string name = fmt::format("{}: part {}", where, i);
+    const auto name = [&] { return fmt::format("{}: part {}", where, i); };
     if (std::holds_alternative<Compound>(part.shape) ||
         std::holds_alternative<HalfSpace>(part.shape)) {
       throw models::ModelError(fmt::format(
-          "{}; got a {}; expected a convex body that ends", name,
+          "{}; got a {}; expected a convex body that ends", name(),
           part.shape.index() == Shape(HalfSpace{}).index() ? "half-space" : "compound"));
     }
-    CheckPose(part.X_SP, name);
+    if (!IsRigid(part.X_SP)) {
+      throw models::ModelError(fmt::format(
+          "{}: pose; got a NaN, an infinity or no rotation; expected a finite rigid motion",
+          name()));
+    }
     parts_.push_back({part.X_SP, SameAsLast(part.shape) ? parts_.back().collider
-                                                        : MakeCollider(part.shape, name)});
+                                                        : MakeCollider(part.shape, name())});
     const Collider& collider = *parts_.back().collider;
     const Vector3d centre = part.X_SP * collider.centre();
     const Vector3d reach = Vector3d::Constant(collider.bounding_radius());
@@ -199,8 +203,8 @@ Vector3d Collider::Support(const Vector3d& direction) const {
   return farthest;
 }
 
-std::shared_ptr<const Collider> MakeCollider(const Shape& shape, std::string_view where) {
-  return std::make_shared<const Collider>(shape, where);
+std::shared_ptr<const Collider> MakeCollider(Shape shape, std::string_view where) {
+  return std::make_shared<const Collider>(std::move(shape), where);
 }
 
 double BoundingRadius(const Collider& collider) {

@@ -26,7 +26,7 @@ class Collider {
     std::shared_ptr<const Collider> collider;
   };
 
-  Collider(const Shape& shape, std::string_view where);
+  Collider(Shape shape, std::string_view where);
 
   const Shape& shape() const { return shape_; }
   Core core() const { return core_; }
@@ -71,7 +71,7 @@ class Collider {
 /// throws ModelError for a size that is not finite and positive; a shape
 ///        thinner than 1e-9 of its extent; a mesh without a hull; a compound without parts, with a
 ///        half-space or a compound among them, or with a pose that is not a finite rigid motion
-std::shared_ptr<const Collider> MakeCollider(const Shape& shape, std::string_view where);
+std::shared_ptr<const Collider> MakeCollider(Shape shape, std::string_view where);
 
 /// Radius of a sphere about the origin of the shape's frame that contains the shape, m; infinite
 /// for a half-space.

@@ -21,7 +21,8 @@ struct ConvexHull {
   /// the filling repeats the first vertex and so never wins a support search.
   std::vector<double> columns;
   int column_size{0};
-  /// Outer planes of the triangles: no vertex has normal . vertex > offset. Unit normals, m.
+  /// Outer planes of the triangles: no vertex has normal . vertex > offset. Unit normals, m. They
+  /// touch the hull; of one with more than 4096 vertices they lie up to 3e-12 of its extent off.
   struct Plane {
     Eigen::Vector3d normal;
     double offset;

@@ -3,16 +3,17 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
+#include <string>
 #include <utility>
 
 #include "oca/models/error.h"
 #include "oca/models/file_cache.h"
+#include "oca/models/geometry/coarse_mesh.h"
 #include "oca/models/geometry/decomposition_cache.h"
+#include "oca/models/geometry/flat_points.h"
 #include "oca/models/geometry/mesh_surface.h"
 
 #pragma GCC diagnostic push
@@ -27,21 +28,31 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kThinnest = 1e-4;  // of a part's extent; flat ones are padded to it
-constexpr double kScale = 1000.0;   // to which HACD brings the diagonal
+constexpr double kScale = 1000.0;  // to which HACD brings the diagonal
 
-struct Span {
-  Vector3d low, size;
+/// HACD knows no data of a caller beside its callback.
+struct Listening {
+  const DecompositionListener::Show* show;
+  std::string_view name;
 };
+thread_local DecompositionListener* listener = nullptr;
+thread_local Listening listening{};
 
-Span ExtentOf(const std::vector<Vector3d>& points) {
-  Vector3d low = points.front(), high = low;
-  for (const Vector3d& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  return {low, high - low};
+// HACD says the number of a triangle out of `whole` while it looks at each, then the percentage of
+// triangles that have joined others, `left` clusters being left.
+bool TellProgress(const char*, double done, double whole, std::size_t left) {
+  constexpr double kFirst = 0.05;  // of the time
+  if (listening.show == nullptr) return true;
+  if (left == 0 && whole > 0.0) (*listening.show)(listening.name, kFirst * done / whole);
+  if (left > 0 && done > 0.0) {
+    (*listening.show)(listening.name, kFirst + (1.0 - kFirst) * std::min(0.01 * done, 1.0));
+  }
+  return true;
 }
 
 // For each triangle the number of its cluster.
 std::vector<long> Partition(const TriangleMesh& mesh, double concavity) {
+  if (mesh.triangles.empty()) return {0};
   std::vector<HACD::Vec3<HACD::Real>> points;
   std::vector<HACD::Vec3<long>> triangles;
   for (const Vector3d& p : mesh.vertices) points.emplace_back(p.x(), p.y(), p.z());
@@ -60,39 +71,21 @@ std::vector<long> Partition(const TriangleMesh& mesh, double concavity) {
   hacd.SetAddExtraDistPoints(true);
   hacd.SetAddNeighboursDistPoints(true);
   hacd.SetAddFacesPoints(true);
+  hacd.SetCallBack(TellProgress);
   if (!hacd.Compute()) return std::vector<long>(triangles.size(), 0);
   return {hacd.GetPartition(), hacd.GetPartition() + triangles.size()};
 }
 
-// Hull of points that may lie in one plane: then it gets the least thickness of a body.
-std::shared_ptr<const ConvexHull> HullOf(std::vector<Vector3d> points, std::string_view name) {
-  const double extent = ExtentOf(points).size.maxCoeff();
-  Vector3d mean = Vector3d::Zero();
-  for (const Vector3d& p : points) mean += p / static_cast<double>(points.size());
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const Vector3d& p : points) spread += (p - mean) * (p - mean).transpose();
-  const Vector3d normal =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
-  double low = 0.0, high = 0.0;
-  for (const Vector3d& p : points) {
-    low = std::min(low, normal.dot(p - mean));
-    high = std::max(high, normal.dot(p - mean));
-  }
-  if (high - low < kThinnest * extent) {
-    const Vector3d pad = 0.5 * kThinnest * extent * normal;
-    for (std::size_t i = 0, n = points.size(); i < n; ++i) {
-      points.push_back(points[i] + pad);
-      points[i] -= pad;
-    }
-  }
-  return MakeConvexHull(points, name);
-}
-
 }  // namespace
+
+DecompositionListener::DecompositionListener(Show show)
+    : show_(std::move(show)), outer_(std::exchange(listener, this)) {}
+DecompositionListener::~DecompositionListener() { listener = outer_; }
 
 std::vector<std::shared_ptr<const ConvexHull>> DecomposeMesh(const TriangleMesh& mesh,
                                                              std::string_view name,
-                                                             double concavity) {
+                                                             double concavity,
+                                                             std::size_t most_triangles) {
   if (!(concavity > 0.0 && concavity < 1.0)) {
     throw models::ModelError(
         fmt::format("{}: concavity; got {}; expected between 0 and 1", name, concavity));
@@ -102,17 +95,24 @@ std::vector<std::shared_ptr<const ConvexHull>> DecomposeMesh(const TriangleMesh&
     throw models::ModelError(
         fmt::format("{}: mesh is empty; got 0 triangles; expected some", name));
   }
-  const std::vector<long> cluster = Partition(welded, concavity);
+  const DecompositionListener::Show* const show = listener != nullptr ? &listener->show_ : nullptr;
+  listening = {show, name};
+  const internal::CoarseMesh coarse = internal::Coarsen(welded, most_triangles);
+  const std::vector<long> cluster = Partition(coarse.mesh, concavity);
+  listening = {};
   std::map<long, std::vector<Vector3d>> points;
-  for (std::size_t i = 0; i < cluster.size(); ++i) {
+  for (std::size_t i = 0; i < welded.triangles.size(); ++i) {
+    auto& of_cluster = points[cluster[static_cast<std::size_t>(coarse.nearest[i])]];
     for (const int vertex : welded.triangles[i]) {
-      points[cluster[i]].push_back(welded.vertices[static_cast<std::size_t>(vertex)]);
+      of_cluster.push_back(welded.vertices[static_cast<std::size_t>(vertex)]);
     }
   }
   std::vector<std::shared_ptr<const ConvexHull>> parts;
   for (auto& entry : points) {
-    parts.push_back(HullOf(std::move(entry.second), fmt::format("{} part {}", name, parts.size())));
+    internal::PadFlat(entry.second, internal::kThinnest);
+    parts.push_back(MakeConvexHull(entry.second, fmt::format("{} part {}", name, parts.size())));
   }
+  if (show != nullptr) (*show)(name, 1.0);
   return parts;
 }
 

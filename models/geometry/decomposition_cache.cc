@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Changes with the way parts are made or written.
-constexpr std::string_view kMagic = "OCA decomposition 1\n";
+constexpr std::string_view kMagic = "OCA decomposition 2\n";
 constexpr std::uint64_t kMostPoints = 10'000'000;
 
 // FNV-1a of 64 bits from a given start.

@@ -44,6 +44,10 @@ Grid ReadCsv(const fs::path& file) {
       }
       grid.values.push_back(height);
     }
+    if (grid.values.size() > kMostCells) {
+      throw models::ModelError(fmt::format("{}: cells; got {}; expected at most {}", table.where(),
+                                           grid.values.size(), kMostCells));
+    }
   }
   return grid;
 }
@@ -107,6 +111,20 @@ Grid ReadPgm(const fs::path& file, std::string_view rest) {
   return grid;
 }
 
+/// How many boxes the columns make, equal neighbours in a row being one.
+std::size_t CountBoxes(const fs::path& file, const Grid& grid) {
+  std::size_t boxes = 0;
+  for (std::size_t i = 0; i < grid.values.size(); ++i) {
+    if (i % grid.width == 0 || grid.values[i] != grid.values[i - 1]) ++boxes;
+  }
+  if (boxes > kMostBoxes) {
+    models::internal::RefuseText(
+        file, 0, "boxes of unequal heights", fmt::format("{}", boxes),
+        fmt::format("at most {}; equal neighbours in a row are one", kMostBoxes));
+  }
+  return boxes;
+}
+
 }  // namespace
 
 Compound LoadHeightmap(const fs::path& file, double cell, double scale) {
@@ -116,7 +134,7 @@ Compound LoadHeightmap(const fs::path& file, double cell, double scale) {
                                    "lengths above 0 m");
     }
   }
-  const std::string kind = file.extension().string();
+  const std::string kind = models::internal::Lower(file.extension().string());
   if (kind != ".csv" && kind != ".pgm") {
     models::internal::RefuseText(file, 0, "extension", "'" + kind + "'", ".pgm or .csv");
   }
@@ -128,13 +146,10 @@ Compound LoadHeightmap(const fs::path& file, double cell, double scale) {
     models::internal::RefuseText(file, 0, "holds no height", "none", "at least one");
   const std::size_t rows = grid.values.size() / grid.width;
   Compound map;
+  map.parts.reserve(CountBoxes(file, grid));
   for (std::size_t row = 0; row < rows; ++row) {
     for (std::size_t first = 0, last = 0; first < grid.width; first = last) {
       const double value = grid.values[row * grid.width + first];
-      if (map.parts.size() >= kMostBoxes) {
-        models::internal::RefuseText(file, 0, "boxes of unequal heights", "more",
-                                     fmt::format("at most {}", kMostBoxes));
-      }
       while (last < grid.width && grid.values[row * grid.width + last] == value) ++last;
       const double length = cell * static_cast<double>(last - first);
       const double height = cell + scale * value;

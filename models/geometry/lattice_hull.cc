@@ -120,7 +120,11 @@ Eigen::Vector3d LatticeHull::UnitNormal(int face) const {
   const Face& f = faces_[face];
   const double length = f.normal.norm();
   if (length > 0x1p33 * f.doubt) return f.normal / length;
-  const auto& [a, b, c] = f.vertex;
+  return ExactNormal(face);
+}
+
+Eigen::Vector3d LatticeHull::ExactNormal(int face) const {
+  const auto& [a, b, c] = faces_[face].vertex;
   const auto exact = Normal(points_[a], points_[b], points_[c]);
   return Eigen::Vector3d(static_cast<double>(exact[0]), static_cast<double>(exact[1]),
                          static_cast<double>(exact[2]))

@@ -64,6 +64,8 @@ class LatticeHull {
   bool Sees(int point, int face) const;
   /// Outward, of length 1, right to the last digits also for a sliver.
   Eigen::Vector3d UnitNormal(int face) const;
+  /// The same, each component rounded once from its exact value.
+  Eigen::Vector3d ExactNormal(int face) const;
   /// Extends the polyhedron to a point that lies strictly outside `face`.
   void Grow(int point, int face);
 

@@ -16,10 +16,12 @@
 #include <exception>
 #include <fstream>
 #include <iterator>
+#include <new>
 #include <string>
 #include <utility>
 
 #include "oca/models/error.h"
+#include "oca/models/geometry/ply_file.h"
 #include "oca/models/opened_files.h"
 #include "oca/models/table_text.h"
 
@@ -43,9 +45,10 @@ std::string LowerExtension(const fs::path& file) {
 
 void CheckFile(const fs::path& file) {
   const std::string extension = LowerExtension(file);
-  if (extension != ".stl" && extension != ".obj" && extension != ".dae") {
-    Refuse(file, fmt::format("unknown kind of mesh; got extension '{}'; expected .stl, .obj, .dae",
-                             extension));
+  if (extension != ".stl" && extension != ".obj" && extension != ".dae" && extension != ".ply") {
+    Refuse(file,
+           fmt::format("unknown kind of mesh; got extension '{}'; expected .stl, .obj, .dae, .ply",
+                       extension));
   }
   std::error_code error;
   if (!fs::exists(file, error)) {
@@ -177,12 +180,7 @@ void DropUnused(TriangleMesh* mesh) {
   mesh->vertices = std::move(used);
 }
 
-}  // namespace
-
-TriangleMesh LoadMesh(const fs::path& file, const Vector3d& scale) {
-  models::NoteOpened(file);
-  CheckFile(file);
-  CheckScale(file, scale);
+TriangleMesh ReadByAssimp(const fs::path& file, const Vector3d& scale) {
   if (LowerExtension(file) == ".stl") CheckStlCount(file);
   if (LowerExtension(file) == ".dae") CheckNesting(file);
   Assimp::Importer importer;
@@ -193,7 +191,9 @@ TriangleMesh LoadMesh(const fs::path& file, const Vector3d& scale) {
   try {
     scene = importer.ReadFile(file.string(), aiProcess_Triangulate);
     reason = importer.GetErrorString();
-  } catch (const std::exception& error) {  // a hostile size may exhaust the memory
+  } catch (const std::bad_alloc&) {  // a hostile size
+    reason = "more than the memory holds";
+  } catch (const std::exception& error) {
     reason = error.what();
   }
   if (!scene || !scene->mRootNode) {
@@ -202,6 +202,28 @@ TriangleMesh LoadMesh(const fs::path& file, const Vector3d& scale) {
   }
   TriangleMesh mesh;
   Collect(*scene, scale, &mesh);
+  return mesh;
+}
+
+// Not by assimp, which makes room for what the header announces.
+TriangleMesh ReadPlyMesh(const fs::path& file, const Vector3d& scale) {
+  TriangleMesh mesh =
+      internal::ReadPly(file, models::internal::ReadWhole(file), internal::PlyPart::kMesh);
+  for (Vector3d& p : mesh.vertices) p = scale.cwiseProduct(p);
+  if (scale.prod() < 0.0) {
+    for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  }
+  return mesh;
+}
+
+}  // namespace
+
+TriangleMesh LoadMesh(const fs::path& file, const Vector3d& scale) {
+  models::NoteOpened(file);
+  CheckFile(file);
+  CheckScale(file, scale);
+  TriangleMesh mesh =
+      LowerExtension(file) == ".ply" ? ReadPlyMesh(file, scale) : ReadByAssimp(file, scale);
   if (mesh.triangles.empty()) Refuse(file, "mesh is empty; got 0 triangles; expected some");
   DropUnused(&mesh);
   for (const Vector3d& p : mesh.vertices) {

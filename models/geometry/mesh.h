@@ -14,7 +14,7 @@ struct TriangleMesh {
   std::vector<std::array<int, 3>> triangles;  ///< indices into vertices
 };
 
-/// Reads all triangles of an STL (text or binary), OBJ or Collada file.
+/// Reads all triangles of an STL (text or binary), OBJ, Collada or PLY file (ascii or binary).
 ///
 /// Node transforms and the unit of a Collada file are applied; its up axis is not, because URDF
 /// users draw in the frame of the link. `scale` multiplies x, y, z; a negative one mirrors and the

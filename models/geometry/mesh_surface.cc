@@ -7,10 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <utility>
+#include <vector>
 
 #include "oca/models/file_cache.h"
+#include "oca/models/geometry/flat_points.h"
 
 namespace oca::geometry {
 namespace {
@@ -19,33 +20,73 @@ using Eigen::Vector3d;
 
 constexpr double kWeld = 1e-6;       // of the extent
 constexpr double kTolerated = 0.01;  // of the mesh: what a hull may add without a word
+constexpr double kPlane = 1e-6;      // thickness of what counts as a plane, of the extent
 
 bool IsClosed(const TriangleMesh& mesh) {
-  std::map<std::pair<int, int>, int> balance;
+  struct Pass {
+    int low, high, direction;
+  };
+  std::vector<Pass> passes;
+  passes.reserve(3 * mesh.triangles.size());
   for (const auto& [a, b, c] : mesh.triangles) {
     for (const auto& [from, to] : {std::pair{a, b}, {b, c}, {c, a}}) {
-      balance[std::minmax(from, to)] += from < to ? 1 : -1;
+      passes.push_back({std::min(from, to), std::max(from, to), from < to ? 1 : -1});
     }
   }
-  return std::all_of(balance.begin(), balance.end(), [](const auto& e) { return e.second == 0; });
+  std::sort(passes.begin(), passes.end(), [](const Pass& a, const Pass& b) {
+    return std::pair(a.low, a.high) < std::pair(b.low, b.high);
+  });
+  int balance = 0;
+  for (std::size_t i = 0; i < passes.size(); ++i) {
+    balance += passes[i].direction;
+    const bool last = i + 1 == passes.size() || passes[i + 1].low != passes[i].low ||
+                      passes[i + 1].high != passes[i].high;
+    if (last && balance != 0) return false;
+  }
+  return true;
+}
+
+// For each point the first one that lies in the same cell.
+std::vector<std::size_t> FirstInCell(const std::vector<Vector3d>& points) {
+  Vector3d low = points.front(), high = low;
+  for (const Vector3d& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  const double cell = kWeld * std::max((high - low).maxCoeff(), 1e-300);
+  struct Placed {
+    std::array<long, 3> cell;
+    std::size_t index;
+    auto operator<=>(const Placed&) const = default;
+  };
+  std::vector<Placed> placed;
+  placed.reserve(points.size());
+  for (const Vector3d& p : points) {
+    const Vector3d at = (p - low) / cell;
+    placed.push_back(
+        {{std::lround(at.x()), std::lround(at.y()), std::lround(at.z())}, placed.size()});
+  }
+  std::sort(placed.begin(), placed.end());
+  std::vector<std::size_t> first(points.size());
+  std::size_t group = 0;
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    if (placed[i].cell != placed[group].cell) group = i;
+    first[placed[i].index] = placed[group].index;
+  }
+  return first;
 }
 
 }  // namespace
 
 TriangleMesh WeldVertices(const TriangleMesh& mesh) {
   if (mesh.vertices.empty()) return mesh;
-  Vector3d low = mesh.vertices.front(), high = low;
-  for (const Vector3d& p : mesh.vertices) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  const double cell = kWeld * std::max((high - low).maxCoeff(), 1e-300);
-  std::map<std::array<long, 3>, int> numbers;
-  std::vector<int> welded;
+  const std::vector<std::size_t> first = FirstInCell(mesh.vertices);
+  std::vector<int> welded(first.size());
   TriangleMesh result;
-  for (const Vector3d& p : mesh.vertices) {
-    const Vector3d at = (p - low) / cell;
-    const std::array<long, 3> key{std::lround(at.x()), std::lround(at.y()), std::lround(at.z())};
-    const auto [entry, fresh] = numbers.emplace(key, static_cast<int>(numbers.size()));
-    if (fresh) result.vertices.push_back(p);
-    welded.push_back(entry->second);
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    if (first[i] == i) {
+      welded[i] = static_cast<int>(result.vertices.size());
+      result.vertices.push_back(mesh.vertices[i]);
+    } else {
+      welded[i] = welded[first[i]];
+    }
   }
   for (const auto& [a, b, c] : mesh.triangles) {
     const std::array<int, 3> triangle{welded[static_cast<std::size_t>(a)],
@@ -88,8 +129,11 @@ MeshHull LoadMeshHull(const std::filesystem::path& file, const Eigen::Vector3d& 
   const std::string form = fmt::format("{} {} {}", scale.x(), scale.y(), scale.z());
   return *models::ReadOnce<MeshHull>(file, form, [&]() -> MeshHull {
     const TriangleMesh mesh = LoadMesh(file, scale);
-    const auto hull = MakeConvexHull(mesh.vertices, file.string());
-    return {hull, DescribeHullExcess(mesh, *hull)};
+    std::vector<Vector3d> points = mesh.vertices;
+    const double thickness = internal::PadFlat(points, kPlane);
+    const auto hull = MakeConvexHull(points, file.string());
+    if (thickness == 0.0) return {hull, DescribeHullExcess(mesh, *hull), ""};
+    return {hull, "", fmt::format("is flat; counts as {:.3g} m thick", thickness)};
   });
 }
 

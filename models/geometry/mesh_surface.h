@@ -31,9 +31,12 @@ std::string DescribeHullExcess(const TriangleMesh& mesh, const ConvexHull& hull)
 struct MeshHull {
   std::shared_ptr<const ConvexHull> hull;
   std::string excess;  ///< as DescribeHullExcess says it
+  /// Of a mesh in a plane or line: "is flat; counts as 5e-06 m thick"; else empty.
+  std::string flatness;
 };
 
-/// Reads one, or finds it as it was read (models::FileCache).
+/// Reads one, or finds it as it was read (models::FileCache). A flat one, such as a sticker, gets a
+/// thickness of 1e-4 of its extent.
 /// throws ModelError as LoadMesh and MakeConvexHull do
 MeshHull LoadMeshHull(const std::filesystem::path& file,
                       const Eigen::Vector3d& scale = Eigen::Vector3d::Ones());

@@ -158,7 +158,7 @@ class Reader {
 }  // namespace
 
 Compound LoadOctree(const fs::path& file) {
-  const std::string kind = file.extension().string();
+  const std::string kind = models::internal::Lower(file.extension().string());
   if (kind != ".bt" && kind != ".ot") {
     models::internal::RefuseText(file, 0, "extension", "'" + kind + "'", ".bt or .ot");
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <filesystem>
 #include <span>
 #include <vector>
@@ -10,17 +11,21 @@
 
 namespace oca::geometry {
 
+inline constexpr std::size_t kMostCloudPoints = 1'000'000;  ///< of a cloud
+
 /// Points of a file, in its frame, m:
 ///
 ///   .csv, .xyz  a table as CsvTable reads it: the columns named x, y and z, without names the
 ///               first three; other columns are ignored
-///   .ply        ascii or binary_little_endian; `element vertex` with x, y, z of any scalar type
-///   .pcd        ascii or binary; FIELDS with x, y, z
+///   .ply        ascii or binary of either byte order; `element vertex` with x, y, z of any scalar
+///               type
+///   .pcd        ascii, binary or binary_compressed; FIELDS with x, y, z
 ///
 /// Points with a coordinate that is not finite, by which depth cameras say that they saw nothing,
 /// are left out.
 /// throws ModelError `file: ...` or `file:line: ...`: missing, above 100 MB, unknown extension or
-///        kind, no such fields, a number that is none, fewer points than announced, no point at all
+///        kind, no such fields, a number that is none, fewer points than announced, no point at
+///        all, more than kMostCloudPoints
 std::vector<Eigen::Vector3d> LoadPointCloud(const std::filesystem::path& file);
 
 /// A ball of `radius` m around each point.

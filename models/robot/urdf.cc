@@ -185,10 +185,11 @@ class UrdfReader {
       try {
         const Eigen::Vector3d scale = ToVector(mesh.scale);
         if (options_.decompose_meshes) return geometry::LoadDecomposition(file, scale);
-        const auto [hull, excess] = geometry::LoadMeshHull(file, scale);
-        if (options_.warn && !excess.empty()) {
-          options_.warn(fmt::format("link '{}': {} mesh '{}' {}{}", link, kind, mesh.filename,
-                                    excess, options_.hull_advice));
+        const auto [hull, excess, flatness] = geometry::LoadMeshHull(file, scale);
+        const std::string remark = excess.empty() ? flatness : excess + options_.hull_advice;
+        if (options_.warn && !remark.empty()) {
+          options_.warn(
+              fmt::format("link '{}': {} mesh '{}' {}", link, kind, mesh.filename, remark));
         }
         return geometry::ConvexMesh{hull};
       } catch (const models::ModelError& error) {

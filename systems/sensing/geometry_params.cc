@@ -68,10 +68,11 @@ void CheckSizes(const SolidParams& shape, bool parts, const std::string& where) 
 using Warnings = std::vector<std::string>*;
 
 geometry::Shape MakeHull(const std::string& file, const std::string& where, Warnings warnings) {
-  const auto [hull, excess] = geometry::LoadMeshHull(file);
-  if (warnings != nullptr && !excess.empty()) {
-    warnings->push_back(
-        fmt::format("{}: mesh '{}' {}; collision: decomposition splits it", where, file, excess));
+  const auto [hull, excess, flatness] = geometry::LoadMeshHull(file);
+  const std::string remark =
+      excess.empty() ? flatness : excess + "; collision: decomposition splits it";
+  if (warnings != nullptr && !remark.empty()) {
+    warnings->push_back(fmt::format("{}: mesh '{}' {}", where, file, remark));
   }
   return geometry::ConvexMesh{hull};
 }
@@ -188,8 +189,8 @@ void DescribeSolid(const char* types, Fields<P>& fields) {
   fields.template Add<Triple>("size", &P::size, "m", "full edge lengths of a box").Above(0.0);
   fields.template Add<Triple>("radii", &P::radii, "m", "semi-axes of an ellipsoid").Above(0.0);
   fields.template Add<File>("file", &P::file, "",
-                            "mesh (STL, OBJ, Collada), cloud (CSV, XYZ, PLY, PCD), heightmap (PGM, "
-                            "CSV) or octree (BT, OT)");
+                            "mesh (STL, OBJ, Collada, PLY), cloud (CSV, XYZ, PLY, PCD), heightmap "
+                            "(PGM, CSV) or octree (BT, OT)");
 }
 
 SolidParams SolidParamsOf(const geometry::Shape& shape) {

@@ -79,6 +79,10 @@ bool ReadPly(std::string_view bytes) {
   return Accepts([&] { geometry::LoadPointCloud(FileOf("fuzz.ply", bytes)); });
 }
 
+bool ReadPlyMesh(std::string_view bytes) {
+  return Accepts([&] { geometry::LoadMesh(FileOf("fuzz_mesh.ply", bytes)); });
+}
+
 bool ReadStl(std::string_view bytes) {
   return Accepts([&] { geometry::LoadMesh(FileOf("fuzz.stl", bytes)); });
 }
@@ -128,6 +132,7 @@ constexpr Reader kReaders[] = {
     {"pcd", ReadPcd},
     {"pgm", ReadPgm},
     {"ply", ReadPly},
+    {"ply_mesh", ReadPlyMesh},
     {"record", ReadRecord},
     {"srdf", ReadSrdf},
     {"stl", ReadStl},

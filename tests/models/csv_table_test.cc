@@ -219,6 +219,14 @@ TEST_F(CsvTableTest, RefusesByItsSizeWhatWouldFillTheMemory) {
               EndsWith(".csv: too large; got 1099511627776 bytes; expected at most 100000000"));
 }
 
+TEST_F(CsvTableTest, RefusesARowOfMoreThanAMillionValues) {
+  std::string row = "1";
+  for (int i = 1; i < 1'000'000; ++i) row += ",1";
+  EXPECT_EQ(CsvTable(Write(row)).width(), 1'000'000u);
+  EXPECT_THAT(RefusalOf(Write(row + ",1")),
+              EndsWith(".csv:1: row; got more than 1000000 values; expected no more"));
+}
+
 TEST_F(CsvTableTest, NamesEachColumnOnce) {
   EXPECT_THAT(UniqueColumns({"a", "time", "a", "a_2"}), ElementsAre("a", "time_2", "a_3", "a_2"));
   EXPECT_THAT(UniqueColumns({}), IsEmpty());

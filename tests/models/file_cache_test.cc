@@ -4,10 +4,13 @@
 #include <gmock/gmock.h>
 
 #include <atomic>
+#include <new>
 #include <stdexcept>
+#include <string>
 #include <thread>
 #include <vector>
 
+#include "oca/models/error.h"
 #include "oca/models/opened_files.h"
 
 namespace oca::models {
@@ -116,6 +119,20 @@ TEST_F(FileCacheTest, ThreadsReadOnceToo) {
   }
   EXPECT_EQ(reads, 1);
   for (const auto& one : found) EXPECT_EQ(one, found.front());
+}
+
+TEST_F(FileCacheTest, NamesTheFileThatTheMemoryDoesNotHold) {
+  const auto message = [] {
+    try {
+      ReadOnce<int>("/big", "", []() -> int { throw std::bad_alloc(); });
+    } catch (const ModelError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(message(), testing::StartsWith("/big: too large; got no memory"));
+  const FileCache::Use use(cache_);
+  EXPECT_THAT(message(), testing::StartsWith("/big: too large; got no memory"));
 }
 
 }  // namespace file_cache_test

@@ -7,11 +7,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <iostream>
 
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/nearest.h"
+#include "oca/models/geometry/decomposition.h"
+#include "oca/models/table_text.h"
 #include "oca/version.h"
 #include "tools/simulator/commands.h"
 #include "tools/simulator/file_name.h"
@@ -57,6 +60,13 @@ class CommandLine {
     } catch (const CLI::ParseError& error) {
       return Usage(error, argc, argv);
     }
+    TaskProgress progress;
+    const geometry::DecompositionListener listener([&](std::string_view mesh, double share) {
+      const std::string file = std::filesystem::path(mesh).filename().string();
+      progress.Show(fmt::format("decomposing '{}' into convex parts, which are kept",
+                                models::internal::Shown(file)),
+                    share);
+    });
     try {
       const int status = command_();
       return FlushOutput() ? status : kRunFailed;

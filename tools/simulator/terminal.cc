@@ -84,4 +84,29 @@ void ProgressBar::Show(double time) {
   std::fflush(stderr);
 }
 
+void TaskProgress::Show(const std::string& task, double share) {
+  const auto now = Clock::now();
+  if (task != task_) {
+    task_ = task;
+    start_ = now;
+    shown_ = now - std::chrono::duration_cast<Clock::duration>(interval_);
+  }
+  if (share >= 1.0) {
+    Clear();
+    task_.clear();
+    return;
+  }
+  const bool terminal = IsTerminal(STDERR_FILENO);
+  if (now - start_ < patience_ || now - shown_ < (terminal ? Seconds(0.1) : interval_)) return;
+  shown_ = now;
+  visible_ = terminal;
+  Tell("{}{}: {:.0f} % after {:.0f} s{}", terminal ? "\r\033[K" : "", task, 100.0 * share,
+       Seconds(now - start_).count(), terminal ? "" : "\n");
+}
+
+void TaskProgress::Clear() {
+  if (visible_) WriteError("\r\033[K");
+  visible_ = false;
+}
+
 }  // namespace oca::tools

@@ -59,4 +59,30 @@ class ProgressBar {
   int skipped_{0};
 };
 
+/// How far tasks are that take their time, on standard error: on a terminal a line that redraws
+/// itself and leaves no trace, else a line now and then.
+class TaskProgress {
+ public:
+  using Seconds = std::chrono::duration<double>;
+
+  /// Says nothing of a task in its first `patience`; not to a terminal once every `interval`.
+  explicit TaskProgress(Seconds patience = Seconds(1.0), Seconds interval = Seconds(10.0))
+      : patience_(patience), interval_(interval) {}
+  ~TaskProgress() { Clear(); }
+  TaskProgress(const TaskProgress&) = delete;
+  TaskProgress& operator=(const TaskProgress&) = delete;
+
+  /// `share` of the task from 0 to 1, with which it ends.
+  void Show(const std::string& task, double share);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void Clear();
+
+  const Seconds patience_, interval_;
+  std::string task_;
+  Clock::time_point start_, shown_;
+  bool visible_{false};
+};
+
 }  // namespace oca::tools

@@ -113,6 +113,48 @@ TEST(ConvexHullTest, NoiseOnTheFacesDoesNotTearTheSurface) {
   }
 }
 
+// On a sphere, and on two rims that lie in no plane of the axes: 12,000 corners at most, and faces
+// on which thousands of points lie but for rounding.
+std::vector<Vector3d> ManyCorners(bool rims, const Vector3d& offset) {
+  RandomBodies random(5);
+  const Eigen::Matrix3d R = random.Pose(0.0).linear();
+  std::vector<Vector3d> points(12'000);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double angle = 1e-3 * static_cast<double>(i);
+    const Vector3d on_rim(std::cos(angle), std::sin(angle), i % 2 == 0 ? 1.0 : -1.0);
+    points[i] = offset + (rims ? R * on_rim : random.Direction());
+  }
+  return points;
+}
+
+TEST(ConvexHullTest, PlanesOfManyCornersHoldEveryVertexAndLieCloseToTheirTriangle) {
+  for (const bool rims : {false, true}) {
+    for (const double away : {0.0, 1e3}) {
+      const auto points = ManyCorners(rims, Vector3d(away, -away, 0.0));
+      const auto hull = MakeConvexHull(points, "many corners");
+      ASSERT_GT(hull->vertices.size(), 4096u);
+      ASSERT_EQ(hull->planes.size(), hull->triangles.size());
+      const double room = 3e-12 + 1e-14 * away;
+      for (std::size_t i = 0; i < hull->planes.size(); i += 97) {
+        const auto& [normal, offset] = hull->planes[i];
+        EXPECT_NEAR(normal.norm(), 1.0, 1e-15);
+        for (const int corner : hull->triangles[i]) {
+          ASSERT_GT(normal.dot(hull->vertices[corner]), offset - 2.0 * room);
+        }
+        for (const Vector3d& p : points) ASSERT_LE(normal.dot(p), offset);
+      }
+    }
+  }
+}
+
+TEST(ConvexHullTest, SurfacesOfManyCornersAreClosed) {
+  for (const bool rims : {false, true}) {
+    const auto hull = MakeConvexHull(ManyCorners(rims, Vector3d::Zero()), "many corners");
+    ExpectConvexSurfaceAround(*hull, {}, 0.0);
+    EXPECT_NEAR(hull->volume, (rims ? 2.0 : 4.0 / 3.0) * M_PI, 5e-3);
+  }
+}
+
 TEST(ConvexHullTest, SizeMakesNoDifference) {
   for (const double scale : {1e-6, 1e-3, 1e3, 1e6}) {
     const auto hull = MakeConvexHull(Cube(scale, 3), "cube");

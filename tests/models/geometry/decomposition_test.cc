@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <fstream>
 #include <thread>
@@ -147,6 +149,53 @@ TEST_F(DecompositionTest, MakesCompoundsOfARobotsMeshesIfAskedTo) {
   ASSERT_TRUE(std::holds_alternative<Compound>(shape()));
   EXPECT_GE(std::get<Compound>(shape()).parts.size(), 2u);
   EXPECT_TRUE(fs::is_directory(cache_ / "oca"));
+}
+
+TEST_F(DecompositionTest, TellsHowFarItIsWhileSomebodyListens) {
+  std::vector<double> shares;
+  const auto make = [&] { DecomposeMesh(LoadMesh(mesh_), "the angle"); };
+  {
+    const DecompositionListener listener([&](std::string_view name, double share) {
+      EXPECT_EQ(name, "the angle");
+      shares.push_back(share);
+    });
+    make();
+  }
+  ASSERT_GE(shares.size(), 2u);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_GE(shares.front(), 0.0);
+  EXPECT_EQ(shares.back(), 1.0);
+  const std::size_t count = shares.size();
+  make();
+  EXPECT_EQ(shares.size(), count);
+}
+
+// The angle with each triangle cut into many: more than are clustered one by one.
+TEST_F(DecompositionTest, OfAMeshOfManyTrianglesKeepsTheNookAndHoldsEveryVertex) {
+  TriangleMesh mesh = WeldVertices(LoadMesh(mesh_));
+  while (mesh.triangles.size() < 5'000) {
+    TriangleMesh finer;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const int first = static_cast<int>(finer.vertices.size());
+      const Vector3d &A = mesh.vertices[a], &B = mesh.vertices[b], &C = mesh.vertices[c];
+      for (const Vector3d& p :
+           {A, B, C, Vector3d((A + B) / 2), Vector3d((B + C) / 2), Vector3d((C + A) / 2)}) {
+        finer.vertices.push_back(p);
+      }
+      for (const auto& t : {std::array{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}) {
+        finer.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+      }
+    }
+    mesh = WeldVertices(finer);
+  }
+  Compound parts;
+  for (const auto& hull : DecomposeMesh(mesh, "angle", kDefaultConcavity, 500)) {
+    parts.parts.push_back({Isometry3d::Identity(), ConvexMesh{hull}});
+  }
+  EXPECT_NEAR(DistanceTo(parts, Vector3d(0.5, 0.5, 0.25)), 0.29, 0.05);
+  for (std::size_t i = 0; i < mesh.vertices.size(); i += 7) {
+    ASSERT_LE(DistanceTo(parts, mesh.vertices[i]), -0.01 + 1e-9);
+  }
 }
 
 TEST_F(DecompositionTest, LooksForItsFolderAsXdgSays) {

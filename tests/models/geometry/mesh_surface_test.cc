@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oca/models/geometry/mesh_surface.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <cmath>
 #include <utility>
 
 #include "oca/models/geometry/convex_hull.h"
@@ -73,6 +76,34 @@ TEST(MeshSurfaceTest, ReadsTheSameFromAFile) {
   const test::TemporaryFolder folder;
   const TriangleMesh mesh = LoadMesh(folder.Write("angle.obj", AngleObj()));
   EXPECT_NEAR(EnclosedVolume(mesh).value_or(-1.0), 3.0, 1e-6);
+}
+
+/// A square of 0.05 m turned out of every plane of the axes, as text; a line of triangles without
+/// area if `line`.
+std::string StickerObj(bool line) {
+  const Eigen::Matrix3d R = Eigen::AngleAxisd(0.4, Vector3d(1, 2, 3).normalized()).matrix();
+  std::string text;
+  for (const Vector3d& corner :
+       {Vector3d(0, 0, 0), Vector3d(0.05, 0, 0), Vector3d(0.05, 0.05, 0), Vector3d(0, 0.05, 0)}) {
+    const Vector3d p = R * (line ? Vector3d(corner.x() + 0.3 * corner.y(), 0, 0) : corner);
+    text += fmt::format("v {:.12f} {:.12f} {:.12f}\n", p.x(), p.y(), p.z());
+  }
+  return text + "f 1 2 3\nf 1 3 4\n";
+}
+
+TEST(MeshSurfaceTest, GivesAFlatMeshALeastThicknessAndSaysSo) {
+  const test::TemporaryFolder folder;
+  const auto sticker = LoadMeshHull(folder.Write("sticker.obj", StickerObj(false)));
+  EXPECT_EQ(sticker.excess, "");
+  EXPECT_EQ(sticker.flatness.find("is flat; counts as "), 0u) << sticker.flatness;
+  const double extent = 2.0 * sticker.hull->radius;
+  EXPECT_NEAR(extent, 0.05 * std::sqrt(2.0), 1e-3);
+  EXPECT_GT(sticker.hull->volume, 0.0);
+  EXPECT_LT(sticker.hull->volume, 0.05 * 0.05 * 1.1e-4 * extent);
+  const auto line = LoadMeshHull(folder.Write("line.obj", StickerObj(true)));
+  EXPECT_NE(line.flatness, "");
+  const auto body = LoadMeshHull(folder.Write("angle.obj", AngleObj()));
+  EXPECT_EQ(body.flatness, "");
 }
 
 TEST(MeshSurfaceTest, IsSilentUpToOnePerCent) {
