@@ -88,10 +88,17 @@ void ModelSection::ReadModel(const Value::Entry& entry, const std::string& full_
     failed_ = true;
     return;
   }
+  try {
+    DescriptionOf(params, where);
+  } catch (const ConfigError& error) {
+    failed_ = true;
+    return problems_.Add(entry.location, error.what());
+  }
   std::vector<std::string> warnings;
   try {
     params.srdf = Resolve(params.srdf, LocationOf(entry.value, "srdf")).string();
     params.urdf = Resolve(params.urdf, LocationOf(entry.value, "urdf")).string();
+    params.xacro = Resolve(params.xacro, LocationOf(entry.value, "xacro")).string();
     const Warn warn = [&](const std::string& line) { warnings.push_back(line); };
     models_.Add(entry.key, LoadModel(where, params, packages_, warn), full_name);
     sources_[entry.key] = {where, params, packages_};
@@ -112,12 +119,8 @@ void ModelSection::Take(const Value::Entry& given, const Value* own, const Model
   }
   Source taken = source->second;
   if (own != nullptr && own->map() != nullptr) {
-    Value::Map map = *own->map();
-    std::erase_if(map, [](const Value::Entry& entry) { return entry.key == "urdf"; });
-    map.push_back({"urdf", given.location, Value(taken.params.urdf, given.location)});
     ModelParams params;
-    ReadFields(Value(std::move(map), own->location()), FieldsOf<ModelParams>(),
-               "models." + given.key, &params, problems_);
+    ReadFields(*own, FieldsOf<ModelParams>(), "models." + given.key, &params, problems_);
     const auto fill = [](auto& limits, const auto& from) {
       if (!limits) limits = from;
     };
@@ -145,6 +148,7 @@ Value ModelSection::ResolveFiles(const Value& value) {
   } else if (const Value::Map* const map = value.map()) {
     for (std::size_t i = 0; i < map->size(); ++i) {
       const Value::Entry& entry = (*map)[i];
+      if (entry.key == "arguments") continue;  // what they mean the xacro file knows
       if (entry.key == "file" && entry.value.string() != nullptr) {
         (*resolved.map())[i].value = ResolveName(entry.value);
         continue;
