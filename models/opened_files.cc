@@ -16,6 +16,13 @@ namespace fs = std::filesystem;
 
 thread_local OpenedFiles* innermost = nullptr;
 
+/// Whether a path is one that PlainPath leaves as it is, as most are: saves their parsing.
+bool IsPlain(const fs::path& file) {
+  const std::string& name = file.native();
+  return name.starts_with('/') && name.find("//") == std::string::npos &&
+         name.find("/.") == std::string::npos;
+}
+
 bool Below(const fs::path& file, const fs::path& folder) {
   const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
   return end == folder.end() && rest != file.end();
@@ -24,11 +31,7 @@ bool Below(const fs::path& file, const fs::path& folder) {
 }  // namespace
 
 fs::path PlainPath(const fs::path& file) {
-  const std::string& name = file.native();
-  const bool plain = name.starts_with('/') && name.find("//") == std::string::npos &&
-                     name.find("/.") == std::string::npos;  // as most are: saves their parsing
-  if (plain || file.empty()) return file;
-  return fs::absolute(file).lexically_normal();
+  return IsPlain(file) || file.empty() ? file : fs::absolute(file).lexically_normal();
 }
 
 bool LiesBelow(const fs::path& file, const fs::path& folder) {
@@ -72,7 +75,8 @@ void NoteOpened(const fs::path& file) {
                     "or of a package (package://NAME/PATH)",
                     file.string()));
   }
-  const fs::path plain = PlainPath(file);
+  const fs::path other = IsPlain(file) ? fs::path() : PlainPath(file);
+  const fs::path& plain = other.empty() ? file : other;
   for (OpenedFiles* at = innermost; at != nullptr; at = at->apart_ ? nullptr : at->outer_) {
     if (!at->Has(plain)) at->files_.push_back(plain);
   }

@@ -54,29 +54,53 @@ bool Before(const Catalogue::Row& row, const std::string& type) { return row->ty
 
 }  // namespace
 
-std::unique_ptr<System> CatalogueRow::Make(const Value& params, const std::string& where,
+std::shared_ptr<const void> CatalogueRow::Read(const Value& given, const std::string& where,
+                                               Problems& problems) const {
+  std::shared_ptr<void> read = new_params();
+  Problems own;
+  ReadFields(given, fields(), where, read.get(), own);
+  problems.Add(own);
+  return own.empty() ? read : nullptr;
+}
+
+std::unique_ptr<System> CatalogueRow::Make(const Value& given, const std::string& where,
                                            const systems::ModelSet& models,
                                            Problems& problems) const {
-  const std::shared_ptr<void> read = new_params();
-  Problems own;
-  ReadFields(params, fields(), where, read.get(), own);
-  problems.Add(own);
-  if (!own.empty()) return nullptr;
+  const std::shared_ptr<const void> params = Read(given, where, problems);
+  return params == nullptr ? nullptr : Make(params.get(), given, where, models, problems);
+}
+
+std::unique_ptr<System> CatalogueRow::Make(const void* params, const Value& given,
+                                           const std::string& where,
+                                           const systems::ModelSet& models,
+                                           Problems& problems) const {
   try {
-    return build(read.get(), models);
+    return Build(params, models);
   } catch (const WiringError&) {
     throw;  // of the class, not of its parameters
   } catch (const std::exception& error) {
     // One that follows from what has been reported says nothing new.
-    if (problems.empty() || !HasGap(params)) {
-      problems.Add(params.location(), (where.empty() ? "" : where + ": ") + error.what());
+    if (problems.empty() || !HasGap(given)) {
+      problems.Add(given.location(), (where.empty() ? "" : where + ": ") + error.what());
     }
   }
   return nullptr;
 }
 
 std::unique_ptr<System> CatalogueRow::MakeExample(const systems::ModelSet& models) const {
-  return build(example_params.get(), models);
+  std::vector<std::string> wrong;
+  CheckFields(fields(), example_params.get(), new_params().get(), "", wrong);
+  if (!wrong.empty()) {
+    throw ConfigError(fmt::format("catalogue: type '{}': example; got {}", type, wrong.front()));
+  }
+  return Build(example_params.get(), models);
+}
+
+std::unique_ptr<System> CatalogueRow::Build(const void* params,
+                                            const systems::ModelSet& models) const {
+  std::unique_ptr<System> system = build(params, models);
+  if (system != nullptr) return system;
+  throw ConfigError(fmt::format("catalogue: type '{}': made nothing; expected a system", type));
 }
 
 Catalogue& Catalogue::AddRow(CatalogueRow row) {

@@ -28,12 +28,22 @@ struct CatalogueRow {
   /// Its parameter `obstacles` is that of an ObstacleSource: what goals are to be clear of.
   bool says_obstacles{false};
 
-  /// A new system; nullptr, with problems, if the parameters are wrong. `where` is the path of the
-  /// parameters in the file.
-  std::unique_ptr<System> Make(const Value& params, const std::string& where,
+  /// Parameters as a file gives them, as `build` takes them; nullptr, with problems, if they are
+  /// wrong. `where` is their path in the file.
+  std::shared_ptr<const void> Read(const Value& given, const std::string& where,
+                                   Problems& problems) const;
+  /// A new system; nullptr, with problems, if the parameters, that Read made of `given`, are wrong.
+  std::unique_ptr<System> Make(const void* params, const Value& given, const std::string& where,
+                               const systems::ModelSet& models, Problems& problems) const;
+  /// Both.
+  std::unique_ptr<System> Make(const Value& given, const std::string& where,
                                const systems::ModelSet& models, Problems& problems) const;
   /// The small valid instance; a model that it needs is the `planar2` arm.
+  /// throws ConfigError if the example is not what its fields say
   std::unique_ptr<System> MakeExample(const systems::ModelSet& models) const;
+
+ private:
+  std::unique_ptr<System> Build(const void* params, const systems::ModelSet& models) const;
 };
 
 /// What a class must have to be a row: parameters that describe themselves, what it says of itself,

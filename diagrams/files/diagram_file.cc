@@ -44,21 +44,21 @@ void ModelParams::Describe(Fields<ModelParams>& fields) {
              "tools and grasped objects: they move with a link of the robot and collide");
 }
 
-const std::string& DescriptionOf(const ModelParams& params, const std::string& where) {
+const std::string& DescriptionOf(const ModelParams& params) {
   const bool xacro = !params.xacro.empty();
   if (xacro == !params.urdf.empty()) {
-    throw ConfigError(fmt::format("{}: got {}; expected one of urdf and xacro", where,
+    throw ConfigError(fmt::format("got {}; expected one of urdf and xacro",
                                   xacro ? "both urdf and xacro" : "neither urdf nor xacro"));
   }
   const std::string& file = xacro ? params.xacro : params.urdf;
   if (robot::IsXacro(file) != xacro) {
     throw ConfigError(fmt::format(
-        "{}.{}: got '{}'; expected {}", where, xacro ? "xacro" : "urdf", file,
+        "{}: got '{}'; expected {}", xacro ? "xacro" : "urdf", file,
         xacro ? "a file named .xacro (a URDF goes into urdf)" : "a URDF (key xacro expands this)"));
   }
   if (!xacro && !params.arguments.texts.empty()) {
-    throw ConfigError(fmt::format("{}.arguments: got '{}'; expected none: urdf takes no arguments",
-                                  where, params.arguments.texts.begin()->first));
+    throw ConfigError(fmt::format("arguments: got '{}'; expected none: urdf takes no arguments",
+                                  params.arguments.texts.begin()->first));
   }
   return file;
 }
@@ -90,8 +90,7 @@ const std::vector<Section>& DiagramKeys() {
       {"file", "the diagram file, relative to this one, or package://NAME/PATH; required"},
       {"parameters",
        "values for its parameters, in place of its own: a map, or a list of maps of which the "
-       "later "
-       "ones win"},
+       "later ones win"},
       {"models", "models of this file that stand for its own, by their names there"},
   };
   return keys;

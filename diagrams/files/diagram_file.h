@@ -49,7 +49,7 @@ struct ModelParams {
 
 /// The file that a model is read from, urdf or xacro. throws ConfigError if it is not one of them, by
 /// the ending of its name
-const std::string& DescriptionOf(const ModelParams& params, const std::string& where);
+const std::string& DescriptionOf(const ModelParams& params);
 
 /// A key with its meaning.
 struct Section {

@@ -13,6 +13,7 @@
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/nearest.h"
 #include "oca/models/file_cache.h"
+#include "oca/models/opened_files.h"
 
 namespace oca::files {
 namespace {
@@ -30,6 +31,14 @@ ReadDocument ReadFile(const fs::path& file) {
   ReadDocument read;
   read.root = ReadYaml(ReadTextFile(file), file.string(), read.problems);
   return read;
+}
+
+/// A file by the way that led to it, for what it names in turn lies from there: a link to it or to
+/// a folder above is not followed. In short, if that is the same file.
+fs::path AsReached(const fs::path& file) {
+  const fs::path plain = models::PlainPath(file);
+  std::error_code error;
+  return fs::equivalent(plain, file, error) ? plain : fs::absolute(file);
 }
 
 /// What a file includes by two ways counts once.
@@ -106,7 +115,7 @@ class Includer {
       return {};
     }
     open_.push_back(canonical);
-    AddSource(canonical);
+    AddSource(AsReached(file));
     if (choices_ > 0) sources_.chosen.insert(file.string());
     Value value;
     try {
@@ -156,7 +165,7 @@ class Includer {
     std::error_code error;
     std::vector<fs::path> found;
     for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
-      if (at->path().extension() == ".yaml") found.push_back(fs::weakly_canonical(at->path()));
+      if (at->path().extension() == ".yaml") found.push_back(AsReached(at->path()));
     }
     std::sort(found.begin(), found.end());
     const std::string head = pattern.substr(0, pattern.find("${"));
@@ -253,8 +262,8 @@ class Includer {
 
 }  // namespace
 
-Value LoadFiles(const fs::path& file, const std::vector<Override>& overrides, Problems& problems,
-                DocumentSources* sources, const Value* parameters) {
+MergedFiles LoadFiles(const fs::path& file, const std::vector<Override>& overrides,
+                      Problems& problems, const Value* parameters) {
   Texts texts = TextsOf(overrides);
   AddTexts(parameters, texts);
   std::string form = "with includes";
@@ -267,19 +276,19 @@ Value LoadFiles(const fs::path& file, const std::vector<Override>& overrides, Pr
     return merged;
   });
   problems.Add(read->problems);
-  if (sources != nullptr) *sources = read->sources;
   const Value& root = read->root;
   if (root.map() == nullptr && problems.empty()) {
     problems.Add({std::make_shared<const std::string>(file.string()), 1, 1},
                  root.null() ? "is empty; expected a map with systems"
                              : fmt::format("got {}; expected a map with systems", root.Show()));
   }
-  return root;
+  return {root, {read, &read->sources}};
 }
 
 Value LoadDocument(const fs::path& file, const std::vector<Override>& overrides, Problems& problems,
                    DocumentSources* sources) {
-  Value root = LoadFiles(file, overrides, problems, sources);
+  auto [root, read] = LoadFiles(file, overrides, problems);
+  if (sources != nullptr) *sources = *read;
   if (problems.empty()) ApplyOverrides(overrides, root, problems);
   return root;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -11,7 +12,7 @@
 
 namespace oca::files {
 
-/// The files behind a document.
+/// The files behind a document, absolute, each by the way that led to it: links are not followed.
 struct DocumentSources {
   std::vector<std::filesystem::path> files{};  ///< those that were read, first the diagram file
   std::vector<std::filesystem::path> candidates{};  ///< diagram files beside one that was chosen
@@ -30,11 +31,16 @@ struct DocumentSources {
 Value LoadDocument(const std::filesystem::path& file, const std::vector<Override>& overrides,
                    Problems& problems, DocumentSources* sources = nullptr);
 
+/// Files as one tree.
+struct MergedFiles {
+  Value root;
+  std::shared_ptr<const DocumentSources> sources;
+};
+
 /// The files merged, of which overrides only choose: the first half of it, before ApplyOverrides.
 /// `parameters`, if given, is a map of values that another file gives to this one, in place of its
 /// own. While a models::FileCache is in use, each file is read once.
-Value LoadFiles(const std::filesystem::path& file, const std::vector<Override>& overrides,
-                Problems& problems, DocumentSources* sources = nullptr,
-                const Value* parameters = nullptr);
+MergedFiles LoadFiles(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                      Problems& problems, const Value* parameters = nullptr);
 
 }  // namespace oca::files

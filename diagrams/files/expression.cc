@@ -19,10 +19,8 @@
 namespace oca::files {
 namespace {
 
-constexpr std::size_t kLargestCopies = 100000;
 constexpr int kDeepestTerm = 32;
 constexpr std::size_t kLongest = 1000;
-constexpr int kLongestChain = 100;
 
 std::string Trim(const std::string& text) {
   const auto first = text.find_first_not_of(" \t");
@@ -77,19 +75,6 @@ bool IsLogical(const std::string& expression) {
   return false;
 }
 
-/// Values in a tree; a text counts for every 16 characters.
-std::size_t SizeOf(const Value& value) {
-  std::size_t size = 1;
-  if (value.string() != nullptr) size += value.string()->size() / 16;
-  if (value.list() != nullptr) {
-    for (const Value& item : *value.list()) size += SizeOf(item);
-  }
-  if (value.map() != nullptr) {
-    for (const Value::Entry& entry : *value.map()) size += SizeOf(entry.value);
-  }
-  return size;
-}
-
 std::string Text(const Value& value) {
   if (value.string() != nullptr) return *value.string();
   double number = 0.0;
@@ -97,105 +82,7 @@ std::string Text(const Value& value) {
   return value.Show();
 }
 
-bool HasExpression(const Value& value) {
-  return value.string() != nullptr && value.string()->find("${") != std::string::npos;
-}
-
-/// Whether what an expression may stand in came out as it was.
-bool Unchanged(const Value& value, const Value& resolved) {
-  if (value.list() != nullptr || value.map() != nullptr) return resolved.Shares(value);
-  return !HasExpression(value);
-}
-
 }  // namespace
-
-Expressions::Expressions(const Value& parameters, Problems& problems) : problems_(problems) {
-  if (parameters.map() == nullptr) return;
-  for (const Value::Entry& entry : *parameters.map()) {
-    if (!IsName(entry.key) || IsReserved(entry.key)) {
-      problems_.Add(entry.location, fmt::format("parameters.{}: not a free name; expected letters, "
-                                                "digits and underscores, not pi, deg or a function",
-                                                entry.key));
-      continue;
-    }
-    written_[entry.key] = &entry.value;
-    places_[entry.key] = {entry.location, entry.value.location()};
-  }
-  for (const auto& [name, value] : written_) Parameter(name, value->location());
-}
-
-const Value* Expressions::Parameter(const std::string& name, const Location& location) {
-  if (const auto found = resolved_.find(name); found != resolved_.end()) return &found->second;
-  const auto written = written_.find(name);
-  if (written == written_.end()) {
-    std::vector<std::string> names{"pi", "deg"};
-    for (const auto& entry : written_) names.push_back(entry.first);
-    problems_.Add(location,
-                  fmt::format("${{...}}: unknown parameter '{}'{}", name, DidYouMean(name, names)));
-    return nullptr;
-  }
-  if (std::exchange(open_[name], true)) {
-    problems_.Add(location, fmt::format("parameters.{}: defined by itself", name));
-    return nullptr;
-  }
-  if (++chain_ > kLongestChain) {
-    problems_.Add(location, fmt::format("parameters.{}: defined through more than {} others", name,
-                                        kLongestChain));
-  }
-  Value value = chain_ > kLongestChain ? Value({}, location) : Resolve(*written->second);
-  --chain_;
-  open_[name] = false;
-  return &resolved_.insert_or_assign(name, std::move(value)).first->second;
-}
-
-const Value* Expressions::Use(const std::string& name, const Location& location) {
-  used_.insert(name);
-  const Value* const value = Parameter(name, location);
-  if (value == nullptr || copied_ > kLargestCopies) return nullptr;
-  copied_ += SizeOf(*value);
-  if (copied_ <= kLargestCopies) return value;
-  problems_.Add(location, fmt::format("${{{}}}: parameters that use parameters add up to more than "
-                                      "{} values",
-                                      name, kLargestCopies));
-  return nullptr;
-}
-
-std::vector<std::string> Expressions::Unused(const std::set<std::string>& known) const {
-  std::vector<std::string> lines;
-  std::vector<std::string> used(used_.begin(), used_.end());
-  used.insert(used.end(), known.begin(), known.end());
-  for (const auto& [name, place] : places_) {
-    if (used_.contains(name)) continue;
-    const auto& source = place.value.file;
-    const bool overridden = source && source->starts_with("-s ");
-    if (!known.contains(name)) {
-      lines.push_back(fmt::format("{}: warning: parameters.{}: nothing uses it{}",
-                                  place.key.ToString(), name, DidYouMean(name, used)));
-    } else if (overridden) {
-      lines.push_back(
-          fmt::format("{}: warning: nothing uses it with the parts that are chosen", *source));
-    }
-  }
-  return lines;
-}
-
-Value Expressions::Resolve(const Value& value) {
-  Value resolved = value;  // shared, until something in it is an expression
-  if (const Value::List* const list = value.list()) {
-    for (std::size_t i = 0; i < list->size(); ++i) {
-      Value item = Resolve((*list)[i]);
-      if (!Unchanged((*list)[i], item)) (*resolved.list())[i] = std::move(item);
-    }
-  } else if (const Value::Map* const map = value.map()) {
-    for (std::size_t i = 0; i < map->size(); ++i) {
-      Value item = Resolve((*map)[i].value);
-      if (!Unchanged((*map)[i].value, item)) (*resolved.map())[i].value = std::move(item);
-    }
-  } else if (HasExpression(value)) {
-    return ResolveText(*value.string(), value.location());
-  }
-  return resolved;
-}
 
 Value Expressions::ResolveText(const std::string& text, const Location& location) {
   std::string result;
@@ -290,10 +177,10 @@ void Expressions::SayNotFinite(const std::string& expression, const std::set<std
                                const Location& location) {
   std::string causes;
   for (const std::string& name : names) {
-    const auto value = resolved_.find(name);
-    if (value == resolved_.end()) continue;
-    causes += fmt::format("; {} is {} ({})", name, value->second.Show(),
-                          value->second.location().ToString());
+    const Parameter* const parameter = Find(name);
+    if (parameter == nullptr || parameter->part == nullptr) continue;
+    const Value& value = parameter->part->resolved;
+    causes += fmt::format("; {} is {} ({})", name, value.Show(), value.location().ToString());
   }
   SayOnce(location, fmt::format("${{{}}}: the result is not finite{}", expression, causes));
 }
@@ -302,7 +189,7 @@ Value Expressions::Arithmetic(const std::string& expression, const Location& loc
   const std::set<std::string> names = NamesIn(expression);
   std::map<std::string, double> numbers;
   for (const std::string& name : names) {
-    if (!written_.contains(name)) continue;
+    if (Find(name) == nullptr) continue;
     const Value* const value = Use(name, location);
     if (value == nullptr) return Value({}, location);
     double number = 0.0;
@@ -338,12 +225,10 @@ Value Expressions::Arithmetic(const std::string& expression, const Location& loc
 
 void Expressions::SayMistake(const std::string& expression, const ArithmeticError& error,
                              const Location& location) {
-  std::vector<std::string> names{"pi", "deg"};
-  for (const auto& entry : written_) names.push_back(entry.first);
   problems_.Add(location, error.unknown.empty()
                               ? fmt::format("${{{}}}: {}", expression, error.what())
                               : fmt::format("${{{}}}: unknown parameter '{}'{}", expression,
-                                            error.unknown, DidYouMean(error.unknown, names)));
+                                            error.unknown, DidYouMean(error.unknown, Names())));
 }
 
 }  // namespace oca::files

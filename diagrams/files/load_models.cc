@@ -65,12 +65,18 @@ Read ReadModel(const std::string& where, const ModelParams& params, const Packag
   };
   options.package_directories = PackageFolders();
   options.xacro_arguments = params.arguments.texts;
-  const robot::RobotModel robot = robot::LoadUrdf(DescriptionOf(params, where), options);
+  const robot::RobotModel robot = robot::LoadUrdf(DescriptionOf(params), options);
   read.model = std::make_shared<const robot::RobotModel>(
       robot::AttachObjects(robot, MakeAttached(params.attached, where, tell)));
   const std::string unseen = robot::DescribeUnseen(*read.model, "visual_as_collision: missing");
   if (!unseen.empty()) tell(fmt::format("{}: {}", where, unseen));
   return read;
+}
+
+template <class Numbers>
+std::string BytesOf(const Numbers& numbers) {
+  return {reinterpret_cast<const char*>(numbers.data()),
+          sizeof(double) * static_cast<std::size_t>(numbers.size())};
 }
 
 /// Tells what ReadModel makes from what else it makes of the same URDF or xacro.
@@ -80,18 +86,15 @@ std::string FormOf(const std::string& where, const ModelParams& params,
       fmt::format("{}\n{}\n{} {}", where, params.srdf, static_cast<int>(params.collision),
                   static_cast<int>(params.visual_as_collision));
   for (const auto* const limits : {&params.acceleration_limits, &params.jerk_limits}) {
-    form += limits->has_value() ? fmt::format("\n{}", fmt::join((*limits)->values(), " ")) : "\n";
+    form += limits->has_value() ? '\n' + BytesOf((*limits)->values()) : "\n";
   }
   for (const AttachedParams& object : params.attached) {
     form += "\n" + JsonOfFields(FieldsOf<AttachedParams>(), &object).dump();
   }
-  for (const auto& [name, folder] : packages) {
-    form += fmt::format("\n{} {}", name, folder.native());
-  }
   for (const auto& [name, text] : params.arguments.texts) {
     form += fmt::format("\n{} {}\n{}", name, text.size(), text);
   }
-  return form;
+  return form + files::FormOf(packages);
 }
 
 }  // namespace
@@ -102,14 +105,13 @@ std::shared_ptr<const robot::RobotModel> LoadModel(const std::string& where,
   using ModelPtr = std::shared_ptr<const robot::RobotModel>;
   const Eigen::Isometry3d X_WB = params.base_pose.Pose(where + ".base_pose");
   const std::string form = FormOf(where, params, packages);
-  const std::string& file = DescriptionOf(params, where);
+  const std::string& file = DescriptionOf(params);
   const auto read =
       models::MakeOnce<Read>(file, form, [&] { return ReadModel(where, params, packages); });
   if (warn) {
     for (const std::string& line : read->lines) warn(line);
   }
-  const std::string pose =
-      fmt::format("\nbase {}", fmt::join(X_WB.data(), X_WB.data() + X_WB.matrix().size(), " "));
+  const std::string pose = "\nbase " + BytesOf(X_WB.matrix());
   return *models::MakeOnce<ModelPtr>(file, form + pose, [&]() -> ModelPtr {
     return std::make_shared<const robot::RobotModel>(read->model->At(X_WB));
   });

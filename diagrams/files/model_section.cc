@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include "oca/diagrams/files/section.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/error.h"
+#include "oca/models/file_cache.h"
 
 namespace oca::files {
 namespace {
@@ -58,7 +61,7 @@ ModelSection::ModelSection(const Value& root, const Given& given, Problems& prob
       Take(entry, same == own.end() ? nullptr : &same->value, given.outer);
     }
   }
-  models_.AddOuter(given.outer.models_);
+  models_.AddOuter(given.outer.models_, given.lets_in);
 }
 
 void ModelSection::ReadPackages(const Value& root) {
@@ -78,36 +81,51 @@ fs::path ModelSection::Resolve(const std::string& name, const Location& location
   return name.empty() ? fs::path() : ResolvePath(name, FolderOf(location), packages_);
 }
 
+/// What comes of an entry of `models`.
+struct ModelSection::Read {
+  Value entry;  // whose FormOf is that of no other while it is here
+  ModelParams params{};
+  std::shared_ptr<const robot::RobotModel> model{};  // null: the entry is wrong
+  Problems problems{};
+  std::vector<std::string> warnings{};
+};
+
+void ModelSection::ReadEntry(const std::string& where, Read& read) const {
+  Problems own;
+  ReadFields(ResolveFiles(read.entry, read.problems), FieldsOf<ModelParams>(), where, &read.params,
+             own);
+  read.problems.Add(own);
+  if (!own.empty()) return;
+  ModelParams& params = read.params;
+  DescriptionOf(params);
+  params.srdf = Resolve(params.srdf, LocationOf(read.entry, "srdf")).string();
+  params.urdf = Resolve(params.urdf, LocationOf(read.entry, "urdf")).string();
+  params.xacro = Resolve(params.xacro, LocationOf(read.entry, "xacro")).string();
+  const Warn warn = [&](const std::string& line) { read.warnings.push_back(line); };
+  read.model = LoadModel(where, params, packages_, warn);
+}
+
 void ModelSection::ReadModel(const Value::Entry& entry, const std::string& full_name) {
   const std::string where = "models." + entry.key;
-  ModelParams params;
-  Problems own;
-  ReadFields(ResolveFiles(entry.value), FieldsOf<ModelParams>(), where, &params, own);
-  if (!own.empty()) {
-    problems_.Add(own);
-    failed_ = true;
-    return;
-  }
+  Read fresh{entry.value};
+  std::shared_ptr<const Read> read;
   try {
-    DescriptionOf(params, where);
-  } catch (const ConfigError& error) {
-    failed_ = true;
-    return problems_.Add(entry.location, error.what());
-  }
-  std::vector<std::string> warnings;
-  try {
-    params.srdf = Resolve(params.srdf, LocationOf(entry.value, "srdf")).string();
-    params.urdf = Resolve(params.urdf, LocationOf(entry.value, "urdf")).string();
-    params.xacro = Resolve(params.xacro, LocationOf(entry.value, "xacro")).string();
-    const Warn warn = [&](const std::string& line) { warnings.push_back(line); };
-    models_.Add(entry.key, LoadModel(where, params, packages_, warn), full_name);
-    sources_[entry.key] = {where, params, packages_};
+    read = models::MakeOnce<Read>("models." + full_name, FormOf(entry.value), [&] {
+      ReadEntry(where, fresh);
+      return fresh;
+    });
+    if (read->model != nullptr) {
+      models_.Add(entry.key, read->model, full_name);
+      sources_[entry.key] = {where, read->params, packages_};
+    }
   } catch (const std::runtime_error& error) {
-    failed_ = true;
-    problems_.Add(entry.location, fmt::format("{}: {}", where, error.what()));
+    fresh.problems.Add(entry.location, fmt::format("{}: {}", where, error.what()));
   }
-  for (const std::string& line : warnings) {
-    warnings_.push_back(fmt::format("{}: warning: {}", entry.location.ToString(), line));
+  const Read& found = read == nullptr ? fresh : *read;
+  failed_ = failed_ || found.model == nullptr;
+  problems_.Add(found.problems);
+  for (const std::string& line : found.warnings) {
+    warnings_.push_back({entry.location, line, Diagnostic::Kind::kWarning});
   }
 }
 
@@ -138,11 +156,21 @@ void ModelSection::Take(const Value::Entry& given, const Value* own, const Model
   }
 }
 
-Value ModelSection::ResolveFiles(const Value& value) {
+std::string ModelSection::FormOf(const Value& entry) const {
+  const Location& at = entry.location();
+  const std::array<std::uintptr_t, 4> numbers{reinterpret_cast<std::uintptr_t>(entry.map()),
+                                              reinterpret_cast<std::uintptr_t>(at.file.get()),
+                                              static_cast<std::uintptr_t>(at.line),
+                                              static_cast<std::uintptr_t>(at.column)};
+  std::string form = files::FormOf(packages_);
+  return form.append(reinterpret_cast<const char*>(numbers.data()), sizeof numbers);
+}
+
+Value ModelSection::ResolveFiles(const Value& value, Problems& problems) const {
   Value resolved = value;  // shared, until a file is named in it
   if (const Value::List* const list = value.list()) {
     for (std::size_t i = 0; i < list->size(); ++i) {
-      Value item = ResolveFiles((*list)[i]);
+      Value item = ResolveFiles((*list)[i], problems);
       if (IsOther(item, (*list)[i])) (*resolved.list())[i] = std::move(item);
     }
   } else if (const Value::Map* const map = value.map()) {
@@ -150,21 +178,21 @@ Value ModelSection::ResolveFiles(const Value& value) {
       const Value::Entry& entry = (*map)[i];
       if (entry.key == "arguments") continue;  // what they mean the xacro file knows
       if (entry.key == "file" && entry.value.string() != nullptr) {
-        (*resolved.map())[i].value = ResolveName(entry.value);
+        (*resolved.map())[i].value = ResolveName(entry.value, problems);
         continue;
       }
-      Value inner = ResolveFiles(entry.value);
+      Value inner = ResolveFiles(entry.value, problems);
       if (IsOther(inner, entry.value)) (*resolved.map())[i].value = std::move(inner);
     }
   }
   return resolved;
 }
 
-Value ModelSection::ResolveName(const Value& name) {
+Value ModelSection::ResolveName(const Value& name, Problems& problems) const {
   try {
     return Value(Resolve(*name.string(), name.location()).string(), name.location());
   } catch (const ConfigError& error) {
-    problems_.Add(name.location(), error.what());
+    problems.Add(name.location(), error.what());
     return name;
   }
 }

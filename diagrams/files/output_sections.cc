@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <memory>
 #include <optional>
 
 #include "oca/diagrams/files/section.h"
@@ -59,8 +60,11 @@ void ReadSignal(const Value::Entry& entry, const NamedOutputs& outputs, const Na
                                    [&](const auto& other) { return other.name == name; });
     if (period && !taken) record.push_back({name, output, *period});
   };
+  const bool pattern = entry.key.find_first_of("*?[\\") != std::string::npos;
   for (const auto& [name, output] : outputs) {
-    if (fnmatch(entry.key.c_str(), name.c_str(), 0) == 0) keep(name, output);
+    const bool fits =
+        pattern ? fnmatch(entry.key.c_str(), name.c_str(), 0) == 0 : name == entry.key;
+    if (fits) keep(name, output);
   }
   if (const OutputHandle* const other = FindByName(others, entry.key)) keep(entry.key, *other);
   if (!matched) {
@@ -77,10 +81,10 @@ std::vector<std::string> ReadMembers(const SignalType& type) {
 }
 
 /// The same, looked at once while a cache is in use.
-std::vector<std::string> MembersOf(const SignalType& type) {
+std::shared_ptr<const std::vector<std::string>> MembersOf(const SignalType& type) {
   const std::string key = fmt::format("signal {}", fmt::ptr(&type));
-  return *models::ReadOnce<std::vector<std::string>>(key, "members",
-                                                     [&] { return ReadMembers(type); });
+  return models::ReadOnce<std::vector<std::string>>(key, "members",
+                                                    [&] { return ReadMembers(type); });
 }
 
 /// Reads one entry of `expect`.
@@ -190,9 +194,10 @@ class ExpectationReader {
   bool CheckMember() {
     const SignalType& type = TypeOfPort(result_.output);
     const auto members = MembersOf(type);
-    const bool found = std::find(members.begin(), members.end(), result_.member) != members.end();
+    const bool found =
+        std::find(members->begin(), members->end(), result_.member) != members->end();
     return found || Fail(fmt::format(": {} has no number '{}'{}", type.name, result_.member,
-                                     DidYouMean(result_.member, members)));
+                                     DidYouMean(result_.member, *members)));
   }
 
   const Value::Entry& entry_;

@@ -2,7 +2,6 @@
 #include "oca/diagrams/files/override.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -71,15 +70,15 @@ class Path {
       return nullptr;
     }
     // A key may hold dots itself: the longest that fits.
+    std::string key = keys_[depth_];
+    for (std::size_t i = depth_ + 1; i < keys_.size(); ++i) key += "." + keys_[i];
     for (std::size_t end = keys_.size(); end > depth_; --end) {
-      const std::string key =
-          fmt::format("{}", fmt::join(keys_.begin() + static_cast<std::ptrdiff_t>(depth_),
-                                      keys_.begin() + static_cast<std::ptrdiff_t>(end), "."));
       for (Value::Entry& entry : *map) {
         if (entry.key != key) continue;
         depth_ = end;
         return &entry.value;
       }
+      key.resize(key.size() - std::min(key.size(), keys_[end - 1].size() + 1));
     }
     return MayBeMade(parent) ? Make(*map) : nullptr;
   }

@@ -19,6 +19,12 @@ namespace oca::files {
 
 namespace fs = std::filesystem;
 
+std::string FormOf(const PackageMap& packages) {
+  std::string form;
+  for (const auto& [name, folder] : packages) form += '\n' + name + ' ' + folder.native();
+  return form;
+}
+
 std::vector<fs::path> PackageFolders() {
   std::vector<fs::path> folders;
   if (const char* const list = std::getenv("OCA_PACKAGE_PATH")) {

@@ -11,6 +11,9 @@ namespace oca::files {
 /// Folders of packages, by name.
 using PackageMap = std::map<std::string, std::filesystem::path>;
 
+/// A text that tells the folders from others.
+std::string FormOf(const PackageMap& packages);
+
 /// Folders that hold packages when a file does not say: OCA_PACKAGE_PATH, then the robots and
 /// worlds that come with OCA.
 std::vector<std::filesystem::path> PackageFolders();

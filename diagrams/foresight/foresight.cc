@@ -6,6 +6,7 @@
 
 #include "oca/diagrams/foresight/links_ahead.h"
 #include "oca/diagrams/foresight/obstacles_ahead.h"
+#include "oca/diagrams/foresight/sources_of.h"
 #include "oca/framework/dataflow/dynamic_port.h"
 #include "oca/framework/dataflow/error.h"
 
@@ -65,16 +66,24 @@ const Judges& Foresight::FindJudge(const systems::ModelSet& models, const std::s
 }
 
 void Foresight::FindDistances(const Judges& judge) {
-  const auto proximities = DriverOf(judge.proximities);
-  distances_ = proximities ? proximities->system->role<MeasuresDistances>() : nullptr;
-  if (distances_ == nullptr) {
+  auto measured = SourcesOf(diagram_, judge.proximities, [](const System& system) {
+    return system.role<MeasuresDistances>() != nullptr;
+  });
+  if (measured.size() != 1) {
+    if (const auto driver = DriverOf(judge.proximities); measured.empty() && driver) {
+      measured.push_back(*driver);
+    }
+    std::vector<std::string> got;
+    for (const OutputHandle& one : measured) {
+      got.push_back(fmt::format("'{}'", diagram_.PathOf(*one.system)));
+    }
     throw ConfigError(fmt::format(
         "{}.proximities: driver; got {}; expected a system that measures distances and says what "
         "there is to see",
-        judge_,
-        proximities ? fmt::format("'{}'", diagram_.PathOf(*proximities->system)) : "nothing"));
+        judge_, got.empty() ? "nothing" : fmt::format("{}", fmt::join(got, " and "))));
   }
-  distance_ = diagram_.PathOf(*proximities->system);
+  distances_ = measured[0].system->role<MeasuresDistances>();
+  distance_ = diagram_.PathOf(*measured[0].system);
   if (distances_->model != name_) {
     throw ConfigError(fmt::format("{}.model: got '{}'; expected '{}', which {} judges", distance_,
                                   distances_->model, name_, judge_));

@@ -20,8 +20,8 @@ namespace oca::foresight {
 /// What a diagram says beforehand about one robot, for all times from 0 to a duration: what is
 /// requested of it, and everything that the distance block sees by which a run is judged.
 ///
-/// - judge: the system that Judges the model, and the one that MeasuresDistances for it and drives
-///   its `proximities`
+/// - judge: the system that Judges the model, and the one that MeasuresDistances for it, from which
+///   its `proximities` come
 /// - request: the nearest system up the line from the judge's `request` that knows it ahead
 /// - start: where the judge's `position` is at time 0
 /// - obstacles: what drives the distance block's `obstacles`, at every time; a HoldsObstacles

@@ -47,6 +47,12 @@ Value::List ObstaclesOf(const Value::Map& systems, const files::Catalogue& catal
   return sources;
 }
 
+/// Whether a parameter of a system is a goal with a clearance from nobody knows what.
+bool Asks(const Value::Entry& field) {
+  return field.key == "goal" && field.value.Find("clearance") != nullptr &&
+         field.value.Find("around") == nullptr;
+}
+
 /// `params` with its files found by the packages of the tree.
 Value Resolved(const Value& root, Value params, Problems& problems) {
   Value::Map packages;
@@ -54,7 +60,7 @@ Value Resolved(const Value& root, Value params, Problems& problems) {
     packages.push_back({"packages", section->location(), *section});
   }
   return files::ModelSection(Value(std::move(packages), root.location()), problems)
-      .ResolveFiles(params);
+      .ResolveFiles(params, problems);
 }
 
 }  // namespace
@@ -98,10 +104,13 @@ std::unique_ptr<Diagram> MakeTreeSource(const Value& root, const std::string& na
   return nullptr;
 }
 
+bool AsksForObstacles(const Value::Map& params) {
+  return std::any_of(params.begin(), params.end(), Asks);
+}
+
 void TellGoal(const Value::Map& systems, const files::Catalogue& catalogue, Value::Map& params) {
   for (Value::Entry& field : params) {
-    const bool goal = field.key == "goal" && field.value.Find("clearance") != nullptr;
-    if (!goal || field.value.Find("around") != nullptr) continue;
+    if (!Asks(field)) continue;
     field.value.map()->push_back(
         {"around", field.location, {ObstaclesOf(systems, catalogue), field.location}});
   }

@@ -25,6 +25,9 @@ std::unique_ptr<Diagram> MakeTreeSource(const Value& root, const std::string& na
                                         const systems::ModelSet& models,
                                         const files::Catalogue& catalogue, Problems& problems);
 
+/// Whether TellGoal has something to tell.
+bool AsksForObstacles(const Value::Map& params);
+
 /// Tells a goal with a clearance (systems::PoseGoalParams) in the parameters of a system what to
 /// keep clear of: its `around` becomes the parameters of all in `systems`, a section of that name,
 /// that say where obstacles are (CatalogueRow::says_obstacles). Parameters without one, and a goal

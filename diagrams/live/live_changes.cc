@@ -115,8 +115,8 @@ std::optional<Eigen::Vector3d> LiveChanges::MoveOf(const LiveParameter& change) 
   const auto* const position = std::get_if<std::vector<double>>(&change.value);
   if (position == nullptr) return std::nullopt;
   const auto& inputs = loaded_->diagram->exported_inputs();
-  for (const auto& [id, standing] : StandingObstacles(*loaded_)) {
-    if (change.name != PositionName(id)) continue;
+  for (const auto& [name, standing] : StandingObstacles(*loaded_)) {
+    if (change.name != name) continue;
     const bool exported =
         std::any_of(inputs.begin(), inputs.end(),
                     [&input = standing.input](const auto& one) { return one.name == input; });
@@ -155,14 +155,14 @@ void LiveChanges::Place(const Moves& moves, const LoadedDiagram& loaded, Context
     const int size = loaded.diagram->SizeOf(loaded.diagram->FindInput(input.name));
     offsets[input.name] = Eigen::VectorXd::Zero(size);
   }
-  for (const auto& [id, standing] : StandingObstacles(loaded)) {
-    const auto move = moves.find(PositionName(id));
+  for (const auto& [name, standing] : StandingObstacles(loaded)) {
+    const auto move = moves.find(name);
     const auto offset = offsets.find(standing.input);
     if (move == moves.end() || offset == offsets.end()) continue;
     offset->second.segment<3>(static_cast<Eigen::Index>(standing.first)) = move->second;
   }
-  for (const auto& [name, offset] : offsets) {
-    loaded.diagram->GetInput<Vector>(name).Fix(context, offset);
+  for (const auto& [input, offset] : offsets) {
+    loaded.diagram->GetInput<Vector>(input).Fix(context, offset);
   }
 }
 

@@ -116,8 +116,6 @@ record::McapTexts RangesOf(const LoadedDiagram& loaded) {
   return texts;
 }
 
-std::string PositionName(const std::string& id) { return "obstacles." + id + ".position"; }
-
 std::vector<std::pair<std::string, Standing>> StandingObstacles(const LoadedDiagram& loaded) {
   std::vector<std::pair<std::string, Standing>> found;
   const Diagram& diagram = *loaded.diagram;
@@ -125,7 +123,7 @@ std::vector<std::pair<std::string, Standing>> StandingObstacles(const LoadedDiag
     const bool movable = holds->offsets.system != nullptr;
     for (const auto& standing : holds->standing) {
       found.emplace_back(
-          standing.id,
+          fmt::format("{}.{}.position", path, standing.id),
           Standing{loading::OverridePath(path) + "." + standing.parameter, standing.position,
                    movable ? loading::ExportedName(diagram.PathOf(holds->offsets)) : "",
                    static_cast<std::size_t>(standing.first)});
@@ -147,21 +145,21 @@ std::vector<LiveParameter> LiveParametersOf(const LoadedDiagram& loaded) {
       }
     }
   }
-  for (const auto& [id, standing] : StandingObstacles(loaded)) {
-    parameters.push_back({PositionName(id), standing.position});
+  for (const auto& [name, standing] : StandingObstacles(loaded)) {
+    parameters.push_back({name, standing.position});
   }
   return parameters;
 }
 
 Override OverrideOf(const LoadedDiagram& loaded, const LiveParameter& change) {
-  for (const auto& [id, standing] : StandingObstacles(loaded)) {
-    if (change.name == PositionName(id)) return {standing.path, Yaml(change.value)};
+  for (const auto& [name, standing] : StandingObstacles(loaded)) {
+    if (change.name == name) return {standing.path, Yaml(change.value)};
   }
   const Value* const section = loaded.document.Find("parameters");
   if (section == nullptr || section->Find(change.name) == nullptr) {
     throw ConfigError(
         fmt::format("live: parameter; got '{}'; expected one of the diagram's, or "
-                    "obstacles.ID.position",
+                    "PATH.ID.position of an obstacle that stands",
                     change.name));
   }
   return {"parameters." + change.name, Yaml(change.value)};

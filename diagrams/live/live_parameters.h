@@ -20,15 +20,14 @@ struct Standing {
   std::size_t first;             ///< of its three numbers there
 };
 
-/// Those of a diagram by their ids.
+/// Those of a diagram by the names of the parameters that say where they are: `PATH.ID.position`,
+/// PATH being that of the block which holds the obstacle.
 std::vector<std::pair<std::string, Standing>> StandingObstacles(
     const loading::LoadedDiagram& loaded);
-/// The parameter that says where an obstacle is: `obstacles.ID.position`.
-std::string PositionName(const std::string& id);
 
 /// What a user may change in a diagram while it runs: the numbers and switches of its section
-/// `parameters` by name, and the position (m, world) of each obstacle that stands still as
-/// `obstacles.ID.position`.
+/// `parameters` by name, and the position (m, world) of each obstacle that stands still, as
+/// `left.obstacles.box.position`.
 std::vector<LiveParameter> LiveParametersOf(const loading::LoadedDiagram& loaded);
 /// How far parameters may go, by name, as `[lower, upper]` in JSON with null for no bound: as far
 /// as the fields of systems that are set to `${name}` and nothing else.

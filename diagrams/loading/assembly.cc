@@ -15,6 +15,7 @@ namespace oca::loading {
 Assembly::Assembly(const Value& root, const Level& level, const SystemSources& sources,
                    Construction& construction, DiagramBuilder& builder, Problems& problems)
     : root_(root),
+      level_(level),
       construction_(construction),
       builder_(builder),
       problems_(problems),
@@ -40,18 +41,17 @@ void Assembly::ExportOffsets() {
 
 std::unique_ptr<Diagram> Assembly::Build(bool movable) {
   std::unique_ptr<Diagram> diagram;
-  const auto add = [&](const std::string& problem) {
-    construction_.AddWiringProblem(problem, root_.location(), problems_);
-  };
   try {
     if (!construction_.part.whole()) ExportOutputs();
     if (movable) ExportOffsets();
     diagram = builder_.Build();
     diagram->schedule().CheckStart(diagram->MakeContext(), false);
   } catch (const SimulationError& error) {  // a state starts where it cannot be
-    construction_.AddProblemOf(error.system, error.what(), problems_);
+    construction_.AddStartProblem(error, problems_);
   } catch (const WiringError& error) {
-    for (const std::string& problem : error.problems) add(problem);
+    for (const WiringProblem& problem : error.problems) {
+      construction_.AddWiringProblem(problem, root_.location(), problems_);
+    }
   }
   return diagram;
 }
@@ -65,7 +65,7 @@ files::NamedOutputs Assembly::Metrics() {
       Typed<systems::MotionMetricsValue>(judges->metrics);
       metrics.emplace_back(name, judges->metrics);
     } catch (const WiringError& error) {
-      construction_.AddProblemOf(name, fmt::format("systems.{}: judge: {}", name, error.what()),
+      construction_.AddProblemOf(level_.Full(name), fmt::format("judge: {}", error.what()),
                                  problems_);
     }
   }

@@ -36,6 +36,7 @@ class Assembly {
   void ExportOffsets();
 
   const Value& root_;
+  const Level& level_;
   Construction& construction_;
   DiagramBuilder& builder_;
   Problems& problems_;

@@ -31,12 +31,10 @@ namespace fs = std::filesystem;
 class Loader {
  public:
   Loader(const fs::path& file, const std::vector<files::Override>& overrides,
-         const files::Catalogue& catalogue, const Part& part)
-      : file_(file), part_(part), construction_(part, catalogue, builder_) {
+         const files::Catalogue& catalogue, EarlierResolutions& earlier, const Part& part)
+      : file_(file), part_(part), construction_(part, catalogue, earlier, builder_) {
     loaded_.file = file.string();
     loaded_.overrides = overrides;
-    std::error_code ignored;
-    level_.files.push_back(fs::weakly_canonical(file, ignored));
   }
 
   LoadedDiagram Load(bool movable) {
@@ -44,7 +42,7 @@ class Loader {
     loaded_.name = file_.stem().string();
     ReadRun(root(), loaded_, problems_);
     files::ModelSection models(root(), problems_);
-    for (const std::string& line : models.warnings()) construction_.warnings.Add("", line);
+    for (const Diagnostic& warning : models.warnings()) construction_.warnings.Add("", warning);
     const SystemSources sources{models, inner_overrides_};
     Assembly assembly(root(), level_, sources, construction_, builder_, problems_);
     loaded_.models = models.models();
@@ -59,7 +57,9 @@ class Loader {
     loaded_.opened = opened_.files();
     if (part_.whole()) ReadOutputs(root(), level_, assembly, {}, problems_);
     Throw();
-    loaded_.warnings = construction_.warnings.Lines();
+    for (const Diagnostic& warning : construction_.warnings.all()) {
+      loaded_.warnings.push_back(warning.ToString());
+    }
     return std::move(loaded_);
   }
 
@@ -67,20 +67,22 @@ class Loader {
   const Value& root() const { return loaded_.resolved; }
 
   void Throw() {
-    for (std::string& line : construction_.problems.Lines()) problems_.AddLine(std::move(line));
+    for (const Diagnostic& problem : construction_.problems.all()) {
+      problems_.Add(problem.location, problem.what);
+    }
     problems_.Throw();
   }
 
   void ReadDocument() {
-    ResolvedDocument read =
-        ReadResolved(file_, loaded_.overrides, construction_.catalogue, problems_);
-    loaded_.sources = std::move(read.sources.files);
-    loaded_.candidates = std::move(read.sources.candidates);
+    ResolvedDocument read = ReadResolved(file_, loaded_.overrides, construction_, problems_);
+    level_.files.push_back(read.sources->files.front());
+    loaded_.sources = read.sources->files;
+    loaded_.candidates = read.sources->candidates;
     loaded_.document = std::move(read.document);
     loaded_.scenario = std::move(read.scenario);
     loaded_.resolved = std::move(read.root);
     inner_overrides_ = std::move(read.inner_overrides);
-    for (const std::string& line : read.warnings) construction_.warnings.Add("", line);
+    for (const Diagnostic& warning : read.warnings) construction_.warnings.Add("", warning);
   }
 
   /// What a file says of the run: its name and how it is simulated.
@@ -115,8 +117,8 @@ class Loader {
   void KeepUsedFiles(const SystemSection& systems) {
     for (const auto& used : systems.used_files()) {
       const ResolvedDocument& read = used->document();
-      AddNew(read.sources.files, loaded_.sources);
-      AddNew(read.sources.candidates, loaded_.candidates);
+      AddNew(read.sources->files, loaded_.sources);
+      AddNew(read.sources->candidates, loaded_.candidates);
       loaded_.models.AddInner(used->models());
       loaded_.used_files.push_back(
           {used->level().path, used->file(), read.document, read.root, *used->given().map()});
@@ -125,8 +127,11 @@ class Loader {
   }
 
   static void AddNew(const std::vector<fs::path>& files, std::vector<fs::path>& all) {
-    for (const fs::path& file : files) {
-      if (std::find(all.begin(), all.end(), file) == all.end()) all.push_back(file);
+    for (const fs::path& file : files) {  // as texts: paths compare part by part
+      const bool there = std::any_of(all.begin(), all.end(), [&](const fs::path& other) {
+        return other.native() == file.native();
+      });
+      if (!there) all.push_back(file);
     }
   }
 
@@ -216,10 +221,10 @@ class Loader {
                          double at) {
     construction_.warnings.Add(
         level.path,
-        fmt::format("{}: warning: expect.{}.at: got {} s, after the run, which ends at {} s: it is "
-                    "not checked",
-                    root.Find("expect")->Find(name)->location().ToString(), name, at,
-                    loaded_.simulator.duration));
+        {root.Find("expect")->Find(name)->location(),
+         fmt::format("expect.{}.at: got {} s, after the run, which ends at {} s: it is not checked",
+                     name, at, loaded_.simulator.duration),
+         Diagnostic::Kind::kWarning});
   }
 
   template <class Named>
@@ -255,7 +260,8 @@ class Loader {
 Blueprint::Blueprint(fs::path file, files::Catalogue catalogue)
     : file_(std::move(file)),
       catalogue_(std::move(catalogue)),
-      read_(std::make_shared<models::FileCache>()) {}
+      read_(std::make_shared<models::FileCache>()),
+      earlier_(std::make_shared<EarlierResolutions>()) {}
 
 LoadedDiagram Blueprint::Build(const std::vector<files::Override>& overrides,
                                const BuildOptions& options) const {
@@ -264,7 +270,7 @@ LoadedDiagram Blueprint::Build(const std::vector<files::Override>& overrides,
   }
   const models::FileCache::Use use(*read_);
   const Part part(options.part.value_or(std::vector<std::string>{}));
-  return Loader(file_, overrides, catalogue_, part).Load(options.movable);
+  return Loader(file_, overrides, catalogue_, *earlier_, part).Load(options.movable);
 }
 
 }  // namespace oca::loading

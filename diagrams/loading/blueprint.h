@@ -17,6 +17,8 @@ class FileCache;
 
 namespace oca::loading {
 
+class EarlierResolutions;
+
 /// Which diagram is to be built of a file, beside its parameters.
 struct BuildOptions {
   /// The named systems alone, by path, and all in a used file that is named, for a program that
@@ -43,11 +45,13 @@ struct BuildOptions {
 /// Blueprint holds it as it was read, whatever becomes of it on disk, and the Builds that follow
 /// share what was made of it, all of it immutable: the text of diagram files, robots, hulls and
 /// other convex parts of meshes, clouds, maps, tables of points. So a Build reads only what its
-/// overrides bring in: another file, or a mesh at another scale. A robot is made again, of what was
-/// read, if its entry under `models` is another; if only its base_pose is, it is placed again.
+/// overrides bring in: another file, or a mesh at another scale. An entry of the file whose
+/// expressions use no parameter that has changed since the last Build is not looked into again.
+/// A robot is made again, of what was read, if its entry under `models` is another; if only its
+/// base_pose is, it is placed again.
 ///
-/// Copies share what was read. What a Build gives, and what it refuses, is what LoadDiagram would: problems with their places,
-/// warnings, files, drawn scenario and every number.
+/// Copies share what was read. What a Build gives, and what it refuses, is what LoadDiagram would:
+/// problems with their places, warnings, files, drawn scenario and every number.
 class Blueprint {
  public:
   /// `catalogue` has the types of its systems.
@@ -66,6 +70,7 @@ class Blueprint {
   std::filesystem::path file_;
   files::Catalogue catalogue_;
   std::shared_ptr<models::FileCache> read_;
+  std::shared_ptr<EarlierResolutions> earlier_;
 };
 
 }  // namespace oca::loading

@@ -23,32 +23,41 @@ std::size_t PlaceAt(std::string_view pattern) {
   return close == std::string_view::npos || close == 1 ? 0 : close + 1;
 }
 
+/// What a pattern begins with before its next place.
+std::string_view LiteralOf(std::string_view pattern) {
+  if (PlaceAt(pattern) > 0) return {};
+  return pattern.substr(0, pattern.find('<', 1));
+}
+
 /// Calls found() with each way in which names make the pattern the text.
 void Match(std::string_view pattern, std::string_view text, Names& names,
            const std::function<void()>& found) {
   const std::size_t place = PlaceAt(pattern);
   if (place == 0) {
+    const std::string_view literal = LiteralOf(pattern);
     if (pattern.empty()) {
       if (text.empty()) found();
-    } else if (!text.empty() && pattern.front() == text.front()) {
-      Match(pattern.substr(1), text.substr(1), names, found);
+    } else if (text.starts_with(literal)) {
+      Match(pattern.substr(literal.size()), text.substr(literal.size()), names, found);
     }
     return;
   }
   const std::string key(pattern.substr(0, place));
+  const std::string_view rest = pattern.substr(place);
   if (const auto known = names.find(key); known != names.end()) {
     if (text.starts_with(known->second)) {
-      Match(pattern.substr(place), text.substr(known->second.size()), names, found);
+      Match(rest, text.substr(known->second.size()), names, found);
     }
     return;
   }
   for (std::size_t end = 1; end <= text.size() && IsNameCharacter(text[end - 1]); ++end) {
+    if (!text.substr(end).starts_with(LiteralOf(rest))) continue;
     const std::string name(text.substr(0, end));
     const bool taken = std::any_of(names.begin(), names.end(),
                                    [&](const auto& other) { return other.second == name; });
     if (taken) continue;
     names[key] = name;
-    Match(pattern.substr(place), text.substr(end), names, found);
+    Match(rest, text.substr(end), names, found);
     names.erase(key);
   }
 }
@@ -72,13 +81,14 @@ std::string Filled(std::string_view pattern, const Names& names) {
 }  // namespace
 
 bool IsPattern(const std::string& port) {
-  for (std::size_t i = 0; i < port.size(); ++i) {
+  for (std::size_t i = port.find('<'); i < port.size(); i = port.find('<', i + 1)) {
     if (PlaceAt(std::string_view(port).substr(i)) > 0) return true;
   }
   return false;
 }
 
 bool IsAmbiguous(const std::string& port) {
+  if (port.find('<') == std::string::npos) return false;  // as most
   bool separated = true;
   for (std::string_view rest = port; !rest.empty();) {
     const std::size_t place = PlaceAt(rest);

@@ -2,14 +2,15 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace oca::loading {
 
 /// What ports of a file itself begin with in connections.
-inline constexpr const char* kInputs = "inputs.";
-inline constexpr const char* kOutputs = "outputs.";
+inline constexpr std::string_view kInputs = "inputs.";
+inline constexpr std::string_view kOutputs = "outputs.";
 
 /// Whether a port has a place for a name in it, `<arm>.links`.
 bool IsPattern(const std::string& port);

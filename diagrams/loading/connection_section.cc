@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "oca/diagrams/loading/connection_pattern.h"
 #include "oca/diagrams/loading/loaded_diagram.h"
 #include "oca/framework/dataflow/dynamic_port.h"
@@ -12,11 +14,37 @@ namespace oca::loading {
 namespace {
 
 /// The name behind `inputs.` or `outputs.`; empty if the path is another.
-std::string NameBehind(const std::string& ports, const std::string& path) {
-  return path.starts_with(ports) ? path.substr(ports.size()) : "";
+std::string NameBehind(std::string_view ports, const std::string& path) {
+  return path.starts_with(ports) ? path.substr(ports.size()) : std::string();
+}
+
+std::string Trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t");
+  const auto last = text.find_last_not_of(" \t");
+  if (first == std::string_view::npos) return "";
+  return std::string(text.substr(first, last - first + 1));
+}
+
+/// Whether the name of a port is this one, or a pattern that begins as this one does.
+bool CanStandFor(const std::string& port, const std::string& name) {
+  return port == name || (IsPattern(port) && name.starts_with(port.substr(0, port.find('<'))));
 }
 
 }  // namespace
+
+bool TakesIn(const Value& root, const std::string& input) {
+  const Value* const value = root.Find("connections");
+  if (value == nullptr || value->list() == nullptr) return false;
+  return std::any_of(value->list()->begin(), value->list()->end(), [&](const Value& item) {
+    const std::string* const text = item.string();
+    const std::size_t arrow = text == nullptr ? std::string::npos : text->find("->");
+    if (arrow == std::string::npos) return false;
+    const std::string from = NameBehind(kInputs, Trimmed(text->substr(0, arrow)));
+    const std::string to = Trimmed(text->substr(arrow + 2));
+    return !from.empty() &&
+           (CanStandFor(from, input) || CanStandFor(to.substr(to.rfind('.') + 1), input));
+  });
+}
 
 ConnectionSection::ConnectionSection(const Value& root, const Level& level,
                                      const SystemSection& systems, Construction& construction,
@@ -47,7 +75,7 @@ void ConnectionSection::CheckShownInputs() {
       if (own == construction_.connections.end()) continue;
       problems_.Add(own->second.location,
                     fmt::format("{}: two drivers; got this and inputs.{}; expected one",
-                                target.path.substr(level_.path.size() + 1), name));
+                                PathIn(level_.path, target.path), name));
     }
   }
 }
@@ -63,8 +91,8 @@ void ConnectionSection::Read(const Value& item) {
     return;
   }
   const Location& location = item.location();
-  const std::string from = ReadPort(text->substr(0, arrow), location);
-  const std::string to = ReadPort(text->substr(arrow + 2), location);
+  const std::string from = ReadPort(std::string_view(*text).substr(0, arrow), location);
+  const std::string to = ReadPort(std::string_view(*text).substr(arrow + 2), location);
   if (from.empty() || to.empty()) return;
   if (!IsPattern(from) && !IsPattern(to)) return Connect(from, to, location);
   const auto all = MatchConnections(from, to, systems_.OutputNames(), systems_.InputNames());
@@ -72,16 +100,15 @@ void ConnectionSection::Read(const Value& item) {
   const bool shows_what_is_there = from.starts_with(kInputs) && IsPattern(from);
   if (all.empty() && !shows_what_is_there) {
     construction_.warnings.Add(
-        level_.path, fmt::format("{}: warning: connections: {} -> {}: no ports have such names",
-                                 location.ToString(), from, to));
+        level_.path,
+        {location, fmt::format("connections: {} -> {}: no ports have such names", from, to),
+         Diagnostic::Kind::kWarning});
   }
 }
 
 /// `system.port`; empty, with a problem, if it is something else.
-std::string ConnectionSection::ReadPort(const std::string& text, const Location& location) {
-  const auto first = text.find_first_not_of(" \t");
-  const auto last = text.find_last_not_of(" \t");
-  const std::string port = first == std::string::npos ? "" : text.substr(first, last - first + 1);
+std::string ConnectionSection::ReadPort(std::string_view text, const Location& location) {
+  std::string port = Trimmed(text);
   const std::size_t dot = port.find('.');
   const bool port_of_system = dot != std::string::npos && dot != 0 && port.back() != '.';
   if (port_of_system && !IsAmbiguous(port)) return port;
@@ -93,7 +120,7 @@ std::string ConnectionSection::ReadPort(const std::string& text, const Location&
 
 void ConnectionSection::Connect(const std::string& from, const std::string& to,
                                 const Location& location) {
-  if (!made_.emplace(from, to).second) return;
+  if (!made_.insert(from + " -> " + to).second) return;
   const std::string input = NameBehind(kInputs, from);
   const std::string output = NameBehind(kOutputs, to);
   try {
@@ -137,7 +164,8 @@ void ConnectionSection::ShowOutput(const std::string& from, const std::string& n
   if (!fresh) {
     problems_.Add(location, fmt::format("connections: outputs.{}: two drivers; got {} and {}; "
                                         "expected one",
-                                        name, shown->second.path, output->path));
+                                        name, PathIn(level_.path, shown->second.path),
+                                        PathIn(level_.path, output->path)));
   } else if (level_.path.empty() && construction_.part.whole()) {
     builder_.ExportOutput(name, output->handle);
   }
@@ -165,8 +193,9 @@ void ConnectionSection::Import(const OutputAt& from, const InputAt& to, const Lo
     problems_.Add(location, fmt::format("part: {} and {} would both become the input {}",
                                         imported->second, from.path, name));
   } else if (&got != &expected) {
-    problems_.Add(location, fmt::format("{} -> {}: type; got {}; expected {}", from.path, to.path,
-                                        got.name, expected.name));
+    problems_.Add(location,
+                  fmt::format("{} -> {}: type; got {}; expected {}", PathIn(level_.path, from.path),
+                              PathIn(level_.path, to.path), got.name, expected.name));
   } else {
     construction_.root.ExportInput(name, to.handle);
   }

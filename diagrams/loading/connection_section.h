@@ -2,9 +2,9 @@
 #pragma once
 
 #include <map>
-#include <set>
 #include <string>
-#include <utility>
+#include <string_view>
+#include <unordered_set>
 #include <vector>
 
 #include "oca/diagrams/loading/construction.h"
@@ -13,6 +13,10 @@
 #include "oca/framework/dataflow/value.h"
 
 namespace oca::loading {
+
+/// Whether the connections of a file take in what is for an input of this name: one leads from
+/// `inputs.` to it, from the port of the file of this name, or from or to a pattern that can stand for it.
+bool TakesIn(const Value& root, const std::string& input);
 
 /// Section `connections` of a diagram file: connects the systems of the part in the builder, and
 /// exports what comes from outside of it, under the name of the output there.
@@ -33,7 +37,7 @@ class ConnectionSection {
  private:
   void Read(const Value& item);
   void CheckShownInputs();
-  std::string ReadPort(const std::string& text, const Location& location);
+  std::string ReadPort(std::string_view text, const Location& location);
   void Connect(const std::string& from, const std::string& to, const Location& location);
   void ShowInput(const std::string& name, const std::string& to, const Location& location);
   void ShowOutput(const std::string& from, const std::string& name, const Location& location);
@@ -45,7 +49,7 @@ class ConnectionSection {
   Construction& construction_;
   DiagramBuilder& builder_;
   Problems& problems_;
-  std::set<std::pair<std::string, std::string>> made_;
+  std::unordered_set<std::string> made_;  ///< `from -> to`
   std::map<std::string, OutputAt> outputs_;
   std::map<std::string, std::vector<InputAt>> inputs_;
 };

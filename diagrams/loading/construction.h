@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "oca/diagrams/files/catalogue.h"
+#include "oca/diagrams/loading/earlier_resolutions.h"
 #include "oca/diagrams/loading/part.h"
 #include "oca/diagrams/loading/told_once.h"
 #include "oca/framework/dataflow/diagram.h"
+#include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/value.h"
 
 namespace oca::loading {
@@ -33,11 +35,13 @@ struct Place {
 /// What the file that is built and all those that it uses share on the way to a diagram.
 class Construction {
  public:
-  Construction(const Part& only, const files::Catalogue& types, DiagramBuilder& builder)
-      : part(only), catalogue(types), root(builder) {}
+  Construction(const Part& only, const files::Catalogue& types, EarlierResolutions& resolved,
+               DiagramBuilder& builder)
+      : part(only), catalogue(types), earlier(resolved), root(builder) {}
 
   const Part& part;
   const files::Catalogue& catalogue;
+  EarlierResolutions& earlier;
   DiagramBuilder& root;  ///< of the diagram as a whole
 
   std::map<std::string, std::string> imports{};  ///< inputs of a part: the outputs they stand for
@@ -54,14 +58,18 @@ class Construction {
   ToldOnce warnings{};  ///< of all files
   int uses{0};          ///< how many files are used
 
-  /// A problem of the wiring lies at its connection, else at its system, else at `otherwise`.
-  void AddWiringProblem(const std::string& problem, const Location& otherwise, Problems& into);
-  /// Of a system that could be made, by its path.
+  /// A problem of the wiring lies at its connection, else at its system, else at `otherwise`. It
+  /// is told with ports as the file there names them.
+  void AddWiringProblem(const WiringProblem& problem, const Location& otherwise, Problems& into);
+  /// A state that starts where it cannot be.
+  void AddStartProblem(const SimulationError& error, Problems& into);
+  /// `what` of a system that could be made, by its path.
   void AddProblemOf(const std::string& system, const std::string& what, Problems& into);
 
  private:
-  /// The connection of an algebraic loop that is in the outermost file; the first of these.
-  const Place* PlaceOfLoop(const std::string& problem) const;
+  /// The connection that is in the outermost file, the first of these on an algebraic loop; nullptr
+  /// if no file makes one.
+  const Place* PlaceOfConnection(const WiringProblem& problem) const;
   void Add(const Place& place, const std::string& what, Problems& into);
 };
 

@@ -40,10 +40,12 @@ void Draw(const std::vector<files::Override>& overrides, const files::Catalogue&
 }
 
 void CheckKeys(const Value& document, Problems& problems) {
-  std::vector<std::string> known;
-  for (const files::Section& section : files::Sections()) known.emplace_back(section.key);
+  const auto& sections = files::Sections();
   for (const Value::Entry& entry : *document.map()) {
-    if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
+    const auto named = [&](const files::Section& section) { return section.key == entry.key; };
+    if (std::any_of(sections.begin(), sections.end(), named)) continue;
+    std::vector<std::string> known;
+    for (const files::Section& section : sections) known.emplace_back(section.key);
     problems.Add(entry.location, fmt::format("{}: unknown key{}; known: {}", entry.key,
                                              DidYouMean(entry.key, known), fmt::join(known, ", ")));
   }
@@ -52,10 +54,15 @@ void CheckKeys(const Value& document, Problems& problems) {
 /// Parameters of the parts that were chosen: the file need not use all that they offer.
 std::set<std::string> KnownToParts(const ResolvedDocument& read) {
   std::set<std::string> known;
-  Problems ignored;  // reported above
+  Problems ignored;                   // reported above
+  const std::string* last = nullptr;  // what one file says stands together
+  bool chosen = false;
   for (const Value::Entry& entry : files::SectionOf(read.document, "parameters", ignored)) {
-    const auto& file = entry.location.file;
-    if (file && read.sources.chosen.contains(*file)) known.insert(entry.key);
+    const std::string* const file = entry.location.file.get();
+    if (file != std::exchange(last, file)) {
+      chosen = file != nullptr && read.sources->chosen.contains(*file);
+    }
+    if (chosen) known.insert(entry.key);
   }
   return known;
 }
@@ -65,7 +72,7 @@ std::set<std::string> ParametersOf(const fs::path& file) {
   std::set<std::string> known;
   Problems ignored;  // of a part on its own
   try {
-    const Value part = files::LoadFiles(file, {}, ignored);
+    const Value part = files::LoadFiles(file, {}, ignored).root;
     const Value* const parameters = part.Find("parameters");
     files::Expressions expressions(parameters == nullptr ? Value() : *parameters, ignored);
     expressions.Resolve(part);
@@ -92,14 +99,16 @@ std::set<std::string> KnownToAlternatives(const files::DocumentSources& sources)
   return known;
 }
 
-void Resolve(const GivenParameters* given, ResolvedDocument& read, Problems& problems) {
+void Resolve(EarlierResolutions& earlier, const std::string& use, const GivenParameters* given,
+             ResolvedDocument& read, Problems& problems) {
   const Value* const parameters = read.document.Find("parameters");
   if (parameters != nullptr && parameters->map() == nullptr && !parameters->null()) {
     problems.Add(parameters->location(),
                  fmt::format("parameters: got {}; expected a map", parameters->Show()));
   }
-  files::Expressions expressions(parameters == nullptr ? Value() : *parameters, problems);
-  for (const std::string& name : read.sources.choosing) expressions.MarkUsed(name);
+  files::Expressions expressions(parameters == nullptr ? Value() : *parameters, problems,
+                                 earlier.Of(use));
+  for (const std::string& name : read.sources->choosing) expressions.MarkUsed(name);
   Value::Map resolved;
   resolved.reserve(read.document.map()->size());
   for (const Value::Entry& entry : *read.document.map()) {
@@ -113,9 +122,18 @@ void Resolve(const GivenParameters* given, ResolvedDocument& read, Problems& pro
   }
   read.warnings = expressions.Unused(known);
   if (!read.warnings.empty()) {  // read the others only where it matters
-    known.merge(KnownToAlternatives(read.sources));
+    known.merge(KnownToAlternatives(*read.sources));
     read.warnings = expressions.Unused(known);
   }
+  if (problems.empty()) earlier.Keep(use, expressions.TakeResolution());
+}
+
+/// The entry of a map, to be changed; nullptr if there is none.
+Value* FindOwn(Value& map, const std::string& key) {
+  for (Value::Entry& entry : *map.map()) {
+    if (entry.key == key) return &entry.value;
+  }
+  return nullptr;
 }
 
 /// Puts the parameters that another file gives in place of those of the document.
@@ -124,20 +142,18 @@ void Give(const GivenParameters& given, const fs::path& file, ResolvedDocument& 
   for (Value::Entry& entry : *read.document.map()) {
     if (entry.key == "parameters" && entry.value.map() != nullptr) section = &entry.value;
   }
-  std::vector<std::string> names;
-  if (section != nullptr) {
-    for (const Value::Entry& entry : *section->map()) names.push_back(entry.key);
-  }
   std::optional<std::set<std::string>> elsewhere;  // looked up if need be
   for (const Value::Entry& entry : *given.map.map()) {
-    const auto known = std::find(names.begin(), names.end(), entry.key);
-    if (known != names.end()) {
-      Value& own = (*section->map())[static_cast<std::size_t>(known - names.begin())].value;
-      if (!entry.value.null()) own = entry.value;  // of nothing has been told
+    if (Value* const own = section == nullptr ? nullptr : FindOwn(*section, entry.key)) {
+      if (!entry.value.null()) *own = entry.value;  // of nothing has been told
       continue;
     }
-    if (!elsewhere) elsewhere = KnownToAlternatives(read.sources);
+    if (!elsewhere) elsewhere = KnownToAlternatives(*read.sources);
     if (elsewhere->contains(entry.key)) continue;
+    std::vector<std::string> names;
+    if (section != nullptr) {
+      for (const Value::Entry& one : *section->map()) names.push_back(one.key);
+    }
     given.problems->Add(entry.location,
                         fmt::format("{}.{}: {} has no such parameter{}", given.where, entry.key,
                                     file.string(), DidYouMean(entry.key, names)));
@@ -156,11 +172,13 @@ void RefuseSampling(const Value& document, Problems& problems) {
 }  // namespace
 
 ResolvedDocument ReadResolved(const fs::path& file, const std::vector<files::Override>& overrides,
-                              const files::Catalogue& catalogue, Problems& problems,
-                              const GivenParameters* given) {
+                              Construction& construction, Problems& problems,
+                              const std::string& use, const GivenParameters* given) {
   ResolvedDocument read;
-  read.document = files::LoadFiles(file, overrides, problems, &read.sources,
-                                   given == nullptr ? nullptr : &given->map);
+  auto [document, sources] =
+      files::LoadFiles(file, overrides, problems, given == nullptr ? nullptr : &given->map);
+  read.document = std::move(document);
+  read.sources = std::move(sources);
   problems.Throw();
   std::vector<files::Override> own = overrides;
   read.inner_overrides = files::TakeInner(own, read.document);
@@ -168,12 +186,12 @@ ResolvedDocument ReadResolved(const fs::path& file, const std::vector<files::Ove
     RefuseSampling(read.document, problems);
     Give(*given, file, read);
   } else {
-    Draw(own, catalogue, read, problems);
+    Draw(own, construction.catalogue, read, problems);
   }
   files::ApplyOverrides(own, read.document, problems);
   problems.Throw();
   CheckKeys(read.document, problems);
-  Resolve(given, read, problems);
+  Resolve(construction.earlier, use, given, read, problems);
   return read;
 }
 

@@ -3,11 +3,12 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "oca/diagrams/files/catalogue.h"
 #include "oca/diagrams/files/document.h"
+#include "oca/diagrams/loading/construction.h"
 #include "oca/diagrams/sampling/scenario.h"
 #include "oca/framework/dataflow/value.h"
 
@@ -18,8 +19,8 @@ struct ResolvedDocument {
   Value document;               ///< includes merged, scenario drawn, overrides applied
   Value root;                   ///< the same without parameters, ${...} worked out
   sampling::Scenario scenario;  ///< what was drawn
-  files::DocumentSources sources;
-  std::vector<std::string> warnings;  ///< of parameters that nothing uses, a line each
+  std::shared_ptr<const files::DocumentSources> sources;
+  std::vector<Diagnostic> warnings;  ///< of parameters that nothing uses
   /// Of files that it uses, by the names of the systems that they are.
   std::map<std::string, std::vector<files::Override>> inner_overrides;
 };
@@ -32,12 +33,13 @@ struct GivenParameters {
 };
 
 /// Reads the file and those it includes, draws its scenario, applies `overrides` and works out all
-/// ${...}. What is wrong with an expression or a key is added to `problems`.
-/// `given`, if another file uses this one, takes the place of its parameters; it may draw no
-/// scenario then. throws ConfigError with all problems if there are any before that
+/// ${...}, except for what `construction` has from earlier. What is wrong with an expression or a
+/// key is added to `problems`. `use` is the path at which another file uses this one; `given` then
+/// takes the place of its parameters, and it may draw no scenario.
+/// throws ConfigError with all problems if there are any before that
 ResolvedDocument ReadResolved(const std::filesystem::path& file,
                               const std::vector<files::Override>& overrides,
-                              const files::Catalogue& catalogue, Problems& problems,
-                              const GivenParameters* given = nullptr);
+                              Construction& construction, Problems& problems,
+                              const std::string& use = "", const GivenParameters* given = nullptr);
 
 }  // namespace oca::loading

@@ -18,9 +18,23 @@ const auto& FindNamed(const Ports& ports, const std::string& file, const char* k
   if (const auto found = ports.find(name); found != ports.end()) return found->second;
   std::vector<std::string> names;
   for (const auto& port : ports) names.push_back(port.first);
-  throw WiringError({fmt::format(
+  throw WiringError(fmt::format(
       "no {0} '{1}' of {2}{3}; its {0}s are: {4}", kind, name, file, DidYouMean(name, names),
-      names.empty() ? "(none)" : fmt::format("{}", fmt::join(names, ", ")))});
+      names.empty() ? "(none)" : fmt::format("{}", fmt::join(names, ", "))));
+}
+
+/// `name.port` of all that was made; ports_of(system) or ports_of(used file) are its ports.
+template <class Made, class PortsOf>
+std::vector<std::string> PortNames(const Made& all, const PortsOf& ports_of) {
+  std::vector<std::string> names;
+  for (const auto& [name, made] : all) {
+    if (made.system != nullptr) {
+      for (const auto& port : ports_of(*made.system)) names.push_back(name + "." + port.name);
+    } else {
+      for (const auto& port : ports_of(*made.file)) names.push_back(name + "." + port.first);
+    }
+  }
+  return names;
 }
 
 /// Calls find(); an error begins with the name of the system.
@@ -29,32 +43,30 @@ auto InSystem(const std::string& name, const Find& find) {
   try {
     return find();
   } catch (const WiringError& error) {
-    throw WiringError({fmt::format("{}: {}", name, error.what())});
+    throw WiringError(fmt::format("{}: {}", name, error.what()));
   }
 }
 
 }  // namespace
 
-std::pair<const SystemSection::Made*, std::string> SystemSection::Follow(
-    const std::string& path) const {
+SystemSection::Followed SystemSection::Follow(const std::string& path) const {
   const std::size_t dot = path.find('.');
-  const std::string name = path.substr(0, dot);
-  const auto found = made_.find(name);
-  if (found != made_.end()) return {&found->second, path.substr(dot + 1)};
-  if (!Names(name)) {
-    throw WiringError({fmt::format("no system '{}'{}", name, DidYouMean(name, names_))});
+  Followed followed{path.substr(0, dot), nullptr, path.substr(dot + 1)};
+  if (const auto found = made_.find(followed.name); found != made_.end()) {
+    followed.made = &found->second;
+  } else if (!Names(followed.name)) {
+    throw WiringError(
+        fmt::format("no system '{}'{}", followed.name, DidYouMean(followed.name, names_)));
   }
-  return {nullptr, ""};
+  return followed;
 }
 
 std::optional<OutputAt> SystemSection::FindOutput(const std::string& path) const {
-  const std::string name = path.substr(0, path.find('.'));
-  const auto [made, rest] = Follow(path);
+  const auto [name, made, port] = Follow(path);
   if (made == nullptr) return std::nullopt;
-  return InSystem(name, [&, made = made, &port = rest]() -> std::optional<OutputAt> {
+  return InSystem(name, [&, &made = made, &port = port]() -> std::optional<OutputAt> {
     if (made->system != nullptr) {
-      return OutputAt{made->system->FindOutput(port), level_.Full(path),
-                      construction_.part.Has(level_.Full(name))};
+      return OutputAt{made->system->FindOutput(port), level_.Full(path), made->built};
     }
     if (port.find('.') != std::string::npos) {
       return made->file->assembly().systems().FindOutput(port);
@@ -64,40 +76,26 @@ std::optional<OutputAt> SystemSection::FindOutput(const std::string& path) const
 }
 
 std::optional<std::vector<InputAt>> SystemSection::FindInputs(const std::string& path) const {
-  const std::string name = path.substr(0, path.find('.'));
-  const auto [made, rest] = Follow(path);
+  const auto [name, made, port] = Follow(path);
   if (made == nullptr) return std::nullopt;
-  return InSystem(name, [&, made = made, &port = rest]() -> std::vector<InputAt> {
+  return InSystem(name, [&, &made = made, &port = port]() -> std::vector<InputAt> {
     if (made->system == nullptr) {
       return FindNamed(made->file->inputs(), made->file->file(), "input", port);
     }
-    return {{made->system->FindInput(port), level_.Full(path),
-             construction_.part.Has(level_.Full(name))}};
+    std::vector<InputAt> found;  // one
+    found.push_back({made->system->FindInput(port), level_.Full(path), made->built});
+    return found;
   });
 }
 
 std::vector<std::string> SystemSection::OutputNames() const {
-  std::vector<std::string> names;
-  for (const auto& [name, made] : made_) {
-    if (made.system != nullptr) {
-      for (const auto& output : made.system->outputs()) names.push_back(name + "." + output.name);
-    } else {
-      for (const auto& output : made.file->outputs()) names.push_back(name + "." + output.first);
-    }
-  }
-  return names;
+  return PortNames(
+      made_, [](const auto& owner) -> const auto& { return owner.outputs(); });
 }
 
 std::vector<std::string> SystemSection::InputNames() const {
-  std::vector<std::string> names;
-  for (const auto& [name, made] : made_) {
-    if (made.system != nullptr) {
-      for (const auto& input : made.system->inputs()) names.push_back(name + "." + input.name);
-    } else {
-      for (const auto& input : made.file->inputs()) names.push_back(name + "." + input.first);
-    }
-  }
-  return names;
+  return PortNames(
+      made_, [](const auto& owner) -> const auto& { return owner.inputs(); });
 }
 
 }  // namespace oca::loading

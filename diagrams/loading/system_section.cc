@@ -13,6 +13,7 @@
 #include "oca/diagrams/loading/used_file.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/nearest.h"
+#include "oca/models/file_cache.h"
 #include "oca/systems/signals/roles.h"
 
 namespace oca::loading {
@@ -106,33 +107,64 @@ const Value* SystemSection::TypeOf(const Value::Entry& entry, const std::string&
   return nullptr;
 }
 
-void SystemSection::Make(const Value::Entry& entry, const Value& type, const std::string& where) {
-  Value::Map rest;
-  rest.reserve(entry.value.map()->size());
-  for (const Value::Entry& field : *entry.value.map()) {
-    if (field.key != "type") rest.push_back(field);
+/// What a system is made from.
+struct SystemSection::ReadEntry {
+  Value entry;  // whose FormOf is that of no other while it is here
+  Value params{};
+  Problems of_paths{};
+  std::shared_ptr<const void> typed{};  // null: the parameters are wrong
+  Problems of_params{};
+};
+
+SystemSection::ReadEntry SystemSection::ReadParams(const Value& entry,
+                                                   const files::CatalogueRow& row,
+                                                   const std::string& where) const {
+  ReadEntry read{entry};
+  Value::Map params;
+  params.reserve(entry.map()->size());
+  for (const Value::Entry& field : *entry.map()) {
+    if (field.key != "type") params.push_back(field);
   }
-  Value::Map systems = sources_.outer_systems;
-  systems.insert(systems.end(), Entries().begin(), Entries().end());
-  foresight::TellGoal(systems, construction_.catalogue, rest);
+  if (foresight::AsksForObstacles(params)) {
+    Value::Map systems = sources_.outer_systems;
+    systems.insert(systems.end(), Entries().begin(), Entries().end());
+    foresight::TellGoal(systems, construction_.catalogue, params);
+  }
+  read.params =
+      sources_.models.ResolveFiles(Value(std::move(params), entry.location()), read.of_paths);
+  read.typed = row.Read(read.params, where, read.of_params);
+  return read;
+}
+
+void SystemSection::Make(const Value::Entry& entry, const Value& type, const std::string& where) {
   const files::Catalogue::Row& row = construction_.catalogue.Find(*type.string());
-  Value params = sources_.models.ResolveFiles(Value(std::move(rest), entry.value.location()));
+  const std::string path = level_.Full(entry.key);
+  const auto read_now = [&] { return ReadParams(entry.value, *row, where); };
+  // What is told to a goal is of other entries.
+  const auto read = foresight::AsksForObstacles(*entry.value.map())
+                        ? std::make_shared<const ReadEntry>(read_now())
+                        : models::MakeOnce<ReadEntry>(
+                              "systems." + path, sources_.models.FormOf(entry.value), read_now);
+  problems_.Add(read->of_paths);
   // A model that did not load has been reported; its users would only repeat it.
   if (sources_.models.failed() && row->needs_models) return;
-  auto system = row->Make(params, where, sources_.models.models(), problems_);
+  problems_.Add(read->of_params);
+  if (read->typed == nullptr) return;
+  auto system =
+      row->Make(read->typed.get(), read->params, where, sources_.models.models(), problems_);
   if (!system) return;
-  const std::string path = level_.Full(entry.key);
   construction_.systems[path] = {entry.location, level_.path};
   KeepWarnings(*system, where, entry.location);
   const System* made = system.get();
-  if (construction_.part.Has(path)) {
+  const bool built = construction_.part.Has(path);
+  if (built) {
     made = &builder_.AddSystem(entry.key, std::move(system));
     built_.push_back({entry.key, made});
-    blocks_.push_back({path, row->type, std::move(params), row, models_});
+    blocks_.push_back({path, row->type, read->params, row, models_});
   } else {
     outside_.push_back(std::move(system));
   }
-  made_[entry.key] = {.system = made};
+  made_[entry.key] = {.system = made, .built = built};
 }
 
 /// Reads another file as a system of this one.
@@ -167,7 +199,7 @@ void SystemSection::KeepWarnings(const System& system, const std::string& where,
   for (const auto* const remarks : system.roles<systems::Remarks>()) {
     for (const std::string& line : remarks->warnings) {
       construction_.warnings.Add(
-          level_.path, fmt::format("{}: warning: {}: {}", location.ToString(), where, line));
+          level_.path, {location, fmt::format("{}: {}", where, line), Diagnostic::Kind::kWarning});
     }
   }
 }

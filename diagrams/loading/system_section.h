@@ -70,17 +70,27 @@ class SystemSection {
   struct Made {  // what could be made and is in its builder, or outside of the part
     const System* system{nullptr};  // or
     const UsedFile* file{nullptr};
+    bool built{false};  // a system of the part
   };
+
+  struct ReadEntry;
 
   const Value::Map& Entries() const;
   void Read(const Value::Entry& entry);
   /// The type that an entry names; nullptr if it names none.
   const Value* TypeOf(const Value::Entry& entry, const std::string& where);
+  ReadEntry ReadParams(const Value& entry, const files::CatalogueRow& row,
+                       const std::string& where) const;
   void Make(const Value::Entry& entry, const Value& type, const std::string& where);
   void Use(const Value::Entry& entry);
   void KeepWarnings(const System& system, const std::string& where, const Location& location);
-  /// What the first name of a path leads to, and the rest of it.
-  std::pair<const Made*, std::string> Follow(const std::string& path) const;
+  /// What the first name of a path leads to.
+  struct Followed {
+    std::string name;
+    const Made* made;  ///< nullptr: it could not be made
+    std::string rest;  ///< of the path
+  };
+  Followed Follow(const std::string& path) const;
 
   const Value& root_;
   const Level& level_;

@@ -7,42 +7,26 @@
 #include <algorithm>
 
 namespace oca::loading {
-namespace {
 
-/// Where WHAT begins.
-std::size_t EndOfKind(const std::string& line) {
-  std::size_t end = std::string::npos;
-  for (const std::string kind : {": error: ", ": warning: "}) {
-    const std::size_t at = line.find(kind);
-    if (at != std::string::npos) end = std::min(end, at + kind.size());
-  }
-  return end == std::string::npos ? 0 : end;
-}
-
-}  // namespace
-
-void ToldOnce::Add(const std::string& use, const std::string& line) {
+void ToldOnce::Add(const std::string& use, const Diagnostic& diagnostic) {
+  const std::string line = diagnostic.ToString();
   const auto same = std::find_if(told_.begin(), told_.end(),
-                                 [&](const auto& told) { return told.first == line; });
+                                 [&](const auto& told) { return told.first.ToString() == line; });
   if (same == told_.end()) {
-    told_.push_back({line, {use}});
+    told_.push_back({diagnostic, {use}});
   } else if (std::find(same->second.begin(), same->second.end(), use) == same->second.end()) {
     same->second.push_back(use);
   }
 }
 
-std::vector<std::string> ToldOnce::Lines() const {
-  std::vector<std::string> lines;
-  for (const auto& [line, uses] : told_) {
-    if (uses.front().empty()) {
-      lines.push_back(line);
-      continue;
-    }
-    const std::size_t end = EndOfKind(line);
-    lines.push_back(fmt::format("{}in {}: {}", line.substr(0, end), fmt::join(uses, " and "),
-                                line.substr(end)));
+std::vector<Diagnostic> ToldOnce::all() const {
+  std::vector<Diagnostic> all;
+  for (const auto& [diagnostic, uses] : told_) {
+    all.push_back(diagnostic);
+    if (uses.front().empty()) continue;
+    all.back().what = fmt::format("in {}: {}", fmt::join(uses, " and "), diagnostic.what);
   }
-  return lines;
+  return all;
 }
 
 }  // namespace oca::loading

@@ -5,21 +5,21 @@
 #include <utility>
 #include <vector>
 
+#include "oca/framework/dataflow/value.h"
+
 namespace oca::loading {
 
 /// Problems and warnings of diagram files that others use. What two uses of a file have in common
 /// is told once, with both of them.
 class ToldOnce {
  public:
-  /// `line` is `PLACE: error: WHAT`, or a warning; `use` the path of the use in the diagram, or
-  /// empty for the file that is built.
-  void Add(const std::string& use, const std::string& line);
-  /// All of them, in the order in which they came first: `PLACE: error: in left and right: WHAT`.
-  std::vector<std::string> Lines() const;
-  void Clear() { told_.clear(); }
+  /// `use` is the path of the use in the diagram, or empty for the file that is built.
+  void Add(const std::string& use, const Diagnostic& diagnostic);
+  /// All of them, in the order in which they came first: `in left and right: what`.
+  std::vector<Diagnostic> all() const;
 
  private:
-  std::vector<std::pair<std::string, std::vector<std::string>>> told_;  // lines and their uses
+  std::vector<std::pair<Diagnostic, std::vector<std::string>>> told_;  // and their uses
 };
 
 }  // namespace oca::loading

@@ -8,8 +8,10 @@
 #include <utility>
 
 #include "oca/diagrams/loading/assembly.h"
+#include "oca/diagrams/loading/connection_section.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/nearest.h"
+#include "oca/models/file_cache.h"
 
 namespace oca::loading {
 namespace {
@@ -18,9 +20,12 @@ namespace fs = std::filesystem;
 
 constexpr int kMostUses = 200;
 
+/// Looked up once while a cache is in use.
 fs::path Canonical(const fs::path& file) {
-  std::error_code ignored;
-  return fs::weakly_canonical(file, ignored);
+  return *models::ReadOnce<fs::path>(file, "canonical", [&] {
+    std::error_code ignored;
+    return fs::weakly_canonical(file, ignored);
+  });
 }
 
 /// A map, or a list of maps of which the later ones win; nullopt if it is something else.
@@ -70,11 +75,14 @@ UsedFile::UsedFile(const Value::Entry& entry, const Level& outer, const SystemSo
   if (overrides != sources.inner_overrides.end()) overrides_ = overrides->second;
   Read(entry, *given, problems);
   if (document_.root.map() != nullptr) {
+    const auto lets_in = [&](const std::string& model) {
+      return TakesIn(document_.root, systems::LinksInput(model));
+    };
     models_ = std::make_unique<files::ModelSection>(
-        document_.root, files::ModelSection::Given{sources.models, &given->models, level_.path},
-        own_);
-    for (const std::string& line : models_->warnings()) {
-      construction_.warnings.Add(level_.path, line);
+        document_.root,
+        files::ModelSection::Given{sources.models, &given->models, level_.path, lets_in}, own_);
+    for (const Diagnostic& warning : models_->warnings()) {
+      construction_.warnings.Add(level_.path, warning);
     }
     WarnOfUnusedModels(given->models);
     sources_ = std::make_unique<SystemSources>(
@@ -119,7 +127,7 @@ std::optional<UsedFile::Entry> UsedFile::ReadEntry(const Value::Entry& entry,
   if (const Value* const value = entry.value.Find("models"); value && !value->null()) {
     given.models = ReadModels(*value, sources.models, problems);
   }
-  const Value resolved = sources.models.ResolveFiles(entry.value);
+  const Value resolved = sources.models.ResolveFiles(entry.value, problems);
   const Value* const file = resolved.Find("file");
   if (file == nullptr || file->string() == nullptr) {
     if (file != nullptr && file->null()) return std::nullopt;  // has been told
@@ -192,7 +200,7 @@ bool UsedFile::MayBeRead(const Value::Entry& entry, Problems& problems) const {
 void UsedFile::Read(const Value::Entry& entry, const Entry& given, Problems& problems) {
   const GivenParameters parameters{given.parameters, "systems." + name_ + ".parameters", &problems};
   try {
-    document_ = ReadResolved(file_, overrides_, construction_.catalogue, own_, &parameters);
+    document_ = ReadResolved(file_, overrides_, construction_, own_, level_.path, &parameters);
   } catch (const ConfigError& error) {
     if (own_.empty()) {  // it is not to be opened
       problems.Add(entry.value.Find("file")->location(),
@@ -200,7 +208,9 @@ void UsedFile::Read(const Value::Entry& entry, const Entry& given, Problems& pro
     }
   }
   RefuseOverridesOfTheRun();
-  for (const std::string& line : document_.warnings) construction_.warnings.Add(level_.path, line);
+  for (const Diagnostic& warning : document_.warnings) {
+    construction_.warnings.Add(level_.path, warning);
+  }
 }
 
 /// What is of the run is said by the file that is run.
@@ -227,9 +237,10 @@ void UsedFile::WarnOfUnusedModels(const Value& models) {
       for (const Value::Entry& other : *own->map()) names.push_back(other.key);
     }
     construction_.warnings.Add(
-        outer_, fmt::format("{}: warning: systems.{}.models.{}: nothing in {} uses it{}",
-                            entry.location.ToString(), name_, entry.key, file_.string(),
-                            DidYouMean(entry.key, names)));
+        outer_, {entry.location,
+                 fmt::format("systems.{}.models.{}: nothing in {} uses it{}", name_, entry.key,
+                             file_.string(), DidYouMean(entry.key, names)),
+                 Diagnostic::Kind::kWarning});
   }
 }
 
@@ -254,7 +265,7 @@ std::unique_ptr<Diagram> UsedFile::Build() {
 }
 
 void UsedFile::Tell(Problems& found) {
-  for (const std::string& line : found.all()) construction_.problems.Add(level_.path, line);
+  for (const Diagnostic& problem : found.all()) construction_.problems.Add(level_.path, problem);
   found = Problems();
 }
 

@@ -9,7 +9,6 @@
 #include <string>
 #include <utility>
 
-#include "oca/diagrams/files/document.h"
 #include "oca/diagrams/files/package_paths.h"
 #include "oca/diagrams/files/yaml_reader.h"
 #include "oca/diagrams/record/file_collector.h"
@@ -100,6 +99,20 @@ std::pair<fs::path, std::vector<files::Override>> ReadSources(const fs::path& fo
   return {folder / *name->string(), overrides};
 }
 
+/// The diagram files that came with a record, those that could be chosen too; first `main`.
+std::vector<fs::path> SourcesIn(const fs::path& folder, const fs::path& main) {
+  std::vector<fs::path> sources;
+  std::error_code error;
+  for (fs::recursive_directory_iterator at(folder / "sources", error), end; !error && at != end;
+       at.increment(error)) {
+    const bool own = at->is_regular_file(error) && !at->is_symlink(error);  // see PlaceFiles
+    if (own && at->path() != main.lexically_normal()) sources.push_back(at->path());
+  }
+  std::sort(sources.begin(), sources.end());
+  sources.insert(sources.begin(), main.lexically_normal());
+  return sources;
+}
+
 }  // namespace
 
 void ExtractFiles(const McapFile& record, const fs::path& folder) {
@@ -159,14 +172,7 @@ loading::LoadedDiagram ExtractedRecord::Load(const std::vector<files::Override>&
   } else {
     loaded = loading::LoadDiagram(diagram(), overrides, catalogue);
   }
-  Problems ignored;
-  files::DocumentSources sources;
-  files::LoadDocument(main, all, ignored, &sources);
-  loaded.sources = sources.files;  // all that could be chosen came with the record
-  for (const fs::path& file : sources.candidates) {
-    const auto& files = sources.files;
-    if (std::find(files.begin(), files.end(), file) == files.end()) loaded.sources.push_back(file);
-  }
+  loaded.sources = SourcesIn(folder_, main);
   loaded.candidates.clear();
   loaded.overrides = all;
   return loaded;

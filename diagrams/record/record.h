@@ -22,7 +22,7 @@ class Record final : public Recording {
   ~Record() override { Stop(); }
 
   std::vector<runs::OutputFile> Files(const loading::LoadedDiagram& loaded) const override;
-  /// throws ConfigError if the file cannot be written.
+  /// throws ConfigError if the file cannot be opened.
   void Begin(const runs::RunStart& run) override;
   /// throws ConfigError if it could not be written to the end.
   void End(const runs::RunResult& result) override;

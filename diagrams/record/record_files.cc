@@ -10,17 +10,19 @@
 #include "oca/diagrams/files/package_paths.h"
 #include "oca/diagrams/record/file_collector.h"
 #include "oca/diagrams/record/yaml_writer.h"
+#include "oca/models/opened_files.h"
 
 namespace oca::record {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The nearest folder above all files.
+/// The nearest folder above all files, by their names.
 fs::path FolderAbove(const std::vector<fs::path>& files) {
-  fs::path folder = files.front().parent_path();
+  fs::path folder = models::PlainPath(files.front()).parent_path();
   for (const fs::path& file : files) {
-    while (!Inside(file.lexically_relative(folder)) && folder != folder.root_path()) {
+    while (!Inside(models::PlainPath(file).lexically_relative(folder)) &&
+           folder != folder.root_path()) {
       folder = folder.parent_path();
     }
   }
@@ -50,9 +52,11 @@ void AddSources(const loading::LoadedDiagram& loaded, double duration,
   if (loaded.sources.empty()) return;
   const std::vector<fs::path> sources = SourcesOf(loaded);
   const fs::path folder = FolderAbove(sources);
+  const auto name_of = [&](const fs::path& file) {
+    return (fs::path("sources") / models::PlainPath(file).lexically_relative(folder)).string();
+  };
   for (const fs::path& file : sources) {
-    const fs::path name = fs::path("sources") / file.lexically_relative(folder);
-    attachments.push_back({0, name.string(), "application/yaml", ReadBytes(file)});
+    attachments.push_back({0, name_of(file), "application/yaml", ReadBytes(file)});
   }
   std::vector<std::string> changes;
   for (const files::Override& change : loaded.overrides) {
@@ -61,9 +65,8 @@ void AddSources(const loading::LoadedDiagram& loaded, double duration,
   if (duration != loaded.simulator.duration) {
     changes.push_back(fmt::format("simulator.duration={}", duration));
   }
-  const fs::path main = fs::path("sources") / loaded.sources.front().lexically_relative(folder);
   Value::Map map;
-  map.push_back({"diagram", {}, Value(main.string(), {})});
+  map.push_back({"diagram", {}, Value(name_of(loaded.sources.front()), {})});
   map.push_back({"overrides", {}, ListOf(changes)});
   attachments.push_back({0, "sources.yaml", "application/yaml", WriteYaml(Value(map, {}))});
 }

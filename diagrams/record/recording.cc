@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "oca/diagrams/record/record_files.h"
+
 namespace oca::record {
 namespace {
 
@@ -19,20 +21,24 @@ std::uint64_t WallClock() {
 Recording::Recording(std::vector<RecordSink*> sinks, RecorderOptions options)
     : options_(std::move(options)), sinks_(std::move(sinks)) {}
 
+void Recording::Prepare(const runs::RunStart& run) {
+  if (options_.attach_files) files_ = FilesOf(run.loaded, run.duration);
+}
+
 void Recording::Begin(const runs::RunStart& run) {
   std::optional<std::vector<std::string>> told;
   RecorderOptions options = options_;
   if (run.continued && recorder_) {
     told = recorder_->warnings();
     dropped_ += recorder_->dropped();
-    options.attach_files = false;  // those of the beginning are there
   } else {
     dropped_ = 0;
     start_epoch_ = options_.start_epoch == 0 ? WallClock() : options_.start_epoch;
   }
   options.start_epoch = start_epoch_;
   recorder_.reset();
-  recorder_ = std::make_unique<RunRecorder>(run, options, sinks_, std::move(told));
+  recorder_ = std::make_unique<RunRecorder>(run, options, std::exchange(files_, {}), sinks_,
+                                            std::move(told));
 }
 
 void Recording::Pause() {

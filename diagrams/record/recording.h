@@ -17,6 +17,8 @@ class Recording : public runs::RunOutput, private Log {
   /// The sinks must outlive the run.
   explicit Recording(std::vector<RecordSink*> sinks, RecorderOptions options = {});
 
+  /// Reads what is attached. throws ConfigError if a file cannot be read any more.
+  void Prepare(const runs::RunStart& run) override;
   void Begin(const runs::RunStart& run) override;
   void Pause() override;
   void SetWarnings(const std::vector<std::string>& warnings) override;
@@ -38,6 +40,7 @@ class Recording : public runs::RunOutput, private Log {
 
   const RecorderOptions options_;
   std::vector<RecordSink*> sinks_;
+  std::vector<McapAttachment> files_;  ///< of a run that is prepared
   std::unique_ptr<RunRecorder> recorder_;
   std::uint64_t start_epoch_{0};  ///< of the present run
   std::int64_t dropped_{0};       ///< by the recorders before this one

@@ -12,17 +12,6 @@
 namespace oca::record {
 namespace {
 
-/// Before the run, so that nobody waits for a report that cannot be written.
-void RequireWritable(const std::filesystem::path& file) {
-  std::error_code ignored;
-  const bool there = std::filesystem::exists(file, ignored);
-  if (!std::ofstream(file, std::ios::binary | std::ios::app)) {
-    throw ConfigError(fmt::format(
-        "report: file; got {}, which cannot be written; expected one that can", file.string()));
-  }
-  if (!there) std::filesystem::remove(file, ignored);
-}
-
 RecorderOptions Brief(RecorderOptions options) {
   options.brief = true;
   return options;
@@ -37,10 +26,13 @@ std::vector<runs::OutputFile> Report::Files(const loading::LoadedDiagram& /*load
   return {{"report", file_}};
 }
 
+void Report::Prepare(const runs::RunStart& run) {
+  page_ = LoadPage();
+  Recording::Prepare(run);
+}
+
 void Report::Begin(const runs::RunStart& run) {
   if (!run.continued) {
-    page_ = LoadPage();
-    RequireWritable(file_);
     Stop();
     sink_.reset();
     bytes_ = std::ostringstream();

@@ -22,8 +22,8 @@ class Report final : public Recording {
   ~Report() override { Stop(); }
 
   std::vector<runs::OutputFile> Files(const loading::LoadedDiagram& loaded) const override;
-  /// Leaves no empty file if the run does not come to its end.
-  /// throws ConfigError if there is no page or the file cannot be written.
+  /// throws ConfigError if there is no page.
+  void Prepare(const runs::RunStart& run) override;
   void Begin(const runs::RunStart& run) override;
   /// throws ConfigError if the file could not be written to the end.
   void End(const runs::RunResult& result) override;

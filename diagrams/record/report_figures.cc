@@ -11,7 +11,6 @@
 #include "oca/diagrams/runs/signal_facts.h"
 #include "oca/framework/dataflow/diagram.h"
 #include "oca/framework/dataflow/error.h"
-#include "oca/framework/dataflow/port_access.h"
 #include "oca/systems/fields/repulsive_field.h"
 
 namespace oca::record {
@@ -79,24 +78,11 @@ std::vector<PlotPanel> StaticTest(bool limited) {
 
 /// What a RepulsiveField with gain 1 and range 1 m answers; as in the report, cut off at 300.
 std::vector<PlotPanel> RepulsiveForce() {
-  systems::RepulsiveField::Params params = systems::RepulsiveField::Example();
-  params.force_gain = 1.0;
-  params.max_distance = 1.0;
-  const auto diagram = MakeDiagramOf(std::make_unique<systems::RepulsiveField>(params));
-  Context context = diagram->MakeContext();
-  const auto input = diagram->GetInput<systems::ProximitySet>("proximities");
-  const auto output = diagram->GetOutput<systems::LinkForceSet>("forces");
+  const systems::RepulsiveField field({.force_gain = 1.0, .max_distance = 1.0});
   PlotCurve curve{"F_rep", {}, {}};
   for (int i = 1; i <= 600; ++i) {
-    systems::ProximitySet set;
-    set.proximities.resize(1);
-    set.proximities[0].link = models::Name("link");
-    set.proximities[0].obstacle = models::Name("obstacle");
-    set.proximities[0].distance = 0.002 * i;
-    input.Fix(context, set);
-    const auto& forces = output.Eval(context).forces;
     curve.x.push_back(0.002 * i);
-    curve.y.push_back(forces.empty() ? 0.0 : forces[0].force.norm());
+    curve.y.push_back(field.Magnitude(curve.x.back()));
   }
   PlotPanel panel{"Repulsive force, gain 1, range 1 m", "distance [m]", "force [N]"};
   panel.curves.push_back(std::move(curve));

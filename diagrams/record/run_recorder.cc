@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "oca/diagrams/record/plot_hints.h"
-#include "oca/diagrams/record/record_files.h"
 #include "oca/diagrams/record/run_metadata.h"
 #include "oca/diagrams/record/signal_json.h"
 #include "oca/diagrams/runs/blind_spots.h"
@@ -38,7 +37,7 @@ int CapacityFor(double duration, const Period& period) {
 }  // namespace
 
 RunRecorder::RunRecorder(const runs::RunStart& run, const RecorderOptions& options,
-                         std::vector<RecordSink*> sinks,
+                         std::vector<McapAttachment> files, std::vector<RecordSink*> sinks,
                          std::optional<std::vector<std::string>> told)
     : loaded_(run.loaded),
       options_(options),
@@ -67,7 +66,7 @@ RunRecorder::RunRecorder(const runs::RunStart& run, const RecorderOptions& optio
     if (context.time() >= loaded_.scene_period.seconds(scene_count_)) SampleScene(context);
     return true;
   });
-  BeginSinks(!told);
+  BeginSinks(std::move(files), !told);
   thread_ = std::thread([this] { Work(); });
 }
 
@@ -141,13 +140,11 @@ void RunRecorder::AddScene(Groups& groups) {
   groups.push_back(std::move(group));
 }
 
-void RunRecorder::BeginSinks(bool tells_warnings) {
+void RunRecorder::BeginSinks(std::vector<McapAttachment> files, bool tells_warnings) {
   for (RecordSink* const sink : sinks_) {
-    if (options_.attach_files) {
-      for (McapAttachment& file : FilesOf(loaded_, duration_)) {
-        file.log_time = options_.start_epoch;
-        sink->AddAttachment(file);
-      }
+    for (McapAttachment& file : files) {
+      file.log_time = options_.start_epoch;
+      sink->AddAttachment(file);
     }
     sink->AddMetadata(MainMetadata("running", nullptr));
     sink->AddMetadata({"oca.parameters", ParameterTexts(loaded_)});

@@ -40,8 +40,10 @@ class RunRecorder {
   /// Attaches itself to the simulator, begins the sinks and the thread. Everything must outlive the
   /// run. `told`: what a recorder before this one told the run to be warned of; without one this
   /// one tells.
+  /// `files` are attached.
   RunRecorder(const runs::RunStart& run, const RecorderOptions& options,
-              std::vector<RecordSink*> sinks, std::optional<std::vector<std::string>> told);
+              std::vector<McapAttachment> files, std::vector<RecordSink*> sinks,
+              std::optional<std::vector<std::string>> told);
   ~RunRecorder();
   RunRecorder(const RunRecorder&) = delete;
   RunRecorder& operator=(const RunRecorder&) = delete;
@@ -78,7 +80,7 @@ class RunRecorder {
   void StoreText(int level, double time, std::string_view text);
   void WaitFor(const std::function<bool()>& room);
   void SampleScene(const Context& context);
-  void BeginSinks(bool tells_warnings);
+  void BeginSinks(std::vector<McapAttachment> files, bool tells_warnings);
   void Work();
   void HandOn(const SampleQueue::Sample& sample);
   void Emit(int channel, const RecordSample& sample);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "oca/diagrams/foresight/sources_of.h"
 #include "oca/models/robot/robot_model.h"
 #include "oca/systems/signals/roles.h"
 
@@ -13,23 +14,7 @@ namespace oca::runs {
 namespace {
 
 using systems::Judges;
-
-/// Those of what drives an input, and of what is behind that.
-void AddSpotsBehind(const Diagram& diagram, InputHandle input, std::vector<std::string>& spots) {
-  std::set<const System*> seen;
-  while (input.system != nullptr) {
-    const auto driver = diagram.DriverOf(input);
-    if (!driver || !seen.insert(driver->system).second) return;
-    const auto* const blind = driver->system->role<systems::BlindSpots>();
-    if (blind == nullptr) return;
-    for (std::string& spot : blind->spots(diagram.PathOf(*driver->system))) {
-      if (std::find(spots.begin(), spots.end(), spot) == spots.end()) {
-        spots.push_back(std::move(spot));
-      }
-    }
-    input = blind->behind;
-  }
-}
+using systems::MeasuresDistances;
 
 bool HasShapes(const robot::RobotModel& model) {
   const auto& links = model.links();
@@ -38,16 +23,57 @@ bool HasShapes(const robot::RobotModel& model) {
   });
 }
 
-/// Models of the diagram that the file of a system that measures distances knows nothing of.
-void AddModelsElsewhere(const loading::LoadedDiagram& loaded, const System& measuring,
-                        std::vector<std::string>& spots) {
-  const auto& known = loaded.BlockOf(measuring).models->all();
-  for (const auto& [name, model] : loaded.models.all()) {
-    if (known.contains(name) || !HasShapes(*model)) continue;
-    spots.push_back(fmt::format("model '{}' (not known in the file of {})", name,
-                                loaded.diagram->PathOf(measuring)));
+/// Looks for blind spots up the line.
+class Spots {
+ public:
+  explicit Spots(const loading::LoadedDiagram& loaded) : loaded_(loaded) {
+    const auto& models = loaded.models.all();
+    one_robot_ = std::count_if(models.begin(), models.end(), [](const auto& named) {
+                   return named.second->num_positions() > 0;
+                 }) < 2;
   }
-}
+
+  /// Those of the systems that an input's values come from, and of what is behind these.
+  void AddBehind(const InputHandle& input) {
+    for (const OutputHandle& source :
+         foresight::SourcesOf(*loaded_.diagram, input, [](const System& system) {
+           return system.role<systems::BlindSpots>() != nullptr ||
+                  system.role<MeasuresDistances>() != nullptr;
+         })) {
+      if (seen_.insert(source.system).second) AddOf(*source.system);
+    }
+  }
+
+  std::vector<std::string> found() { return std::move(found_); }
+
+ private:
+  void AddOf(const System& system) {
+    if (const auto* const blind = system.role<systems::BlindSpots>()) {
+      for (std::string& spot : blind->spots(loaded_.diagram->PathOf(system), one_robot_)) {
+        if (std::find(found_.begin(), found_.end(), spot) == found_.end()) {
+          found_.push_back(std::move(spot));
+        }
+      }
+      AddBehind(blind->behind);
+    }
+    if (system.role<MeasuresDistances>() != nullptr) AddModelsElsewhere(system);
+  }
+
+  /// Models of the diagram that the file of a system that measures distances knows nothing of.
+  void AddModelsElsewhere(const System& measuring) {
+    const auto& known = loaded_.BlockOf(measuring).models->all();
+    for (const auto& [name, model] : loaded_.models.all()) {
+      if (known.contains(name) || !HasShapes(*model)) continue;
+      found_.push_back(fmt::format("model '{}' (not known in the file of {})", name,
+                                   loaded_.diagram->PathOf(measuring)));
+    }
+  }
+
+  const loading::LoadedDiagram& loaded_;
+  bool one_robot_;
+  std::set<const System*> seen_;
+  std::vector<std::string> found_;
+};
 
 }  // namespace
 
@@ -60,17 +86,11 @@ bool JudgesDistances(const loading::LoadedDiagram& loaded) {
 }
 
 std::vector<std::string> BlindSpots(const loading::LoadedDiagram& loaded) {
-  std::vector<std::string> spots;
-  std::set<const System*> seen;
+  Spots spots(loaded);
   for (const auto& judge : loaded.diagram->FindRoles<Judges>()) {
-    const InputHandle& proximities = judge.role->proximities;
-    AddSpotsBehind(*loaded.diagram, proximities, spots);
-    if (proximities.system == nullptr) continue;
-    const auto driver = loaded.diagram->DriverOf(proximities);
-    if (!driver || driver->system->role<systems::MeasuresDistances>() == nullptr) continue;
-    if (seen.insert(driver->system).second) AddModelsElsewhere(loaded, *driver->system, spots);
+    spots.AddBehind(judge.role->proximities);
   }
-  return spots;
+  return spots.found();
 }
 
 }  // namespace oca::runs

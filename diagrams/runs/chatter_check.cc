@@ -286,8 +286,9 @@ std::vector<std::string> ChatterWarnings(const loading::LoadedDiagram& loaded) {
     }
     if (!warning) continue;
     const auto& named = loaded.BlockOf(loop->relaxation == nullptr ? *mapping : *loop->relaxation);
-    warnings.push_back(fmt::format("{}: warning: {}: {}", named.params.location().ToString(),
-                                   loading::OverridePath(named.name), *warning));
+    const std::string what = loading::OverridePath(named.name) + ": " + *warning;
+    warnings.push_back(
+        Diagnostic{named.params.location(), what, Diagnostic::Kind::kWarning}.ToString());
   }
   return warnings;
 }

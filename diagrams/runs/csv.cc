@@ -20,7 +20,7 @@ bool IsVector(const files::RecordedSignal& signal) {
 }  // namespace
 
 std::vector<OutputFile> Csv::Files(const loading::LoadedDiagram& loaded) const {
-  std::vector<OutputFile> files{{"csv", folder_}};
+  std::vector<OutputFile> files{{"csv", folder_, true}};
   for (const files::RecordedSignal& signal : loaded.record) {
     files.push_back({"csv", SignalTable::FileOf(folder_, signal.name, IsVector(signal))});
   }
@@ -61,6 +61,8 @@ void Csv::Begin(const RunStart& run) {
 
 void Csv::Write(File& file, const Context& context) {
   const std::int64_t time = Nanoseconds(context.time());
+  if (time == file.time) return;  // where a run goes on with another diagram
+  file.time = time;
   if (file.vector) {
     const auto& numbers = EvalVector(file.output, context);
     file.numbers.assign(numbers.begin(), numbers.end());

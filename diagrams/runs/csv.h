@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -19,7 +20,7 @@ class Csv final : public RunOutput {
 
   std::vector<OutputFile> Files(const loading::LoadedDiagram& loaded) const override;
   /// throws ConfigError if a file cannot be made. A signal that a run of another diagram began
-  /// without is left out.
+  /// without is left out; at the instant of a change there is the row before it.
   void Begin(const RunStart& run) override;
   /// Closes the files. throws ConfigError naming one that could not be written to the end.
   void End(const RunResult& result) override;
@@ -30,6 +31,7 @@ class Csv final : public RunOutput {
     bool vector;
     SignalTable table;
     OutputHandle output{};
+    std::int64_t time{-1};  ///< of the last row, ns
     std::vector<double> numbers{};
     std::string json{};
   };

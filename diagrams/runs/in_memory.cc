@@ -13,6 +13,20 @@ namespace oca::runs {
 InMemory::InMemory(std::vector<std::string> signals, const Period& period)
     : signals_(std::move(signals)), period_(period) {}
 
+void InMemory::Prepare(const RunStart& run) {
+  if (!period_.positive()) {
+    throw ConfigError(
+        fmt::format("series: period; got {} s; expected more than 0", period_.seconds()));
+  }
+  for (const std::string& signal : signals_) {
+    try {
+      run.loaded.diagram->GetOutput<Vector>(signal);
+    } catch (const Error& error) {
+      throw ConfigError(fmt::format("series: {}: {}", signal, error.what()));
+    }
+  }
+}
+
 void InMemory::Begin(const RunStart& run) {
   if (!run.continued) logs_.clear();
   std::vector<OutputHandle> outputs;
@@ -27,14 +41,18 @@ const SignalLog& InMemory::first() const {
   throw ConfigError("series: run; got none yet; expected one that has this as an output");
 }
 
-/// What each log has, one below the other.
+/// What each log has, one below the other; without a row whose time the log before it has.
 template <class Part>
 Eigen::MatrixXd InMemory::Stack(const Part& part) const {
   Eigen::MatrixXd all = part(first());
+  double last = first().rows() > 0 ? first().time(first().rows() - 1) : -1.0;
   for (std::size_t i = 1; i < logs_.size(); ++i) {
-    const Eigen::MatrixXd more = part(*logs_[i]);
-    all.conservativeResize(all.rows() + more.rows(), Eigen::NoChange);
-    all.bottomRows(more.rows()) = more;
+    const SignalLog& log = *logs_[i];
+    if (log.rows() == 0) continue;
+    const Eigen::Index more = log.rows() - (log.time(0) == last ? 1 : 0);
+    all.conservativeResize(all.rows() + more, Eigen::NoChange);
+    all.bottomRows(more) = part(log).bottomRows(more);
+    last = log.time(log.rows() - 1);
   }
   return all;
 }

@@ -17,13 +17,16 @@ namespace oca::runs {
 ///     Run(loaded, {.outputs = {&series}});
 ///     const Eigen::MatrixXd all = series.Matrix();              // names() by its columns
 ///     const Eigen::MatrixXd q = series.Matrix("plant.position");
+///
+/// Times increase: where a run went on with another diagram there is the row before that.
 class InMemory final : public RunOutput {
  public:
   /// `signals` as `system.output`; sampled at 0, period, 2 period, ...
   InMemory(std::vector<std::string> signals, const Period& period);
 
-  /// throws WiringError naming what there is if there is no such output, or it is no Vector;
-  /// ConfigError if the period is not positive.
+  /// throws ConfigError naming the signal and what there is if there is no such output, or it is no
+  /// Vector; or if the period is not positive.
+  void Prepare(const RunStart& run) override;
   void Begin(const RunStart& run) override;
   void End(const RunResult& /*result*/) override {}
 

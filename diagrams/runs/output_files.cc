@@ -2,6 +2,11 @@
 #include "oca/diagrams/runs/output_files.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
 
 #include "oca/framework/dataflow/error.h"
 
@@ -24,6 +29,40 @@ bool Same(const fs::path& one, const fs::path& other) {
                                 output.path.string(), role));
 }
 
+[[noreturn]] void RefuseToWrite(const OutputFile& output, int error) {
+  throw ConfigError(fmt::format("{}: {} cannot be written: {}; expected a {} that can", output.what,
+                                output.path.string(), std::strerror(error),
+                                output.folder ? "folder" : "file"));
+}
+
+/// The folder that something is made in: `.` for a bare name.
+fs::path FolderOf(const fs::path& path) {
+  const fs::path folder = path.parent_path();
+  return folder.empty() ? fs::path(".") : folder;
+}
+
+/// A look beforehand, which opens and makes nothing.
+void RequireWritable(const OutputFile& output, const std::vector<OutputFile>& all) {
+  std::error_code ignored;
+  fs::path path = output.path;
+  if (fs::exists(path, ignored)) {
+    if (fs::is_directory(path, ignored) != output.folder) {
+      RefuseToWrite(output, output.folder ? ENOTDIR : EISDIR);
+    }
+  } else {
+    const bool made = output.folder || std::any_of(all.begin(), all.end(), [&](const auto& other) {
+                        return other.folder && other.path == FolderOf(path);
+                      });
+    path = FolderOf(path);
+    while (made && !fs::exists(path, ignored)) path = FolderOf(path);
+  }
+  const bool folder = path != output.path || output.folder;
+  if (folder && fs::exists(path, ignored) && !fs::is_directory(path, ignored)) {
+    RefuseToWrite(output, ENOTDIR);
+  }
+  if (access(path.c_str(), folder ? W_OK | X_OK : W_OK) != 0) RefuseToWrite(output, errno);
+}
+
 }  // namespace
 
 std::vector<InputFile> InputsOf(const std::vector<fs::path>& files, const std::string& role) {
@@ -42,6 +81,7 @@ void CheckOutputs(const std::vector<OutputFile>& outputs, const std::vector<Inpu
       if (outputs[j].path.empty() || !Same(outputs[i].path, outputs[j].path)) continue;
       Refuse(outputs[i], "what " + outputs[j].what + " writes");
     }
+    RequireWritable(outputs[i], outputs);
   }
 }
 

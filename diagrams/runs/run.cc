@@ -40,6 +40,18 @@ class SharedLog final : public Log {
   std::vector<Log*> logs_;
 };
 
+void CheckOutputList(const std::vector<RunOutput*>& outputs) {
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    if (outputs[i] == nullptr) {
+      throw ConfigError(fmt::format("outputs[{}]: got none; expected an output", i));
+    }
+    const auto first = std::find(outputs.begin(), outputs.end(), outputs[i]) - outputs.begin();
+    if (first == static_cast<std::ptrdiff_t>(i)) continue;
+    throw ConfigError(
+        fmt::format("outputs[{}]: got the same as outputs[{}]; expected each once", i, first));
+  }
+}
+
 class Runner final : public RunControl {
  public:
   Runner(const LoadedDiagram& loaded, const RunOptions& options)
@@ -50,6 +62,7 @@ class Runner final : public RunControl {
     if (options.judge) check_.emplace(loaded, duration_);
     result_.paced = FactorOf(loaded) > 0.0;
     simulator_ = Make(loaded);
+    for (RunOutput* const output : options.outputs) output->Prepare(Start(false));
     Begin(false);
   }
 
@@ -79,6 +92,7 @@ class Runner final : public RunControl {
 
   /// A trial shows whether the run can go on before anything of it is given up.
   void Replace(std::shared_ptr<const LoadedDiagram> next) override {
+    if (!next) throw ConfigError("replace: got no diagram; expected one");
     auto simulator = Make(*next);
     Simulator trial(*next->diagram, simulator->context(), next->simulator.integration);
     Adopt(*next, trial.context());
@@ -106,10 +120,14 @@ class Runner final : public RunControl {
     return simulator;
   }
 
+  RunStart Start(bool continued) {
+    return {*loaded_, *simulator_, result_.paced, duration_, continued};
+  }
+
   void Begin(bool continued) {
     AddRecordedInstants();
     for (RunOutput* const output : options_.outputs) {
-      output->Begin({*loaded_, *simulator_, result_.paced, duration_, continued});
+      output->Begin(Start(continued));
     }
     if (options_.progress || options_.hook != nullptr) {
       simulator_->AddMonitor([this](const Context& context) { return GoesOn(context.time()); });
@@ -246,6 +264,7 @@ RunResult Run(const LoadedDiagram& loaded, const RunOptions& options) {
   if (options.duration && !(*options.duration >= 0.0 && *options.duration <= 1e7)) {
     throw ConfigError(fmt::format("duration: got {} s; expected in [0, 1e7]", *options.duration));
   }
+  CheckOutputList(options.outputs);
   CheckRunFiles(loaded, options);
   return Runner(loaded, options).Run();
 }

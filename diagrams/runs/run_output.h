@@ -30,7 +30,10 @@ class RunOutput {
   virtual std::vector<OutputFile> Files(const loading::LoadedDiagram& /*loaded*/) const {
     return {};
   }
-  /// Before the first step. throws ConfigError if it cannot be made.
+  /// Before any output of the run begins: nothing is written yet. throws ConfigError if this output
+  /// cannot be made.
+  virtual void Prepare(const RunStart& /*run*/) {}
+  /// Before the first step. What was there before is replaced from now on.
   virtual void Begin(const RunStart& run) = 0;
   /// The diagram of Begin is about to go; the next Begin has the one that takes its place.
   virtual void Pause() {}

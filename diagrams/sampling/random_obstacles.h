@@ -58,7 +58,8 @@ class RandomObstacles {
   /// Problems at `value`, section `sampling.obstacles`.
   RandomObstacles(const Value& value, Problems& problems);
 
-  /// As entries of ObstacleSource's `obstacles`, all at `location`. They differ by `seed` alone.
+  /// As entries of `obstacles` of a system that has them, all at `location`. They differ by `seed`
+  /// alone.
   Value::List Draw(std::uint64_t seed, TaskGeometry& task, const Location& location) const;
 
  private:

@@ -5,9 +5,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
 
+#include "oca/framework/dataflow/check_name.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/nearest.h"
 #include "oca/framework/dataflow/schedule.h"
@@ -17,11 +17,13 @@
 namespace oca {
 namespace {
 
-void CheckName(const std::string& name, const char* what) {
-  const auto good = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
-  if (name.empty() || !std::all_of(name.begin(), name.end(), good)) {
-    throw WiringError(
-        {fmt::format("{} name: got '{}'; expected letters, digits and underscores", what, name)});
+/// A port that `find` finds in a system; what it lacks is told with the system's path.
+template <class Find>
+auto InSystemOf(const std::string& path, const Find& find) {
+  try {
+    return find();
+  } catch (const WiringError& error) {
+    throw WiringError(fmt::format("{}: {}", path.substr(0, path.rfind('.')), error.what()));
   }
 }
 
@@ -41,7 +43,7 @@ Diagram::~Diagram() = default;
 
 const Schedule& Diagram::schedule() const {
   if (own_schedule_ == nullptr) {
-    throw WiringError({"diagram: it is nested in another one, whose root makes the contexts"});
+    throw WiringError("diagram: it is nested in another one, whose root makes the contexts");
   }
   return *own_schedule_;
 }
@@ -57,18 +59,19 @@ std::pair<const System*, std::string> Diagram::SplitPath(const std::string& path
   std::vector<std::string> names;
   AddPaths(*this, "", names);
   const std::string got = path.substr(0, dot);
-  throw WiringError({fmt::format("no {} port '{}': no system '{}'{}; systems are: {}", kind, path,
-                                 got, DidYouMean(got, names), fmt::join(names, ", "))});
+  throw WiringError(fmt::format("no {} port '{}': no system '{}'{}; systems are: {}", kind, path,
+                                got, DidYouMean(got, names), fmt::join(names, ", ")));
 }
 
 InputHandle Diagram::FindInput(const std::string& path) const {
   const auto [system, port] = SplitPath(path, "input");
-  return system == this ? System::FindInput(port) : system->FindInput(port);
+  if (system == this) return System::FindInput(port);
+  return InSystemOf(path, [&] { return system->FindInput(port); });
 }
 
 OutputHandle Diagram::FindOutput(const std::string& path) const {
   const auto [system, port] = SplitPath(path, "output");
-  if (system != this) return system->FindOutput(port);
+  if (system != this) return InSystemOf(path, [&] { return system->FindOutput(port); });
   return exported_outputs_[System::FindOutput(port).index].second;
 }
 
@@ -92,20 +95,20 @@ void Diagram::SetRoot(const Diagram* root) {
 
 const Wiring& Diagram::wiring() const {
   if (root_ != nullptr) return *root_->own_wiring_;
-  throw WiringError({"diagram: it is nested in another one, which has not been built"});
+  throw WiringError("diagram: it is nested in another one, which has not been built");
 }
 
 DiagramBuilder::DiagramBuilder() : diagram_(new Diagram) {}
 DiagramBuilder::~DiagramBuilder() = default;
 
 const System& DiagramBuilder::AddSystem(std::string name, std::unique_ptr<System> system) {
-  CheckName(name, "system");
+  internal::CheckName(name, "system");
   if (system == nullptr) {
-    throw WiringError({fmt::format("system '{}': got nothing; expected a system", name)});
+    throw WiringError(fmt::format("system '{}': got nothing; expected a system", name));
   }
   for (const Diagram::Child& child : diagram_->children_) {
     if (child.name == name) {
-      throw WiringError({fmt::format("system name: '{}' is taken", name)});
+      throw WiringError(fmt::format("system name: '{}' is taken", name));
     }
   }
   if (auto* nested = dynamic_cast<Diagram*>(system.get())) {
@@ -124,9 +127,9 @@ void DiagramBuilder::ConnectPorts(const OutputHandle& from, const InputHandle& t
 }
 
 void DiagramBuilder::ExportInput(std::string name, const InputHandle& input, int size) {
-  CheckName(name, "input");
+  internal::CheckName(name, "input");
   if (input.system == nullptr) {
-    throw WiringError({fmt::format("exported input '{}': its port belongs to no system", name)});
+    throw WiringError(fmt::format("exported input '{}': its port belongs to no system", name));
   }
   auto& exported = diagram_->exported_inputs_;
   const auto same = std::find_if(exported.begin(), exported.end(),
@@ -135,20 +138,21 @@ void DiagramBuilder::ExportInput(std::string name, const InputHandle& input, int
     same->to.push_back(input);
     return;
   }
-  diagram_->AddInput(input.system->inputs().at(input.index));
-  diagram_->inputs_.back().name = name;
+  System::InputInfo info = input.system->inputs().at(input.index);
+  info.name = name;
+  diagram_->AddInput(std::move(info));
   exported.push_back({std::move(name), {input}, size});
 }
 
 void DiagramBuilder::ExportOutput(std::string name, const OutputHandle& output) {
-  CheckName(name, "output");
+  internal::CheckName(name, "output");
   for (const auto& other : diagram_->exported_outputs_) {
     if (other.first == name) {
-      throw WiringError({fmt::format("output name: '{}' is exported twice", name)});
+      throw WiringError(fmt::format("output name: '{}' is exported twice", name));
     }
   }
   if (output.system == nullptr) {
-    throw WiringError({fmt::format("exported output '{}': its port belongs to no system", name)});
+    throw WiringError(fmt::format("exported output '{}': its port belongs to no system", name));
   }
   const System::OutputInfo& inner = output.system->outputs().at(output.index);
   diagram_->AddOutput({name, inner.type, inner.spec, {}, -1});

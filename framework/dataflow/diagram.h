@@ -11,6 +11,7 @@
 
 #include "oca/framework/dataflow/context.h"
 #include "oca/framework/dataflow/dynamic_port.h"
+#include "oca/framework/dataflow/params.h"
 #include "oca/framework/dataflow/system.h"
 #include "oca/framework/dataflow/upstream.h"
 
@@ -59,11 +60,11 @@ class Diagram final : public System {
   /// Typed ports by path. throw WiringError if there is no such port or its type differs.
   template <class T>
   Input<T> GetInput(const std::string& path) const {
-    return Typed<T>(FindInput(path));
+    return Typed<T>(FindInput(path), path);
   }
   template <class T>
   Output<T> GetOutput(const std::string& path) const {
-    return Typed<T>(FindOutput(path));
+    return Typed<T>(FindOutput(path), path);
   }
   /// Ports by path. throw WiringError naming what there is.
   InputHandle FindInput(const std::string& path) const override;
@@ -158,9 +159,11 @@ class DiagramBuilder {
     return reference;
   }
   /// The same with parameters in braces: Add<Gain>("gain", {.gain = 2.0}); `rest` is what the
-  /// constructor takes beside them, say the models.
+  /// constructor takes beside them, say the models. throws ConfigError if the parameters are not
+  /// what they are described to be: see Validated.
   template <class S, class... Rest>
   const S& Add(std::string name, const typename S::Params& params, Rest&&... rest) {
+    if constexpr (ParamsStruct<typename S::Params>) Validated(params);
     auto system = std::make_unique<S>(params, std::forward<Rest>(rest)...);
     const S& reference = *system;
     AddSystem(std::move(name), std::move(system));

@@ -13,7 +13,7 @@ namespace {
 Wiring::Target TargetOf(const Wiring& wiring, const InputHandle& input) {
   const std::vector<Wiring::Target> targets = wiring.TargetsOf(input);
   if (targets.empty()) {
-    throw WiringError({"port: its system is not part of the diagram that was asked"});
+    throw WiringError("port: its system is not part of the diagram that was asked");
   }
   return targets.front();
 }
@@ -37,11 +37,11 @@ std::vector<Diagram::Leaf> Diagram::systems() const {
 std::string Diagram::PathOf(const System& system) const { return wiring().PathOf(system); }
 
 std::string Diagram::PathOf(const OutputHandle& output) const {
-  return wiring().NameOfOutput(wiring().LeafOf(output), output.index);
+  return wiring().PathOfOutput(wiring().LeafOf(output), output.index).ToString();
 }
 
 std::string Diagram::PathOf(const InputHandle& input) const {
-  if (input.system == nullptr) throw WiringError({"port: got none of any system"});
+  if (input.system == nullptr) throw WiringError("port: got none of any system");
   const std::string path = PathOf(*input.system);
   return (path.empty() ? "" : path + ".") + input.system->inputs().at(input.index).name;
 }

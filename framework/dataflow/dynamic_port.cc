@@ -25,26 +25,26 @@ namespace {
 
 template <class Info>
 void CheckTypeOf(const char* kind, const Handle& port, const std::vector<Info>* infos,
-                 const SignalType& type) {
+                 const SignalType& type, const std::string& path) {
   if (infos == nullptr || port.index < 0 || port.index >= static_cast<int>(infos->size())) {
-    throw WiringError({fmt::format("{}: got none of any system; expected a {}", kind, type.name)});
+    throw WiringError(fmt::format("{}: got none of any system; expected a {}", kind, type.name));
   }
   const Info& info = (*infos)[static_cast<std::size_t>(port.index)];
   if (info.type == &type) return;
-  throw WiringError({fmt::format("{} '{}': type; got {}; expected {}", kind, info.name, type.name,
-                                 info.type->name)});
+  throw WiringError(fmt::format("{} '{}': type; got {}; expected {}", kind,
+                                path.empty() ? info.name : path, type.name, info.type->name));
 }
 
 }  // namespace
 
-void CheckType(const OutputHandle& output, const SignalType& type) {
+void CheckType(const OutputHandle& output, const SignalType& type, const std::string& path) {
   const bool none = output.system == nullptr;
-  CheckTypeOf("output", output, none ? nullptr : &output.system->outputs(), type);
+  CheckTypeOf("output", output, none ? nullptr : &output.system->outputs(), type, path);
 }
 
-void CheckType(const InputHandle& input, const SignalType& type) {
+void CheckType(const InputHandle& input, const SignalType& type, const std::string& path) {
   const bool none = input.system == nullptr;
-  CheckTypeOf("input", input, none ? nullptr : &input.system->inputs(), type);
+  CheckTypeOf("input", input, none ? nullptr : &input.system->inputs(), type, path);
 }
 
 }  // namespace internal
@@ -62,9 +62,9 @@ void EvalJson(const OutputHandle& output, const Context& context, std::string& o
 
 std::span<const double> EvalVector(const OutputHandle& output, const Context& context) {
   if (&TypeOfPort(output) != &kVectorType) {
-    throw WiringError(
-        {fmt::format("output '{}': type; got {}; expected Vector",
-                     output.system->outputs()[output.index].name, TypeOfPort(output).name)});
+    throw WiringError(fmt::format("output '{}': type; got {}; expected Vector",
+                                  output.system->outputs()[output.index].name,
+                                  TypeOfPort(output).name));
   }
   const internal::Storage at = internal::Find(output, context);
   return {reinterpret_cast<const double*>(at.arena + at.slot.offset), at.slot.size};
@@ -72,8 +72,8 @@ std::span<const double> EvalVector(const OutputHandle& output, const Context& co
 
 const void* EvalObject(const OutputHandle& output, const Context& context) {
   if (&TypeOfPort(output) == &kVectorType) {
-    throw WiringError({fmt::format("output '{}': type; got Vector; expected another one",
-                                   output.system->outputs()[output.index].name)});
+    throw WiringError(fmt::format("output '{}': type; got Vector; expected another one",
+                                  output.system->outputs()[output.index].name));
   }
   const internal::Storage at = internal::Find(output, context);
   return at.arena + at.slot.offset;

@@ -17,19 +17,19 @@ const SignalType& TypeOfPort(const OutputHandle& output);
 const SignalType& TypeOfPort(const InputHandle& input);
 
 namespace internal {
-/// throw WiringError unless the port has that type.
-void CheckType(const OutputHandle& output, const SignalType& type);
-void CheckType(const InputHandle& input, const SignalType& type);
+/// throw WiringError unless the port has that type; it is named by `path`, or its own name.
+void CheckType(const OutputHandle& output, const SignalType& type, const std::string& path);
+void CheckType(const InputHandle& input, const SignalType& type, const std::string& path);
 }  // namespace internal
 
 template <class T>
-Input<T> Typed(const InputHandle& input) {
-  internal::CheckType(input, TypeOf<T>());
+Input<T> Typed(const InputHandle& input, const std::string& path) {
+  internal::CheckType(input, TypeOf<T>(), path);
   return Input<T>(input);
 }
 template <class T>
-Output<T> Typed(const OutputHandle& output) {
-  internal::CheckType(output, TypeOf<T>());
+Output<T> Typed(const OutputHandle& output, const std::string& path) {
+  internal::CheckType(output, TypeOf<T>(), path);
   return Output<T>(output);
 }
 

@@ -47,9 +47,9 @@ Function::Function(const FunctionPorts& ports, const std::vector<Argument>& argu
   }
   if (taken != ports.inputs.size()) {
     throw WiringError(
-        {fmt::format("block of '{}': inputs; got {} ports; expected {}, as many as "
-                     "its callable takes",
-                     ports.output.name, ports.inputs.size(), taken)});
+        fmt::format("block of '{}': inputs; got {} ports; expected {}, as many as "
+                    "its callable takes",
+                    ports.output.name, ports.inputs.size(), taken));
   }
   const std::string& name = ports.output.name;
   if (!memory) {

@@ -13,6 +13,7 @@ namespace oca {
 namespace {
 
 using internal::AddMismatch;
+using internal::NameOfItem;
 using nlohmann::ordered_json;
 
 class EnumType final : public ParamType {
@@ -70,14 +71,15 @@ class ListType final : public ParamType {
     if (value.list() == nullptr) return AddMismatch(value, where, "a " + Name(), problems);
     clear_(target);
     for (std::size_t i = 0; i < value.list()->size(); ++i) {
-      item_.Read((*value.list())[i], field, fmt::format("{}[{}]", where, i), append_(target),
-                 problems);
+      item_.Read((*value.list())[i], field, NameOfItem(where, i), append_(target), problems);
     }
   }
   void Check(const void* value, const FieldInfo& field, const std::string& where,
              std::vector<std::string>& problems) const override {
     for (std::size_t i = 0; i < size_(value); ++i) {
-      item_.Check(at_(value, i), field, fmt::format("{}[{}]", where, i), problems);
+      std::vector<std::string> any;
+      item_.Check(at_(value, i), field, where, any);
+      if (!any.empty()) item_.Check(at_(value, i), field, NameOfItem(where, i), problems);
     }
   }
   ordered_json ToJson(const void* value) const override {

@@ -27,6 +27,10 @@ std::string BeyondBounds(double number, const FieldInfo& field, const std::strin
 
 }  // namespace
 
+std::string NameOfItem(const std::string& where, std::size_t i) {
+  return where + "[" + std::to_string(i) + "]";
+}
+
 void AddMismatch(const Value& value, const std::string& where, const std::string& expected,
                  Problems& problems) {
   problems.Add(value.location(),

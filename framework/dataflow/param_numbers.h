@@ -3,6 +3,7 @@
 
 // Private to the parameter types.
 
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -10,6 +11,9 @@
 #include "oca/framework/dataflow/params.h"
 
 namespace oca::internal {
+
+/// `where[i]`
+std::string NameOfItem(const std::string& where, std::size_t i);
 
 /// Adds `where: got X; expected Y`.
 void AddMismatch(const Value& value, const std::string& where, const std::string& expected,

@@ -15,6 +15,7 @@ namespace {
 
 using internal::AddMismatch;
 using internal::CheckNumber;
+using internal::NameOfItem;
 using internal::NumberJson;
 using internal::NumberSchema;
 using internal::ReadNumber;
@@ -137,8 +138,11 @@ bool ReadNumbers(const Value& value, const FieldInfo& field, const std::string& 
   out.resize(size);
   bool good = true;
   for (Eigen::Index i = 0; i < size; ++i) {
-    good &=
-        ReadNumber((*value.list())[i], field, fmt::format("{}[{}]", where, i), out[i], problems);
+    const Value& item = (*value.list())[i];
+    Problems any;
+    if (ReadNumber(item, field, where, out[i], any)) continue;
+    good =
+        ReadNumber(item, field, NameOfItem(where, static_cast<std::size_t>(i)), out[i], problems);
   }
   return good;
 }
@@ -149,7 +153,10 @@ void CheckNumbers(const Eigen::VectorXd& values, const FieldInfo& field, const s
     problems.push_back(fmt::format("{}: got a list of 0; expected at least one number", where));
   }
   for (Eigen::Index i = 0; i < values.size(); ++i) {
-    CheckNumber(values[i], field, fmt::format("{}[{}]", where, i), problems);
+    std::vector<std::string> any;
+    CheckNumber(values[i], field, where, any);
+    if (!any.empty())
+      CheckNumber(values[i], field, NameOfItem(where, static_cast<std::size_t>(i)), problems);
   }
 }
 

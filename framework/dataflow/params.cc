@@ -96,11 +96,11 @@ void CheckFields(const std::vector<Field>& fields, const void* params, const voi
                  const std::string& where, std::vector<std::string>& problems) {
   for (const Field& field : fields) {
     const void* const value = MemberOf(field, params);
-    std::vector<std::string> own;
-    field.type->Check(value, field, where.empty() ? field.key : where + "." + field.key, own);
-    if (own.empty()) continue;
-    const bool usual = !field.required && field.type->Same(value, MemberOf(field, defaults));
-    if (!usual) problems.insert(problems.end(), own.begin(), own.end());
+    std::vector<std::string> any;
+    field.type->Check(value, field, field.key, any);
+    if (any.empty()) continue;
+    if (!field.required && field.type->Same(value, MemberOf(field, defaults))) continue;
+    field.type->Check(value, field, where.empty() ? field.key : where + "." + field.key, problems);
   }
 }
 

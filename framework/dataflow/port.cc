@@ -37,9 +37,9 @@ Storage FindExported(const InputHandle& input, const Context& context) {
   const Schedule& schedule = Schedule::Of(input, context);
   const Schedule::InputEntry& entry = schedule.input(input);
   if (entry.source < 0) {
-    throw WiringError(
-        {fmt::format("{}.{}: only an input that the root diagram exports can be fixed",
-                     schedule.PathOf(*input.system), input.system->inputs()[input.index].name)});
+    throw WiringError(fmt::format("{}.{}: only an input that the root diagram exports can be fixed",
+                                  schedule.PathOf(*input.system),
+                                  input.system->inputs()[input.index].name));
   }
   return {schedule.arena(context), entry.slot, entry.plausible};
 }

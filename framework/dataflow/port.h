@@ -104,9 +104,9 @@ template <class T>
 struct Output;
 /// The same port with its type; dynamic_port.h. throws WiringError if it has another one.
 template <class T>
-Input<T> Typed(const InputHandle& input);
+Input<T> Typed(const InputHandle& input, const std::string& path = {});
 template <class T>
-Output<T> Typed(const OutputHandle& output);
+Output<T> Typed(const OutputHandle& output, const std::string& path = {});
 
 // Typed handles come from System::Declare..., Diagram::Get... and Typed alone: all of them know the
 // type. One that was made by default is no port.
@@ -121,7 +121,7 @@ struct Input : InputHandle {
 
  private:
   friend class System;
-  friend Input Typed<T>(const InputHandle& input);
+  friend Input Typed<T>(const InputHandle& input, const std::string& path);
   explicit Input(const InputHandle& handle) : InputHandle(handle) {}
 };
 
@@ -146,7 +146,7 @@ struct Output : OutputHandle {
 
  private:
   friend class System;
-  friend Output Typed<T>(const OutputHandle& output);
+  friend Output Typed<T>(const OutputHandle& output, const std::string& path);
   explicit Output(const OutputHandle& handle) : OutputHandle(handle) {}
 };
 

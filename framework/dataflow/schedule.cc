@@ -67,10 +67,8 @@ void Schedule::PullRange(const Context& context, std::uint32_t begin, std::uint3
       }
       state.checked = epoch;
     }
-  } catch (const SimulationError&) {
-    throw;
-  } catch (const std::exception& error) {
-    Fail(context, nodes[index].system, PortOf(nodes[index]), error.what());
+  } catch (...) {
+    FailByException(context, nodes[index].system, PortOf(nodes[index]));
   }
 }
 
@@ -108,6 +106,19 @@ void Schedule::Fail(const Context& context, const System* system, const std::str
   throw SimulationError(PathOf(*system), port, context.time(), what);
 }
 
+void Schedule::FailByException(const Context& context, const System* system,
+                               const std::string& port) const {
+  try {
+    throw;
+  } catch (const SimulationError&) {
+    throw;
+  } catch (const std::exception& error) {
+    Fail(context, system, port, error.what());
+  } catch (...) {
+    Fail(context, system, port, "an exception of an unknown type");
+  }
+}
+
 void Schedule::CheckStart(const Context& context, bool initialized) const {
   for (const ShownState& shown : shown_states) {
     if (shown.set_at_start && !initialized) continue;
@@ -131,10 +142,8 @@ void Schedule::EvaluateDerivatives(Context& context, double* result) const {
     try {
       Call(derivative.function, *derivative.system, arena(context), derivative.first_slot,
            context.header().profile);
-    } catch (const SimulationError&) {
-      throw;
-    } catch (const std::exception& error) {
-      Fail(context, derivative.system, derivative.state, error.what());
+    } catch (...) {
+      FailByException(context, derivative.system, derivative.state);
     }
   }
   const auto* computed = reinterpret_cast<const double*>(arena(context) + derivative_offset);
@@ -166,10 +175,8 @@ void Schedule::RunEvent(Context& context, const Event& event) const {
   }
   try {
     Call(event.function, *event.system, memory, event.first_slot, context.header().profile);
-  } catch (const SimulationError&) {
-    throw;
-  } catch (const std::exception& error) {
-    Fail(context, event.system, "", error.what());
+  } catch (...) {
+    FailByException(context, event.system, "");
   }
   for (const int index : event.writes) {
     const StateEntry& state = states[index];
@@ -196,10 +203,8 @@ double Schedule::EvaluateWitness(Context& context, int index) const {
   try {
     Call(witness.function, *witness.system, arena(context), witness.first_slot,
          context.header().profile);
-  } catch (const SimulationError&) {
-    throw;
-  } catch (const std::exception& error) {
-    Fail(context, witness.system, witness.name, error.what());
+  } catch (...) {
+    FailByException(context, witness.system, witness.name);
   }
   const double value = witness_states(context)[index].value;
   if (!std::isfinite(value)) {
@@ -281,8 +286,7 @@ const Schedule::InputEntry& Schedule::input(const InputHandle& handle) const {
 const Schedule& Schedule::Of(const Handle& handle, const Context& context) {
   const Schedule* const schedule = handle.system == nullptr ? nullptr : handle.system->schedule_;
   if (schedule == nullptr || schedule != context.schedule_) {
-    throw WiringError(
-        {"port or state: its system is not part of the diagram that made the context"});
+    throw WiringError("port or state: its system is not part of the diagram that made the context");
   }
   return *schedule;
 }

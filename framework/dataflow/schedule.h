@@ -236,6 +236,9 @@ class Schedule {
   void Pull(const Context& context, int node) const;
   [[noreturn]] void Fail(const Context& context, const System* system, const std::string& port,
                          const char* what) const;
+  /// By what a calculation threw, whatever its type; a SimulationError goes on as it is.
+  [[noreturn]] void FailByException(const Context& context, const System* system,
+                                    const std::string& port) const;
   void FailUnfixed(const Context& context, std::uint32_t source) const;
   [[noreturn]] void FailNode(const Context& context, std::uint32_t node) const;
   [[noreturn]] void FailState(const Context& context, const Event& event,

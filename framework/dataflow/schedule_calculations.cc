@@ -35,40 +35,40 @@ Slot ScheduleCompiler::SlotOf(int leaf, const Read& read) const {
 }
 
 std::uint32_t ScheduleCompiler::AddSlots(int leaf, const Calculation& calculation,
-                                         const std::vector<Slot>& writes) {
+                                         std::span<const Slot> writes) {
   const auto first = static_cast<std::uint32_t>(schedule_->slots.size());
   for (const Read& read : calculation.reads) schedule_->slots.push_back(SlotOf(leaf, read));
   schedule_->slots.insert(schedule_->slots.end(), writes.begin(), writes.end());
   return first;
 }
 
-std::pair<std::uint32_t, std::uint32_t> ScheduleCompiler::AddPulls(const std::vector<int>& wanted) {
+std::pair<std::uint32_t, std::uint32_t> ScheduleCompiler::AddPulls(std::span<const int> wanted) {
   marked_.resize(nodes_.size(), 0);
-  std::vector<int> found;
+  found_.clear();
   const auto mark = [&](int node) {
-    if (std::exchange(marked_[node], 1) == 0) found.push_back(node);
+    if (std::exchange(marked_[node], 1) == 0) found_.push_back(node);
   };
   for (const int node : wanted) mark(node);
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    for (const int before : nodes_[found[i]].predecessors) mark(before);
+  for (std::size_t i = 0; i < found_.size(); ++i) {
+    for (const int before : nodes_[found_[i]].predecessors) mark(before);
   }
-  std::sort(found.begin(), found.end());
-  for (const int node : found) marked_[node] = 0;
+  std::sort(found_.begin(), found_.end());
+  for (const int node : found_) marked_[node] = 0;
   const auto begin = static_cast<std::uint32_t>(schedule_->pulls.size());
-  schedule_->pulls.insert(schedule_->pulls.end(), found.begin(), found.end());
+  schedule_->pulls.insert(schedule_->pulls.end(), found_.begin(), found_.end());
   return {begin, static_cast<std::uint32_t>(schedule_->pulls.size())};
 }
 
 void ScheduleCompiler::CompileNodes() {
   const auto& leaves = wiring_.leaves();
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+  for (int i = 0; i < std::ssize(nodes_); ++i) {
     const NodeInfo& info = nodes_[i];
     const Calculation& calculation = CalculationOf(info);
     Schedule::Node& node = schedule_->nodes[i];
     node.function = calculation.function;
     node.system = leaves[info.leaf].system;
-    node.first_slot = AddSlots(info.leaf, calculation, {node.out});
-    std::tie(node.pull_begin, node.pull_end) = AddPulls({static_cast<int>(i)});
+    node.first_slot = AddSlots(info.leaf, calculation, {&node.out, 1});
+    std::tie(node.pull_begin, node.pull_end) = AddPulls({&i, 1});
   }
   TellPorts();
   for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf) {
@@ -92,10 +92,11 @@ void ScheduleCompiler::CompileNodes() {
 
 void ScheduleCompiler::TellPorts() {
   for (Schedule::Node& node : schedule_->nodes) node.port = -1;
+  std::vector<int> open;
   for (std::size_t leaf = 0; leaf < node_of_.size(); ++leaf) {
     for (int output = 0; output < std::ssize(node_of_[leaf]); ++output) {
       if (node_of_[leaf][output] < 0) continue;
-      std::vector<int> open{node_of_[leaf][output]};
+      open.assign(1, node_of_[leaf][output]);
       while (!open.empty()) {
         const int node = open.back();
         open.pop_back();
@@ -139,7 +140,7 @@ void ScheduleCompiler::CompilePlausible() {
 void ScheduleCompiler::CompileStates() {
   const auto& leaves = wiring_.leaves();
   std::vector<int> wanted;
-  std::set<std::uint32_t> sources;
+  Sources sources;
   for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf) {
     const System& system = *leaves[leaf].system;
     for (std::size_t i = 0; i < system.states().size(); ++i) {
@@ -149,15 +150,18 @@ void ScheduleCompiler::CompileStates() {
       Slot out = schedule_->states[system.first_state_ + i].slot;
       out.offset = out.offset - schedule_->continuous_offset + schedule_->derivative_offset;
       schedule_->derivatives.push_back({info.derivative.function, &system,
-                                        AddSlots(index, info.derivative, {out}), out, info.name});
+                                        AddSlots(index, info.derivative, {&out, 1}), out,
+                                        info.name});
       const auto more = NodesOf(index, info.derivative.reads);
       wanted.insert(wanted.end(), more.begin(), more.end());
-      for (const Read& read : info.derivative.reads) sources.merge(SourcesOf(index, read));
+      const Sources its = SourcesOf(index, info.derivative.reads);
+      sources.insert(sources.end(), its.begin(), its.end());
     }
   }
   std::tie(schedule_->derivative_pull_begin, schedule_->derivative_pull_end) = AddPulls(wanted);
   for (Schedule::StateEntry& state : schedule_->states) {
-    state.in_derivatives = sources.contains(static_cast<std::uint32_t>(state.source));
+    state.in_derivatives = std::find(sources.begin(), sources.end(),
+                                     static_cast<std::uint32_t>(state.source)) != sources.end();
   }
 }
 
@@ -172,8 +176,8 @@ void ScheduleCompiler::CompileWitnesses() {
       Schedule::Witness witness{};
       witness.function = info.calculation.function;
       witness.system = &system;
-      witness.first_slot = AddSlots(static_cast<int>(leaf), info.calculation,
-                                    {{static_cast<std::uint32_t>(offset), 1}});
+      const Slot value{static_cast<std::uint32_t>(offset), 1};
+      witness.first_slot = AddSlots(static_cast<int>(leaf), info.calculation, {&value, 1});
       std::tie(witness.pull_begin, witness.pull_end) =
           AddPulls(NodesOf(static_cast<int>(leaf), info.calculation.reads));
       witness.name = info.name;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oca/framework/dataflow/schedule_compiler.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 #include <utility>
 
 #include "oca/framework/dataflow/error.h"
@@ -90,26 +89,42 @@ int ScheduleCompiler::NodeOf(int leaf, const Read& read) const {
   return driver.leaf < 0 ? -1 : node_of_[driver.leaf][driver.output];
 }
 
-std::set<std::uint32_t> ScheduleCompiler::SourcesOf(int leaf, const Read& read) const {
-  const auto state_source = [&](int of_leaf, int state) -> std::uint32_t {
-    return schedule_->states[wiring_.leaves()[of_leaf].system->first_state_ + state].source;
+ScheduleCompiler::Sources ScheduleCompiler::SourcesOf(int leaf,
+                                                      const std::vector<Read>& reads) const {
+  Sources sources;
+  sources.reserve(8);
+  for (const Read& read : reads) AddSources(leaf, read, sources);
+  std::sort(sources.begin(), sources.end());
+  sources.erase(std::unique(sources.begin(), sources.end()), sources.end());
+  return sources;
+}
+
+void ScheduleCompiler::AddSources(int leaf, const Read& read, Sources& sources) const {
+  const auto add_state = [&](int of_leaf, int state) {
+    sources.push_back(static_cast<std::uint32_t>(
+        schedule_->states[wiring_.leaves()[of_leaf].system->first_state_ + state].source));
   };
-  if (read.kind == Read::Kind::kOfTime) return {Schedule::kTimeSource};
-  if (read.kind == Read::Kind::kState) return {state_source(leaf, read.index)};
-  if (const int node = NodeOf(leaf, read); node >= 0) return nodes_[node].sources;
+  if (read.kind == Read::Kind::kOfTime) return sources.push_back(Schedule::kTimeSource);
+  if (read.kind == Read::Kind::kState) return add_state(leaf, read.index);
+  if (const int node = NodeOf(leaf, read); node >= 0) {
+    const Sources& more = nodes_[node].sources;
+    sources.insert(sources.end(), more.begin(), more.end());
+    return;
+  }
   Wiring::Driver driver;
   if (read.kind == Read::Kind::kInput) driver = wiring_.leaves()[leaf].drivers[read.index];
   if (read.kind == Read::Kind::kOutput) driver = {leaf, read.index, -1};
   if (driver.exported >= 0) {
-    return {static_cast<std::uint32_t>(schedule_->exported_inputs[driver.exported].source)};
+    sources.push_back(
+        static_cast<std::uint32_t>(schedule_->exported_inputs[driver.exported].source));
+  } else if (driver.leaf >= 0) {
+    add_state(driver.leaf, wiring_.leaves()[driver.leaf].system->outputs()[driver.output].state);
   }
-  if (driver.leaf < 0) return {};
-  return {state_source(driver.leaf,
-                       wiring_.leaves()[driver.leaf].system->outputs()[driver.output].state)};
 }
 
 std::vector<int> ScheduleCompiler::NodesOf(int leaf, const std::vector<Read>& reads) const {
   std::vector<int> nodes;
+  nodes.reserve(reads.size());
   for (const Read& read : reads) {
     if (const int node = NodeOf(leaf, read); node >= 0) nodes.push_back(node);
   }
@@ -124,14 +139,15 @@ const Calculation& ScheduleCompiler::CalculationOf(const NodeInfo& node) const {
 
 void ScheduleCompiler::FindNodes() {
   const auto& leaves = wiring_.leaves();
-  const auto add = [&](std::vector<int>& nodes, const NodeInfo& info) {
+  const auto add = [&](std::vector<int>& nodes, NodeInfo info) {
     nodes.push_back(static_cast<int>(nodes_.size()));
-    nodes_.push_back(info);
+    nodes_.push_back(std::move(info));
   };
+  nodes_.reserve(2 * schedule_->outputs.size());
   for (int leaf = 0; leaf < std::ssize(leaves); ++leaf) {
     const System& system = *leaves[leaf].system;
-    node_of_.emplace_back();
-    cached_node_of_.emplace_back();
+    node_of_.emplace_back().reserve(system.outputs().size());
+    cached_node_of_.emplace_back().reserve(system.cached().size());
     for (int i = 0; i < std::ssize(system.cached()); ++i) {
       add(cached_node_of_.back(), {.leaf = leaf, .cached = i});
     }
@@ -150,14 +166,21 @@ void ScheduleCompiler::FindNodes() {
 
 void ScheduleCompiler::OrderNodes() {
   const std::size_t count = nodes_.size();
-  std::vector<std::vector<int>> successors(count);
   std::vector<int> open(count, 0), order;
+  order.reserve(count);
+  std::vector<std::size_t> first(count + 1, 0);  // of each node, into successors
   for (std::size_t node = 0; node < count; ++node) {
-    for (const int before : nodes_[node].predecessors) {
-      successors[before].push_back(static_cast<int>(node));
-    }
+    for (const int before : nodes_[node].predecessors) ++first[before + 1];
     open[node] = static_cast<int>(nodes_[node].predecessors.size());
     if (open[node] == 0) order.push_back(static_cast<int>(node));
+  }
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<int> successors(first.back());
+  std::vector<std::size_t> next = first;
+  for (std::size_t node = 0; node < count; ++node) {
+    for (const int before : nodes_[node].predecessors) {
+      successors[next[before]++] = static_cast<int>(node);
+    }
   }
   bool loops = false;
   for (std::size_t i = 0; i < order.size() || order.size() < count; ++i) {
@@ -168,8 +191,10 @@ void ScheduleCompiler::OrderNodes() {
         order.push_back(node);
       }
     }
-    for (const int next : successors[order[i]]) {
-      if (open[next] > 0 && --open[next] == 0) order.push_back(next);
+    const auto node = static_cast<std::size_t>(order[i]);
+    for (std::size_t k = first[node]; k < first[node + 1]; ++k) {
+      const int behind = successors[k];
+      if (open[behind] > 0 && --open[behind] == 0) order.push_back(behind);
     }
   }
   if (!loops) Renumber(order);
@@ -179,6 +204,7 @@ void ScheduleCompiler::Renumber(const std::vector<int>& order) {
   std::vector<int> position(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) position[order[i]] = static_cast<int>(i);
   std::vector<NodeInfo> ordered;
+  ordered.reserve(order.size());
   for (const int node : order) {
     ordered.push_back(std::move(nodes_[node]));
     for (int& before : ordered.back().predecessors) before = position[before];
@@ -190,10 +216,30 @@ void ScheduleCompiler::Renumber(const std::vector<int>& order) {
     }
   }
   for (NodeInfo& node : nodes_) {
-    for (const Read& read : CalculationOf(node).reads) {
-      node.sources.merge(SourcesOf(node.leaf, read));
-    }
+    node.sources = SourcesOf(node.leaf, CalculationOf(node).reads);
   }
+}
+
+WiringProblem ScheduleCompiler::ProblemOfLoop(const std::vector<int>& loop) const {
+  WiringProblem problem{.text = {"algebraic loop: "}};
+  const auto add = [&](const PortPath& port) {
+    if (problem.text.size() > 1) problem.text.push_back(" -> ");
+    problem.text.push_back(port);
+  };
+  for (std::size_t i = 0; i <= loop.size(); ++i) {
+    const NodeInfo& to = nodes_[loop[i % loop.size()]];
+    if (i > 0) {
+      for (const Read& read : CalculationOf(to).reads) {
+        if (read.kind != Read::Kind::kInput || NodeOf(to.leaf, read) != loop[i - 1]) continue;
+        problem.inputs.push_back(wiring_.PathOfInput(to.leaf, read.index));
+        add(problem.inputs.back());
+        break;
+      }
+    }
+    if (to.output >= 0) add(wiring_.PathOfOutput(to.leaf, to.output));
+  }
+  problem.text.push_back("; break it with a delay, a hold or any system whose output is a state");
+  return problem;
 }
 
 std::vector<int> ScheduleCompiler::ReportLoop(const std::vector<int>& open_predecessors) {
@@ -208,27 +254,13 @@ std::vector<int> ScheduleCompiler::ReportLoop(const std::vector<int>& open_prede
   }
   walk.erase(walk.begin(), std::find(walk.begin(), walk.end(), node));
   std::reverse(walk.begin(), walk.end());
-  // The path begins with an output; a loop has one, for only ports lead from system to system.
-  std::rotate(walk.begin(),
-              std::find_if(walk.begin(), walk.end(), [&](int i) { return nodes_[i].output >= 0; }),
-              walk.end());
-  std::string path;
-  for (std::size_t i = 0; i <= walk.size(); ++i) {
-    const NodeInfo& to = nodes_[walk[i % walk.size()]];
-    if (i > 0) {
-      for (const Read& read : CalculationOf(to).reads) {
-        if (read.kind != Read::Kind::kInput || NodeOf(to.leaf, read) != walk[i - 1]) continue;
-        path += " -> " + wiring_.NameOfInput(to.leaf, read.index);
-        break;
-      }
-    }
-    if (to.output < 0) continue;
-    path += (i > 0 ? " -> " : "") + wiring_.NameOfOutput(to.leaf, to.output);
-  }
-  wiring_.problems().push_back(fmt::format(
-      "algebraic loop: {}; break it with a delay, a hold or any system whose output is a "
-      "state",
-      path));
+  // The path begins with an output, the first of those that the diagram has on it; a loop has one,
+  // for only ports lead from system to system.
+  const auto rank = [&](int i) { return std::pair(nodes_[i].output < 0, i); };
+  const auto first = std::min_element(walk.begin(), walk.end(),
+                                      [&](int one, int other) { return rank(one) < rank(other); });
+  std::rotate(walk.begin(), first, walk.end());
+  wiring_.problems().push_back(ProblemOfLoop(walk));
   return walk;
 }
 

@@ -26,7 +26,9 @@ void ScheduleCompiler::MakeGroups() {
 }
 
 void ScheduleCompiler::MakeClasses() {
-  for (const NodeInfo& node : nodes_) classes_.emplace(node.sources, classes_.size());
+  for (const NodeInfo& node : nodes_) {
+    classes_.try_emplace(node.sources, static_cast<std::uint32_t>(classes_.size()));
+  }
   schedule_->classes.resize(classes_.size());
   for (const auto& [sources, index] : classes_) {
     const auto begin = static_cast<std::uint32_t>(schedule_->class_sources.size());
@@ -40,7 +42,7 @@ std::uint32_t ScheduleCompiler::Allocate(std::size_t bytes, std::size_t align) {
   arena_ = (arena_ + align - 1) / align * align;
   const std::size_t offset = arena_;
   arena_ += bytes;
-  if (arena_ >= Slot::kNone) throw WiringError({"diagram: its values need more than 4 GB"});
+  if (arena_ >= Slot::kNone) throw WiringError("diagram: its values need more than 4 GB");
   return static_cast<std::uint32_t>(offset);
 }
 
@@ -122,6 +124,7 @@ void ScheduleCompiler::LayOutStates() {
 }
 
 void ScheduleCompiler::LayOutNodes() {
+  schedule_->nodes.reserve(nodes_.size());
   for (const NodeInfo& info : nodes_) {
     const System& system = *wiring_.leaves()[info.leaf].system;
     Schedule::Node node{};

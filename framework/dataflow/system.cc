@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include "oca/framework/dataflow/check_name.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/nearest.h"
 
@@ -14,14 +15,23 @@ namespace {
 
 template <class Infos>
 int IndexOf(const Infos& infos, const std::string& name, const char* kind) {
-  std::vector<std::string> names;
   for (const auto& info : infos) {
     if (info.name == name) return static_cast<int>(&info - infos.data());
-    names.push_back(info.name);
   }
+  std::vector<std::string> names;
+  for (const auto& info : infos) names.push_back(info.name);
   throw WiringError(
-      {fmt::format("no {} port '{}'{}; {} ports are: {}", kind, name, DidYouMean(name, names), kind,
-                   names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")))});
+      fmt::format("no {} port '{}'{}; {} ports are: {}", kind, name, DidYouMean(name, names), kind,
+                  names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+}
+
+/// Of a port that is about to be declared.
+template <class Infos>
+void CheckPortName(const Infos& infos, const std::string& name, const char* kind) {
+  internal::CheckName(name, kind);
+  for (const auto& info : infos) {
+    if (info.name == name) throw WiringError(fmt::format("{} name: '{}' is taken", kind, name));
+  }
 }
 
 }  // namespace
@@ -52,11 +62,12 @@ Size System::DeclareSize(
 }
 
 InputHandle System::AddInput(InputInfo info) {
+  CheckPortName(inputs_, info.name, "input");
   if (info.type != &kVectorType && info.type->read_json == nullptr) {
     throw WiringError(
-        {fmt::format("input '{}': type; got {}, which is not read from JSON; expected "
-                     "one that is",
-                     info.name, info.type->name)});
+        fmt::format("input '{}': type; got {}, which is not read from JSON; expected "
+                    "one that is",
+                    info.name, info.type->name));
   }
   inputs_.push_back(std::move(info));
   return {{this, static_cast<int>(inputs_.size()) - 1}};
@@ -67,9 +78,9 @@ void System::CheckReads(const std::string& what, const Calculation& calculation)
     const Read& read = calculation.reads[i];
     const auto check = [&](const char* kind, std::size_t count) {
       if (read.system == this && read.index >= 0 && read.index < static_cast<int>(count)) return;
-      throw WiringError({fmt::format(
+      throw WiringError(fmt::format(
           "{}: reads; got {} of another system in place {}; expected one declared before it", what,
-          kind, i)});
+          kind, i));
     };
     if (read.kind == Read::Kind::kInput) check("an input", inputs_.size());
     if (read.kind == Read::Kind::kOutput) check("an output", outputs_.size());
@@ -79,13 +90,14 @@ void System::CheckReads(const std::string& what, const Calculation& calculation)
 }
 
 OutputHandle System::AddOutput(OutputInfo info) {
+  CheckPortName(outputs_, info.name, "output");
   if (info.type != &kVectorType && info.type->write_json == nullptr) {
     throw WiringError(
-        {fmt::format("output '{}': type; got {}, which is not written as JSON; "
-                     "expected one that is",
-                     info.name, info.type->name)});
+        fmt::format("output '{}': type; got {}, which is not written as JSON; "
+                    "expected one that is",
+                    info.name, info.type->name));
   }
-  CheckReads(fmt::format("output '{}'", info.name), info.calculation);
+  CheckReads("output '" + info.name + "'", info.calculation);
   outputs_.push_back(std::move(info));
   return {{this, static_cast<int>(outputs_.size()) - 1}};
 }
@@ -110,8 +122,7 @@ StateHandle System::AddState(StateInfo info) {
 int System::StateIndex(const StateHandle& state) const {
   const int count = static_cast<int>(states_.size());
   if (state.system == this && state.index >= 0 && state.index < count) return state.index;
-  throw WiringError(
-      {"state: shown or written; got one of another system; expected one of its own"});
+  throw WiringError("state: shown or written; got one of another system; expected one of its own");
 }
 
 void System::SetDerivative(const StateHandle& state, Calculation calculation) {
@@ -124,7 +135,7 @@ Witness System::AddWitness(WitnessInfo info) {
   CheckReads(fmt::format("witness '{}'", info.name), info.calculation);
   for (const WitnessInfo& other : witnesses_) {
     if (other.name != info.name) continue;
-    throw WiringError({fmt::format("witness '{}' is declared twice", info.name)});
+    throw WiringError(fmt::format("witness '{}' is declared twice", info.name));
   }
   witnesses_.push_back(std::move(info));
   return {{this, static_cast<int>(witnesses_.size()) - 1}};
@@ -132,7 +143,7 @@ Witness System::AddWitness(WitnessInfo info) {
 
 int System::WitnessIndex(const Witness& witness) const {
   if (witness.system == this) return witness.index;
-  throw WiringError({"reset: its witness is not of this system; expected one declared before it"});
+  throw WiringError("reset: its witness is not of this system; expected one declared before it");
 }
 
 void System::AddEvent(EventInfo info) {
@@ -144,15 +155,15 @@ void System::AddEvent(EventInfo info) {
   }
   for (const int state : info.writes) {
     if (info.stage == Stage::kUpdate && states_.at(state).continuous) {
-      throw WiringError({fmt::format("state '{}' is continuous: only a reset may write it",
-                                     states_.at(state).name)});
+      throw WiringError(fmt::format("state '{}' is continuous: only a reset may write it",
+                                    states_.at(state).name));
     }
     for (const EventInfo& other : events_) {
       if (other.stage != info.stage || !timed || other.witness >= 0) continue;
       for (const int written : other.writes) {
         if (written != state) continue;
-        throw WiringError({fmt::format("state '{}' is written by two events of one stage",
-                                       states_.at(state).name)});
+        throw WiringError(fmt::format("state '{}' is written by two events of one stage",
+                                      states_.at(state).name));
       }
     }
   }

@@ -117,8 +117,13 @@ std::string Value::Show() const {
   return std::visit(Visitor(), data_);
 }
 
+std::string Diagnostic::ToString() const {
+  const char* const name = kind == Kind::kError ? "error" : "warning";
+  return fmt::format("{}: {}: {}", location.ToString(), name, what);
+}
+
 void Problems::Add(const Location& location, const std::string& what) {
-  all_.push_back(fmt::format("{}: error: {}", location.ToString(), what));
+  all_.push_back({location, what});
 }
 
 void Problems::Add(const Problems& others) {
@@ -126,7 +131,10 @@ void Problems::Add(const Problems& others) {
 }
 
 void Problems::Throw() const {
-  if (!all_.empty()) throw ConfigError(fmt::format("{}", fmt::join(all_, "\n")));
+  if (all_.empty()) return;
+  std::vector<std::string> lines;
+  for (const Diagnostic& problem : all_) lines.push_back(problem.ToString());
+  throw ConfigError(fmt::format("{}", fmt::join(lines, "\n")));
 }
 
 }  // namespace oca

@@ -77,22 +77,29 @@ struct Value::Entry {
   Value value;
 };
 
+/// What is wrong at a place in a file, or to be warned of.
+struct Diagnostic {
+  enum class Kind { kError, kWarning };
+  Location location;
+  std::string what;
+  Kind kind{Kind::kError};
+  /// `file:line:column: error: what`
+  std::string ToString() const;
+};
+
 /// Collects the problems of a file, so that a person sees all of them at once.
 class Problems {
  public:
-  /// Adds `location: error: what`.
   void Add(const Location& location, const std::string& what);
   /// Adds the problems of another collection.
   void Add(const Problems& others);
-  /// Adds one as all() has it.
-  void AddLine(std::string line) { all_.push_back(std::move(line)); }
   bool empty() const { return all_.empty(); }
-  const std::vector<std::string>& all() const { return all_; }
+  const std::vector<Diagnostic>& all() const { return all_; }
   /// throws ConfigError with all problems, a line each, if there are any.
   void Throw() const;
 
  private:
-  std::vector<std::string> all_;
+  std::vector<Diagnostic> all_;
 };
 
 }  // namespace oca

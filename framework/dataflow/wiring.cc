@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <iterator>
 #include <utility>
 
 #include "oca/framework/dataflow/error.h"
@@ -62,21 +63,21 @@ void Wiring::Connect(const Diagram::Connection& connection, const std::string& p
   const auto from = index_.find(connection.from.system);
   if (from == index_.end()) {
     problems_.push_back(
-        fmt::format("{}connections: an output of a system outside this diagram", prefix));
+        {{fmt::format("{}connections: an output of a system outside this diagram", prefix)}});
     return;
   }
   const std::vector<Target> targets = TargetsOf(connection.to);
   if (targets.empty()) {
     problems_.push_back(
-        fmt::format("{}connections: an input of a system outside this diagram", prefix));
+        {{fmt::format("{}connections: an input of a system outside this diagram", prefix)}});
   }
   for (const Target& target : targets) {
     const Driver driver{from->second, connection.from.index, -1};
     const SignalType* const got = leaves_[from->second].system->outputs()[driver.output].type;
     if (got != InfoOf(target).type) {
-      problems_.push_back(fmt::format("{} -> {}: type; got {}; expected {}", NameOfDriver(driver),
-                                      NameOfInput(target.leaf, target.input), got->name,
-                                      InfoOf(target).type->name));
+      AddProblem(target, {NameOfDriver(driver), " -> ", PathOfInput(target.leaf, target.input),
+                          fmt::format(": type; got {}; expected {}", got->name,
+                                      InfoOf(target).type->name)});
     }
     Drive(target, driver);
   }
@@ -88,8 +89,8 @@ void Wiring::ExportAll(const Diagram& root) {
     for (const InputHandle& input : exported.to) {
       const std::vector<Target> targets = TargetsOf(input);
       if (targets.empty()) {
-        problems_.push_back(fmt::format(
-            "exported input '{}': an input of a system outside this diagram", exported.name));
+        problems_.push_back({{fmt::format(
+            "exported input '{}': an input of a system outside this diagram", exported.name)}});
       }
       for (const Target& target : targets) {
         Driver driver;
@@ -97,10 +98,10 @@ void Wiring::ExportAll(const Diagram& root) {
         Drive(target, driver);
         exported_.back().push_back(target);
         if (InfoOf(target).type != InfoOf(exported_.back().front()).type) {
-          problems_.push_back(fmt::format("{} -> {}: type; got {}; expected {}", exported.name,
-                                          NameOfInput(target.leaf, target.input),
+          AddProblem(target, {exported.name, " -> ", PathOfInput(target.leaf, target.input),
+                              fmt::format(": type; got {}; expected {}",
                                           InfoOf(exported_.back().front()).type->name,
-                                          InfoOf(target).type->name));
+                                          InfoOf(target).type->name)});
         }
       }
     }
@@ -111,52 +112,51 @@ void Wiring::CheckExportedOutputs() {
   for (const auto& [name, output] : root_.exported_outputs()) {
     if (index_.contains(output.system)) continue;
     problems_.push_back(
-        fmt::format("exported output '{}': an output of a system outside this diagram", name));
+        {{fmt::format("exported output '{}': an output of a system outside this diagram", name)}});
   }
 }
 
 void Wiring::Drive(const Target& target, const Driver& driver) {
   Driver& present = leaves_[target.leaf].drivers[target.input];
   if (!present.none()) {
-    problems_.push_back(fmt::format("{}: two drivers; got {} and {}; expected one",
-                                    NameOfInput(target.leaf, target.input), NameOfDriver(present),
-                                    NameOfDriver(driver)));
+    AddProblem(target, {PathOfInput(target.leaf, target.input), ": two drivers; got ",
+                        NameOfDriver(present), " and ", NameOfDriver(driver), "; expected one"});
     return;
   }
   present = driver;
 }
 
 void Wiring::CheckUnconnected() {
-  for (std::size_t leaf = 0; leaf < leaves_.size(); ++leaf) {
+  for (int leaf = 0; leaf < std::ssize(leaves_); ++leaf) {
     const auto& inputs = leaves_[leaf].system->inputs();
-    for (std::size_t input = 0; input < inputs.size(); ++input) {
+    for (int input = 0; input < std::ssize(inputs); ++input) {
       if (!leaves_[leaf].drivers[input].none() || inputs[input].optional) continue;
-      problems_.push_back(fmt::format("{}: input not connected; expected an output of type {}",
-                                      NameOfInput(static_cast<int>(leaf), static_cast<int>(input)),
-                                      inputs[input].type->name));
+      AddProblem({leaf, input}, {PathOfInput(leaf, input),
+                                 fmt::format(": input not connected; expected an output of type {}",
+                                             inputs[input].type->name)});
     }
   }
 }
 
 void Wiring::CheckInitialValues() {
-  for (std::size_t leaf = 0; leaf < leaves_.size(); ++leaf) {
+  for (int leaf = 0; leaf < std::ssize(leaves_); ++leaf) {
     for (const System::StateInfo& state : leaves_[leaf].system->states()) {
-      const std::string name = fmt::format("{}.{}", leaves_[leaf].path, state.name);
+      const auto add = [&](const std::string& what) {
+        const std::string& path = leaves_[leaf].path;
+        problems_.push_back({.text = {PortPath{path, state.name}, ": " + what}, .system = path});
+      };
       if (state.type == &kVectorType && !state.initial.scalar()) {
-        const int size = SizeOf(static_cast<int>(leaf), state.spec.size);
+        const int size = SizeOf(leaf, state.spec.size);
         if (state.initial.values().size() != size) {
-          problems_.push_back(fmt::format("{}: initial value; got {} numbers; expected {}", name,
-                                          state.initial.values().size(), size));
+          add(fmt::format("initial value; got {} numbers; expected {}",
+                          state.initial.values().size(), size));
         }
       }
       if (state.type == &kVectorType && !state.initial.values().allFinite()) {
-        problems_.push_back(
-            fmt::format("{}: initial value; got a NaN or an infinity; expected "
-                        "finite numbers",
-                        name));
+        add("initial value; got a NaN or an infinity; expected finite numbers");
       }
       if (state.continuous && state.derivative.function == nullptr) {
-        problems_.push_back(fmt::format("{}: continuous state without a derivative", name));
+        add("continuous state without a derivative");
       }
     }
   }
@@ -175,7 +175,7 @@ Unit Wiring::UnitOf(int leaf, const Unit& unit) const {
 int Wiring::LeafOf(const Handle& port) const {
   const auto found = index_.find(port.system);
   if (found != index_.end()) return found->second;
-  throw WiringError({"port: its system is not part of the diagram that was asked"});
+  throw WiringError("port: its system is not part of the diagram that was asked");
 }
 
 std::string Wiring::PathOf(const System& system) const {
@@ -185,26 +185,32 @@ std::string Wiring::PathOf(const System& system) const {
   if (const auto nested = diagram_paths_.find(&system); nested != diagram_paths_.end()) {
     return nested->second;
   }
-  throw WiringError({"system: it is not part of the diagram that was asked"});
+  throw WiringError("system: it is not part of the diagram that was asked");
 }
 
 const System::InputInfo& Wiring::InfoOf(const Target& target) const {
   return leaves_[target.leaf].system->inputs()[target.input];
 }
 
-std::string Wiring::NameOfInput(int leaf, int input) const {
-  return leaves_[leaf].path + "." + leaves_[leaf].system->inputs()[input].name;
+PortPath Wiring::PathOfInput(int leaf, int input) const {
+  return {leaves_[leaf].path, leaves_[leaf].system->inputs()[input].name};
 }
 
-std::string Wiring::NameOfOutput(int leaf, int output) const {
-  return leaves_[leaf].path + "." + leaves_[leaf].system->outputs()[output].name;
+PortPath Wiring::PathOfOutput(int leaf, int output) const {
+  return {leaves_[leaf].path, leaves_[leaf].system->outputs()[output].name};
 }
 
-std::string Wiring::NameOfDriver(const Driver& driver) const {
+WiringProblem::Part Wiring::NameOfDriver(const Driver& driver) const {
   if (driver.exported >= 0) {
     return fmt::format("the exported input '{}'", root_.exported_inputs()[driver.exported].name);
   }
-  return NameOfOutput(driver.leaf, driver.output);
+  return PathOfOutput(driver.leaf, driver.output);
+}
+
+void Wiring::AddProblem(const Target& target, std::vector<WiringProblem::Part> text) {
+  problems_.push_back({.text = std::move(text),
+                       .inputs = {PathOfInput(target.leaf, target.input)},
+                       .system = leaves_[target.leaf].path});
 }
 
 }  // namespace oca

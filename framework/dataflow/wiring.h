@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "oca/framework/dataflow/diagram.h"
+#include "oca/framework/dataflow/error.h"
 
 namespace oca {
 
@@ -53,10 +54,10 @@ class Wiring {
   /// The dotted path of a leaf or a nested diagram, empty of the root; throws WiringError if it is
   /// not inside.
   std::string PathOf(const System& system) const;
-  std::vector<std::string>& problems() { return problems_; }
+  std::vector<WiringProblem>& problems() { return problems_; }
 
-  std::string NameOfInput(int leaf, int input) const;
-  std::string NameOfOutput(int leaf, int output) const;
+  PortPath PathOfInput(int leaf, int input) const;
+  PortPath PathOfOutput(int leaf, int output) const;
 
  private:
   void Flatten(const Diagram& diagram, const std::string& prefix);
@@ -70,14 +71,16 @@ class Wiring {
   void SettleUnits();
   void CheckInitialValues();
 
-  std::string NameOfDriver(const Driver& driver) const;
+  /// What drives an input is wrong.
+  void AddProblem(const Target& target, std::vector<WiringProblem::Part> text);
+  WiringProblem::Part NameOfDriver(const Driver& driver) const;
 
   const Diagram& root_;
   std::vector<Leaf> leaves_;
   std::map<const System*, int> index_;
   std::map<const System*, std::string> diagram_paths_;
   std::vector<std::vector<Target>> exported_;
-  std::vector<std::string> problems_;
+  std::vector<WiringProblem> problems_;
 };
 
 }  // namespace oca

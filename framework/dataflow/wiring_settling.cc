@@ -12,13 +12,22 @@
 namespace oca {
 namespace {
 
+/// A vector port of a leaf.
+struct VectorPort {
+  int leaf;
+  const std::string& name;
+  const PortSpec& spec;
+};
+
 /// One side of a constraint: a value, or a variable that is the value plus a shift.
 template <class Value>
 struct Term {
-  std::optional<Value> value;
+  const Wiring::Leaf* leaf{nullptr};  // nullptr: of the root
+  const std::string* port{nullptr};
+  std::optional<Value> value{};
   int variable{-1};  // global
   int shift{0};
-  std::string port;
+  PortPath Path() const { return {leaf == nullptr ? "" : leaf->path, *port}; }
 };
 
 int Shift(int value, int /*shift*/) { return value; }
@@ -44,13 +53,13 @@ class Equalities {
     }
   }
 
-  void Report(const char* what, std::vector<std::string>& problems) const {
+  void Report(const std::string& what, std::vector<WiringProblem>& problems) const {
     for (const auto& [a, b] : all_) {
       const auto x = Get(a);
       const auto y = Get(b);
       if (!x || !y || *x == *y) continue;
-      problems.push_back(fmt::format("{} -> {}: {}; got {}; expected {}", a.port, b.port, what,
-                                     Show(*x), Show(*y)));
+      const std::string rest = fmt::format(": {}; got {}; expected {}", what, Show(*x), Show(*y));
+      problems.push_back({{a.Path(), " -> ", b.Path(), rest}, {b.Path()}, b.Path().system});
     }
   }
 
@@ -73,29 +82,30 @@ class Equalities {
   std::vector<std::optional<Value>> values_;
 };
 
-/// Calls visit(from spec, from leaf, from name, to spec, to leaf, to name) for every connection
-/// between vector ports, and between the inputs that share one exported input.
+/// Calls visit(from, to) for every connection between vector ports, and between the inputs that
+/// share one exported input.
 template <class Visit>
 void VisitVectorPairs(const Wiring& wiring, const Visit& visit) {
   const auto& leaves = wiring.leaves();
   for (int leaf = 0; leaf < static_cast<int>(leaves.size()); ++leaf) {
     const System& system = *leaves[leaf].system;
-    for (int input = 0; input < static_cast<int>(system.inputs().size()); ++input) {
-      const Wiring::Driver& driver = leaves[leaf].drivers[input];
-      if (driver.leaf < 0 || system.inputs()[input].type != &kVectorType) continue;
+    for (int i = 0; i < static_cast<int>(system.inputs().size()); ++i) {
+      const Wiring::Driver& driver = leaves[leaf].drivers[i];
+      const System::InputInfo& input = system.inputs()[i];
+      if (driver.leaf < 0 || input.type != &kVectorType) continue;
       const auto& output = leaves[driver.leaf].system->outputs()[driver.output];
       if (output.type != &kVectorType) continue;
-      visit(output.spec, driver.leaf, wiring.NameOfOutput(driver.leaf, driver.output),
-            system.inputs()[input].spec, leaf, wiring.NameOfInput(leaf, input));
+      visit(VectorPort{driver.leaf, output.name, output.spec},
+            VectorPort{leaf, input.name, input.spec});
     }
   }
   for (const auto& targets : wiring.exported()) {
     for (std::size_t i = 1; i < targets.size(); ++i) {
-      const auto& first = leaves[targets[0].leaf].system->inputs()[targets[0].input];
-      const auto& other = leaves[targets[i].leaf].system->inputs()[targets[i].input];
+      const System::InputInfo& first = wiring.InfoOf(targets[0]);
+      const System::InputInfo& other = wiring.InfoOf(targets[i]);
       if (first.type != &kVectorType || other.type != &kVectorType) continue;
-      visit(first.spec, targets[0].leaf, wiring.NameOfInput(targets[0].leaf, targets[0].input),
-            other.spec, targets[i].leaf, wiring.NameOfInput(targets[i].leaf, targets[i].input));
+      visit(VectorPort{targets[0].leaf, first.name, first.spec},
+            VectorPort{targets[i].leaf, other.name, other.spec});
     }
   }
 }
@@ -110,26 +120,26 @@ void Wiring::SettleSizes() {
     count += leaf.system->size_variables();
   }
   Equalities<int> sizes(count);
-  const auto term = [&](const PortSpec& spec, int leaf, std::string port) {
-    Term<int> result{{}, -1, 0, std::move(port)};
-    if (spec.size.variable() >= 0) {
-      result.variable = first[leaf] + spec.size.variable();
+  const auto term = [&](const VectorPort& port) {
+    Term<int> result{&leaves_[port.leaf], &port.name};
+    if (port.spec.size.variable() >= 0) {
+      result.variable = first[port.leaf] + port.spec.size.variable();
     } else {
-      result.value = spec.size.number();
+      result.value = port.spec.size.number();
     }
     return result;
   };
-  VisitVectorPairs(*this, [&](const PortSpec& from, int from_leaf, std::string from_name,
-                              const PortSpec& to, int to_leaf, std::string to_name) {
-    sizes.Add(term(from, from_leaf, std::move(from_name)), term(to, to_leaf, std::move(to_name)));
+  VisitVectorPairs(*this, [&](const VectorPort& from, const VectorPort& to) {
+    sizes.Add(term(from), term(to));
   });
   for (std::size_t i = 0; i < exported_.size(); ++i) {
     const Diagram::ExportedInput& exported = root_.exported_inputs()[i];
     if (exported.size < 0 || exported_[i].empty()) continue;
     const Target& target = exported_[i].front();
-    if (InfoOf(target).type != &kVectorType) continue;
-    sizes.Add({exported.size, -1, 0, exported.name},
-              term(InfoOf(target).spec, target.leaf, NameOfInput(target.leaf, target.input)));
+    const System::InputInfo& input = InfoOf(target);
+    if (input.type != &kVectorType) continue;
+    sizes.Add({nullptr, &exported.name, exported.size},
+              term({target.leaf, input.name, input.spec}));
   }
   sizes.Settle();
   sizes.Report("size", problems_);
@@ -149,19 +159,19 @@ void Wiring::SettleUnits() {
     count += leaf.system->unit_variables();
   }
   Equalities<Unit> units(count);
-  const auto term = [&](const PortSpec& spec, int leaf, std::string port) {
-    Term<Unit> result{{}, -1, 0, std::move(port)};
-    if (spec.unit.variable() >= 0) {
-      result.variable = first[leaf] + spec.unit.variable();
-      result.shift = spec.unit.rates();
-    } else if (!spec.unit.any()) {
-      result.value = spec.unit;
+  const auto term = [&](const VectorPort& port) {
+    Term<Unit> result{&leaves_[port.leaf], &port.name};
+    const Unit& unit = port.spec.unit;
+    if (unit.variable() >= 0) {
+      result.variable = first[port.leaf] + unit.variable();
+      result.shift = unit.rates();
+    } else if (!unit.any()) {
+      result.value = unit;
     }
     return result;
   };
-  VisitVectorPairs(*this, [&](const PortSpec& from, int from_leaf, std::string from_name,
-                              const PortSpec& to, int to_leaf, std::string to_name) {
-    units.Add(term(from, from_leaf, std::move(from_name)), term(to, to_leaf, std::move(to_name)));
+  VisitVectorPairs(*this, [&](const VectorPort& from, const VectorPort& to) {
+    units.Add(term(from), term(to));
   });
   units.Settle();
   units.Report("unit", problems_);

@@ -36,9 +36,9 @@ void SignalLog::Attach(Simulator& simulator, const Period& period) {
   for (const OutputHandle& output : outputs_) {
     const int size = diagram.SizeOf(output);
     if (&TypeOfPort(output) != &kVectorType) {
-      throw WiringError(
-          {fmt::format("signal log: output '{}'; got a {}; expected a Vector",
-                       output.system->outputs()[output.index].name, TypeOfPort(output).name)});
+      throw WiringError(fmt::format("signal log: output '{}'; got a {}; expected a Vector",
+                                    output.system->outputs()[output.index].name,
+                                    TypeOfPort(output).name));
     }
     begin_.push_back(begin_.back() + size);
     for (int i = 0; i < size; ++i) {

@@ -77,7 +77,7 @@ void Simulator::ConnectLog() { context_.header().log = log_ == nullptr ? &Silent
 
 void Simulator::CheckContext() const {
   if (context_.schedule_ == &diagram_.schedule() && context_.arena_ != nullptr) return;
-  throw WiringError({"simulator: context; got one of another diagram; expected one of its own"});
+  throw WiringError("simulator: context; got one of another diagram; expected one of its own");
 }
 
 void Simulator::Initialize() {

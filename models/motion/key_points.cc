@@ -15,7 +15,6 @@
 #include "oca/models/csv_table.h"
 #include "oca/models/error.h"
 #include "oca/models/file_cache.h"
-#include "oca/models/robot/joint_limits.h"
 
 namespace oca::motion {
 namespace {
@@ -169,10 +168,9 @@ void CheckKeyPoints(const std::vector<KeyPoint>& points, const std::string& wher
     }
     const Eigen::Index joints = points.front().position.size();
     CheckVector(at + ".position", point.position, joints);
-    if (const double far = point.position.cwiseAbs().maxCoeff(); far > robot::kFarthestPosition) {
-      throw models::ModelError(
-          fmt::format("{}.position: too far out; got {}; expected at most {:g}", at, far,
-                      robot::kFarthestPosition));
+    if (const double far = point.position.cwiseAbs().maxCoeff(); far > kFarthestPosition) {
+      throw models::ModelError(fmt::format(
+          "{}.position: too far out; got {}; expected at most {:g}", at, far, kFarthestPosition));
     }
     if (point.velocity) CheckVector(at + ".velocity", *point.velocity, joints);
     if (point.acceleration) CheckVector(at + ".acceleration", *point.acceleration, joints);

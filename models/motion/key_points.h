@@ -8,6 +8,10 @@
 
 namespace oca::motion {
 
+/// Of a joint: above it, with limits or without, poses in double precision are no longer good to a
+/// nanometre.
+inline constexpr double kFarthestPosition = 1e6;  // rad, m
+
 /// A point that a trajectory passes at a given time. The unit u is that of the joint, rad or m.
 struct KeyPoint {
   double time{0.0};                               ///< s
@@ -25,7 +29,7 @@ std::vector<KeyPoint> ReadKeyPoints(const std::string& path,
                                     const std::vector<std::string>& joints = {});
 
 /// throws ModelError, which begins with `where`, unless there is a point, all numbers are finite
-///        and within robot::kFarthestPosition, times increase and all points have as many joints
+///        and within kFarthestPosition, times increase and all points have as many joints
 void CheckKeyPoints(const std::vector<KeyPoint>& points, const std::string& where);
 
 }  // namespace oca::motion

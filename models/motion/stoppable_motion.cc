@@ -2,12 +2,14 @@
 #include "oca/models/motion/stoppable_motion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 namespace oca::motion {
 namespace {
 
+constexpr std::array kLimitNames{"none", "position", "velocity", "acceleration", "jerk"};
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Kept free before a position limit, so that the rounding of a long way to a halt has room; of the
 // limit itself where that is large, for rounding is.
@@ -162,6 +164,8 @@ End Reach(const JointLimits& limits, const JointMotion& motion, double dt, doubl
 }
 
 }  // namespace
+
+const char* NameOf(MotionLimit limit) { return kLimitNames[static_cast<std::size_t>(limit)]; }
 
 double LargestStoppableVelocity(double distance, double acceleration, double dt) {
   const double step = acceleration * dt;

@@ -7,6 +7,8 @@ namespace oca::motion {
 // moves in straight lines between ticks. Units are those of the joint, rad or m, and their rates.
 
 enum class MotionLimit { kNone, kPosition, kVelocity, kAcceleration, kJerk };
+/// "none", "position", ...
+const char* NameOf(MotionLimit limit);
 
 /// The last four may be infinite. The change of velocity from one period to the next is at most
 /// acceleration * dt, that of this change, jerk * dt^2.

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "oca/models/error.h"
+#include "oca/models/motion/key_points.h"
 
 namespace oca::robot {
 namespace {
@@ -222,15 +223,15 @@ std::optional<std::pair<double, double>> DrawnRange(const RobotModel& model, Eig
 }
 
 std::pair<double, double> PossibleRange(const RobotModel& model, Eigen::Index index) {
-  std::pair<double, double> range{-kFarthestPosition, kFarthestPosition};
+  std::pair<double, double> range{-motion::kFarthestPosition, motion::kFarthestPosition};
   for (int j = 0; j < model.num_joints(); ++j) {
     const KinematicStep& step = model.steps()[j];
     if (step.column != index || step.multiplier == 0.0) continue;
     const Joint& joint = model.joints()[j];
     const double beyond =
         step.type == JointType::kPrismatic ? kFarthestSlideBeyond : kFarthestTurnBeyond;
-    double lower = std::max(joint.lower_limit - beyond, -kFarthestPosition);
-    double upper = std::min(joint.upper_limit + beyond, kFarthestPosition);
+    double lower = std::max(joint.lower_limit - beyond, -motion::kFarthestPosition);
+    double upper = std::min(joint.upper_limit + beyond, motion::kFarthestPosition);
     lower = (lower - step.offset) / step.multiplier;
     upper = (upper - step.offset) / step.multiplier;
     if (step.multiplier < 0.0) std::swap(lower, upper);

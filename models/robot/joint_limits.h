@@ -22,8 +22,6 @@ inline constexpr double kWidestSlide = 100.0;             // m
 /// A robot's state farther beyond a limit than this is none of that robot's.
 inline constexpr double kFarthestTurnBeyond = 6.283185307179586;  // rad
 inline constexpr double kFarthestSlideBeyond = 10.0;              // m
-/// Above it, with limits or without, poses in double precision are no longer good to a nanometre.
-inline constexpr double kFarthestPosition = 1e6;  // rad, m
 
 /// The two, for messages.
 inline constexpr char kPossibleRule[] =
@@ -66,7 +64,7 @@ bool HasOwnRange(const RobotModel& model, Eigen::Index index);
 std::optional<std::pair<double, double>> DrawnRange(const RobotModel& model, Eigen::Index index);
 
 /// What position number `index` can be at all: no joint that it moves farther beyond a limit than
-/// kFarthestTurnBeyond or kFarthestSlideBeyond, nor beyond kFarthestPosition.
+/// kFarthestTurnBeyond or kFarthestSlideBeyond, nor beyond motion::kFarthestPosition.
 std::pair<double, double> PossibleRange(const RobotModel& model, Eigen::Index index);
 
 /// Empty if q can be a state of the robot, else "position of joint 'x'; got ...; expected ...": for

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "oca/framework/dataflow/error.h"
 
@@ -36,6 +37,12 @@ void RequireOrdered(const char* lower_key, const PerComponent& lower, const char
 void RequirePositive(const char* where, const Period& value) {
   if (value.positive()) return;
   throw ConfigError(fmt::format("{}: got {}; expected > 0 s", where, value.ToString()));
+}
+
+void RequireGain(const char* where, double gain, const Period& period) {
+  if (gain * period.seconds() <= 1.0 + std::numeric_limits<double>::epsilon()) return;
+  throw ConfigError(fmt::format("{}: got {} 1/s; expected at most 1 / period, {} 1/s", where, gain,
+                                1.0 / period.seconds()));
 }
 
 }  // namespace oca::systems

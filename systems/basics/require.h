@@ -18,5 +18,7 @@ void RequireOrdered(const char* lower_key, const PerComponent& lower, const char
                     const PerComponent& upper);
 /// Refuses a period of zero, which may be left out elsewhere.
 void RequirePositive(const char* where, const Period& value);
+/// Refuses a gain (1/s) above 1 / period, which would ask for more than all within one period.
+void RequireGain(const char* where, double gain, const Period& period);
 
 }  // namespace oca::systems

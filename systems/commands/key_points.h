@@ -20,6 +20,16 @@ struct KeyPointParams {
   static void Describe(Fields<KeyPointParams>& fields);
 };
 
+/// Describes the parameters key_points, file and joints.
+template <class P>
+void AddKeyPoints(Fields<P>& fields) {
+  fields.Add("key_points", &P::key_points, "", "points in order of time");
+  fields.Add("file", &P::file, "", "CSV file of key points (time, p1..pn) instead");
+  fields.Add(
+      "joints", &P::joints, "",
+      "names of the columns of positions in `file`, in the order of the joints; none: p1..pn");
+}
+
 /// The points given by the parameters `key_points` and `file`, of which one must be given; `joints`
 /// as motion::ReadKeyPoints takes them.
 /// throws ConfigError unless motion::CheckKeyPoints accepts them

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "oca/framework/dataflow/error.h"
+#include "oca/systems/basics/shared_params.h"
 #include "oca/systems/sensing/model_links.h"
 
 namespace oca::systems {
@@ -49,19 +50,11 @@ std::span<const char* const> EnumNames(SplineEnds) {
 void SplineRequest::Params::Describe(Fields<Params>& fields) {
   fields.Add("kind", &Params::kind, "", "what is continuous, and what is met at key points");
   fields.Add("ends", &Params::ends, "", "of a c2 spline: clamped or natural");
-  fields.Add("key_points", &Params::key_points, "", "points in order of time");
-  fields.Add("file", &Params::file, "", "CSV file of key points (time, p1..pn) instead");
-  fields.Add(
-      "joints", &Params::joints, "",
-      "names of the columns of positions in `file`, in the order of the joints; none: p1..pn");
+  AddKeyPoints(fields);
   fields.Add("goal", &Params::goal, "", "pose to end at, reached from the last key point");
   fields.Add("model", &Params::model, "",
              "robot that has the goal; may be left out if there is but one");
-  fields
-      .Add("period", &Params::period, "s",
-           "0: continuous in time; > 0: sampled for the end of each period and held")
-      .AtLeast(0.0);
-  fields.Add("unit", &Params::unit, "", "unit of the position");
+  AddSampling(fields);
 }
 
 SplineRequest::Params SplineRequest::Example() {

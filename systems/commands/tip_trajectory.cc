@@ -3,7 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "oca/models/motion/tip_path.h"
+#include "oca/models/planning/tip_path.h"
+#include "oca/systems/basics/shared_params.h"
 #include "oca/systems/sensing/model_links.h"
 #include "oca/systems/signals/config_errors.h"
 
@@ -28,10 +29,10 @@ void CheckPathKeys(const TipRequest::Params& params) {
   CheckGiven(params.radius.has_value(), !line, "radius", kind);
 }
 
-motion::TipPath TipPathOf(const TipRequest::Params& params) {
+planning::TipPath TipPathOf(const TipRequest::Params& params) {
   return params.path == TipPath::kLine
-             ? motion::LinePath(*params.from, *params.to)
-             : motion::CirclePath(*params.centre, *params.normal, *params.radius);
+             ? planning::LinePath(*params.from, *params.to)
+             : planning::CirclePath(*params.centre, *params.normal, *params.radius);
 }
 
 int TipOf(const robot::RobotModel& model, const std::string& link) {
@@ -46,7 +47,7 @@ int TipOf(const robot::RobotModel& model, const std::string& link) {
 
 void TipRequest::Params::Describe(Fields<Params>& fields) {
   using P = Params;
-  fields.Add("model", &P::model, "", "name of the robot; may be left out if there is but one");
+  AddModel(fields);
   fields.Add("link", &P::link, "",
              "whose origin is the tip; the last that a joint moves if left out");
   fields.Add("path", &P::path, "", "what the tip draws");
@@ -59,11 +60,7 @@ void TipRequest::Params::Describe(Fields<Params>& fields) {
   fields.Add("start", &P::start, "s", "when the approach begins").AtLeast(0.0);
   fields.Add("approach", &P::approach, "s", "from the posture to the path").Above(0.0);
   fields.Add("duration", &P::duration, "s", "along the path").Above(0.0).AtMost(3600.0);
-  fields
-      .Add("period", &P::period, "s",
-           "0: continuous in time; > 0: sampled for the end of each period and held")
-      .AtLeast(0.0);
-  fields.Add("unit", &P::unit, "", "unit of the position");
+  AddSampling(fields);
 }
 
 TipRequest::Params TipRequest::Example() {
@@ -82,8 +79,8 @@ TipRequest::Params TipRequest::Resolved(Params params, const ModelSet& models) {
   const auto model = MovableModel(models, params.model);
   const int link = TipOf(*model, params.link);
   params.points = WithConfigErrors([&] {
-    return motion::KeyPointsAlong(*model, link, path, params.posture,
-                                  {params.start, params.approach, params.duration});
+    return planning::KeyPointsAlong(*model, link, path, params.posture,
+                                    {params.start, params.approach, params.duration});
   });
   return params;
 }

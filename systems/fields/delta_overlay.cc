@@ -17,33 +17,33 @@ DeltaOverlay::DeltaOverlay(const Params& params)
       size_(DeclareSize()),
       unit_(DeclareUnit()),
       x_(DeclareDiscreteState("x", {size_, unit_}, 0.0)),
-      position_in(DeclareInput<Vector>("position", {size_, unit_})),
-      velocity_in(DeclareOptionalInput<Vector>("velocity", {size_, unit_.Rate()})),
+      request(DeclareInput<Vector>("request", {size_, unit_})),
+      request_velocity(DeclareOptionalInput<Vector>("request_velocity", {size_, unit_.Rate()})),
       delta(DeclareInput<Vector>("delta", {size_, unit_})),
       position(DeclareOutput<Vector, &DeltaOverlay::CalcPosition>("position", {size_, unit_},
-                                                                  position_in, delta)),
+                                                                  request, delta)),
       velocity(DeclareOutput<Vector, &DeltaOverlay::CalcVelocity>("velocity", {size_, unit_.Rate()},
-                                                                  velocity_in, delta, x_)),
+                                                                  request_velocity, delta, x_)),
       applied_delta(DeclareOutput<Vector, &DeltaOverlay::CalcApplied>("applied_delta",
                                                                       {size_, unit_}, delta)) {
   if (params_.enabled) {
     DeclareRole(PassesOn{.in = delta, .out = applied_delta});
-    DeclareRole(AddsDelta{.delta = delta, .request = position_in, .period = params_.period});
+    DeclareRole(AddsDelta{.delta = delta, .request = request, .period = params_.period});
   }
   if (!params_.period.positive()) return;
   DeclareUpdate<&DeltaOverlay::Update>(Every{params_.period}, Writes(x_), delta);
 }
 
-void DeltaOverlay::CalcPosition(VectorView request, VectorView delta_value,
+void DeltaOverlay::CalcPosition(VectorView request_value, VectorView delta_value,
                                 MutableVectorView sum) const {
-  sum = request;
+  sum = request_value;
   if (params_.enabled) sum += delta_value;
 }
 
-void DeltaOverlay::CalcVelocity(std::optional<VectorView> request, VectorView delta_value,
+void DeltaOverlay::CalcVelocity(std::optional<VectorView> request_rate, VectorView delta_value,
                                 VectorView x, MutableVectorView sum) const {
-  if (request) {
-    sum = *request;
+  if (request_rate) {
+    sum = *request_rate;
   } else {
     sum.setZero();
   }

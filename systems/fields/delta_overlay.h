@@ -10,16 +10,16 @@ namespace oca::systems {
 
 /// Adds the delta of the avoidance to a requested trajectory, and its rate to the velocity:
 ///
-///     position_out = position + delta
-///     velocity_out = velocity + (delta - x) / period,   x the delta before the last tick
+///     position = request + delta
+///     velocity = request_velocity + (delta - x) / period,   x the delta before the last tick
 ///
 /// The request itself stays untouched, so the arm returns to it. `delta` should be held between
 /// ticks, as a DeltaLimiter holds it; the rate is then its mean rate over the last control period.
 /// If not `enabled`, the request passes.
 ///
-/// in    position  n  u
-///       velocity  n  u/s   optional; absent counts as 0
-///       delta     n  u
+/// in    request           n  u
+///       request_velocity  n  u/s   optional; absent counts as 0
+///       delta             n  u
 /// out   position       n  u
 ///       velocity       n  u/s
 ///       applied_delta  n  u    what was added: delta, or 0 if not enabled
@@ -30,7 +30,7 @@ class DeltaOverlay final : public System {
  public:
   static constexpr SystemDoc kDoc{
       "adds the delta and its rate to a trajectory",
-      "position = position + delta; velocity = velocity + (delta - previous delta) / period",
+      "position = request + delta; velocity = request_velocity + (delta - previous delta) / period",
       "Jain, Sixt, Exner 2016, section 3.4"};
   struct Params {
     Period period{};
@@ -46,15 +46,15 @@ class DeltaOverlay final : public System {
   const Size size_;
   const Unit unit_;
   const DiscreteState<Vector> x_;
-  void CalcPosition(VectorView request, VectorView delta_value, MutableVectorView sum) const;
-  void CalcVelocity(std::optional<VectorView> request, VectorView delta_value, VectorView x,
+  void CalcPosition(VectorView request_value, VectorView delta_value, MutableVectorView sum) const;
+  void CalcVelocity(std::optional<VectorView> request_rate, VectorView delta_value, VectorView x,
                     MutableVectorView sum) const;
   void CalcApplied(VectorView delta_value, MutableVectorView applied) const;
   void Update(VectorView delta_value, MutableVectorView next) const;
 
  public:
-  const Input<Vector> position_in;          ///< port `position`
-  const OptionalInput<Vector> velocity_in;  ///< port `velocity`
+  const Input<Vector> request;
+  const OptionalInput<Vector> request_velocity;
   const Input<Vector> delta;
   const Output<Vector> position;
   const Output<Vector> velocity;

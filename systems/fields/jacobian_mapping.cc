@@ -6,6 +6,7 @@
 
 #include "oca/framework/dataflow/error.h"
 #include "oca/systems/basics/require.h"
+#include "oca/systems/basics/shared_params.h"
 #include "oca/systems/fields/loop_gain.h"
 #include "oca/systems/sensing/model_links.h"
 #include "oca/systems/signals/roles.h"
@@ -36,7 +37,7 @@ robot::MappingSettings MappingSettingsOf(const JacobianMapping::Params& params) 
 }
 
 void JacobianMapping::Params::Describe(Fields<Params>& fields) {
-  fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
+  AddModel(fields);
   fields.Add("alpha", &Params::alpha, "", "factor of the delta; absorbs the unit of the wrench");
   fields.Add("method", &Params::method, "", "how wrenches become joint offsets");
   fields

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "oca/systems/basics/shared_params.h"
 #include "oca/systems/sensing/model_links.h"
 
 namespace oca::systems {
@@ -17,7 +18,7 @@ struct LoopGain::Estimate {
 };
 
 void LoopGain::Params::Describe(Fields<Params>& fields) {
-  fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
+  AddModel(fields);
   fields.Add("alpha", &Params::alpha, "", "of the mapping");
   fields.Add("method", &Params::method, "", "of the mapping");
   fields.Add("damping", &Params::damping, "m", "of the mapping").AtLeast(0.0);
@@ -30,7 +31,7 @@ void LoopGain::Params::Describe(Fields<Params>& fields) {
           "safety", &Params::safety, "",
           "factor on the time at which the loop is just stable; 2 is the fastest without overshoot")
       .AtLeast(1.0);
-  fields.Add("period", &Params::period, "s", "control period").Above(0.0).Required();
+  AddControlPeriod(fields);
 }
 
 LoopGain::LoopGain(const Params& params, const ModelSet& models)

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "oca/models/robot/kinematics.h"
+#include "oca/systems/basics/shared_params.h"
 #include "oca/systems/fields/force_per_proximity.h"
 #include "oca/systems/sensing/model_links.h"
 #include "oca/systems/signals/roles.h"
@@ -35,7 +36,7 @@ struct VortexField::Axes {
 };
 
 void VortexField::Params::Describe(Fields<Params>& fields) {
-  fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
+  AddModel(fields);
   fields.Add("force_gain", &Params::force_gain, "N m^3", "as of a RepulsiveField").AtLeast(0.0);
   fields.Add("max_distance", &Params::max_distance, "m", "as of a RepulsiveField").Above(0.0);
   fields.Add("min_distance", &Params::min_distance, "m", "as of a RepulsiveField").Above(0.0);
@@ -44,7 +45,7 @@ void VortexField::Params::Describe(Fields<Params>& fields) {
            "by how much the force is turned off the normal far from contact; 0 is a RepulsiveField")
       .AtLeast(0.0)
       .AtMost(1.5);
-  fields.Add("period", &Params::period, "s", "control period").Above(0.0).Required();
+  AddControlPeriod(fields);
 }
 
 VortexField::VortexField(const Params& params, const ModelSet& models)

@@ -3,27 +3,18 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/log.h"
 #include "oca/models/robot/robot_model.h"
 #include "oca/systems/basics/require.h"
-#include "oca/systems/methods/obstacle_prediction.h"
+#include "oca/systems/basics/shared_params.h"
 #include "oca/systems/sensing/model_links.h"
 #include "oca/systems/signals/roles.h"
 
 namespace oca::systems {
 namespace {
 
-using Eigen::VectorXd;
-
-constexpr double kArrived = 0.01;          // rad, m; of all joints
-constexpr double kOnPlan = 0.005;          // rad, m; of the arm
-constexpr std::uint64_t kFreshPlans = 8;   // that look for a better way though theirs is clear
 constexpr double kLongestHorizon = 600.0;  // s; a plan looks at 2.5 to 20 places a second
-constexpr int kMostPause = 20;             // plans between two searches that fail
 
 ElasticBand::Params Checked(const ElasticBand::Params& params) {
   Validated(params);
@@ -53,8 +44,8 @@ void RequireSize(const motion::Trajectory& request, Eigen::Index size) {
 }  // namespace
 
 void ElasticBand::Params::Describe(Fields<Params>& fields) {
-  fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
-  fields.Add("period", &Params::period, "s", "control period").Above(0.0).Required();
+  AddModel(fields);
+  AddControlPeriod(fields);
   fields.Add("plan_period", &Params::plan_period, "s", "time between plans, and to make one")
       .Above(0.0);
   fields.Add("margin", &Params::margin, "m", "distance up to which obstacles push the band")
@@ -111,27 +102,36 @@ void ElasticBand::Params::Describe(Fields<Params>& fields) {
   fields.Add("enabled", &Params::enabled, "", "false: the request as it is");
 }
 
-planning::BandPlannerSettings ElasticBand::SettingsOf(const Params& params) {
-  planning::BandPlannerSettings settings;
-  settings.band.margin = params.margin;
-  settings.band.clear_distance = params.clear_distance;
-  settings.band.trust_distance = params.trust_distance;
-  settings.band.flying_distance = params.flying_distance;
-  settings.band.clearance = params.clearance;
-  settings.band.smoothness = params.smoothness;
-  settings.band.calm = params.calm;
-  settings.band.nearness = params.nearness;
-  settings.band.limit_share = params.limit_share;
-  settings.most_evaluations = params.most_evaluations;
-  settings.moving_horizon = params.moving_horizon;
-  settings.least_horizon = params.least_horizon;
-  settings.most_horizon = params.most_horizon;
+planning::ReplanSettings ElasticBand::SettingsOf(const Params& params) {
+  planning::ReplanSettings settings;
+  planning::BandPlannerSettings& planner = settings.planner;
+  planner.band.margin = params.margin;
+  planner.band.clear_distance = params.clear_distance;
+  planner.band.trust_distance = params.trust_distance;
+  planner.band.flying_distance = params.flying_distance;
+  planner.band.clearance = params.clearance;
+  planner.band.smoothness = params.smoothness;
+  planner.band.calm = params.calm;
+  planner.band.nearness = params.nearness;
+  planner.band.limit_share = params.limit_share;
+  planner.most_evaluations = params.most_evaluations;
+  planner.moving_horizon = params.moving_horizon;
+  planner.least_horizon = params.least_horizon;
+  planner.most_horizon = params.most_horizon;
+  settings.period = params.plan_period.seconds();
+  settings.prediction = params.prediction;
+  settings.restart_distance = params.restart_distance;
+  settings.stuck_time = params.stuck_time;
+  settings.stuck_motion = params.stuck_motion;
+  settings.self_collision = params.self_collision;
+  settings.seed = static_cast<std::uint64_t>(params.seed);
   return settings;
 }
 
 ElasticBand::ElasticBand(const Params& params, const ModelSet& models)
     : params_(Checked(params)),
       model_(MovableModel(models, params.model)),
+      replanner_(model_, SettingsOf(params_)),
       position_(DeclareDiscreteState("position", PositionSpec(*model_), 0.0)),
       velocity_(DeclareDiscreteState("velocity", RateSpec(*model_), 0.0)),
       acceleration_(DeclareDiscreteState(
@@ -183,71 +183,11 @@ void ElasticBand::Sample(double time, const RequestAhead& request, const BandMem
   }
 }
 
-double ElasticBand::Since(double time, const BandMemory& memory) const {
-  return std::clamp(time - memory.seen_at, 0.0, params_.prediction);
-}
-
 void ElasticBand::CalcClear(double time, const RequestAhead& request, const ObstacleSet& set,
                             VectorView measured, VectorView planned, const BandMemory& memory,
                             ClearMotion& motion) const {
-  motion.clear_for = 0.0;
-  motion.own_links = params_.self_collision;
-  motion.bodies.clear();
-  for (const Obstacle& seen : memory.seen) motion.bodies.push_back(seen.body->id);
-  if (request.trajectory != memory.request) return;
-  const bool followed = (measured - planned).cwiseAbs().maxCoeff() <= kOnPlan;
-  if (memory.plans == 0 || time < memory.sure_from || !followed ||
-      !AsForeseen(memory.seen, set.obstacles, Since(time, memory))) {
-    return;
-  }
-  const bool next = !memory.next.empty() && time >= memory.change;
-  const double until = next ? memory.next_until : memory.held_until;
-  motion.clear_for = std::clamp(until - time, 0.0, params_.most_horizon);
-}
-
-std::vector<planning::BandBody> ElasticBand::MakeBodies(double time, const ObstacleSet& set) const {
-  std::vector<planning::BandBody> bodies;
-  for (const Obstacle& obstacle : set.obstacles) {
-    const bool stands = Stands(obstacle) || params_.prediction == 0.0;
-    const auto pose = [obstacle, time, longest = params_.prediction, stands](double t) {
-      return stands ? obstacle.X_WO : Foreseen(obstacle, std::clamp(t - time, 0.0, longest));
-    };
-    bodies.push_back({obstacle.body->id, obstacle.body->collider, pose, stands});
-  }
-  return bodies;
-}
-
-bool ElasticBand::Astray(double time, const motion::Trajectory* request, VectorView measured,
-                         BandMemory& memory) const {
-  memory.planned.resize(measured.size());
-  request->Evaluate(time, 0, memory.planned);
-  memory.At(time).Add(time, 0, memory.planned);
-  return (measured - memory.planned).cwiseAbs().maxCoeff() > params_.restart_distance;
-}
-
-bool ElasticBand::Kept(double time, const RequestAhead& request, const ObstacleSet& set,
-                       VectorView measured, BandMemory& memory) const {
-  if (set.obstacles.empty() && !params_.self_collision && memory.held.empty() &&
-      memory.next.empty()) {
-    return true;
-  }
-  return (memory.plans >= kFreshPlans ||
-          (memory.plans > 0 && memory.start == planning::BandStart::kRequest)) &&
-         memory.clear && request.trajectory == memory.request &&
-         SameStanding(memory.seen, set.obstacles) &&
-         !Astray(time, request.trajectory.get(), measured, memory);
-}
-
-void ElasticBand::Follow(double time, const motion::Trajectory* request, VectorView measured,
-                         BandMemory& memory) const {
-  if (memory.resting.size() != measured.size() ||
-      (measured - memory.resting).cwiseAbs().maxCoeff() > params_.stuck_motion ||
-      time < request->times().back()) {
-    memory.resting = measured;
-    memory.moved = time;
-  }
-  const double away = (measured - request->goal()).cwiseAbs().maxCoeff();
-  memory.stuck = away > kArrived && time - memory.moved >= params_.stuck_time;
+  replanner_.TellClear({time, request.trajectory, set.obstacles, measured}, planned, memory,
+                       motion);
 }
 
 void ElasticBand::Report(double time, const BandMemory& memory, Log& log) const {
@@ -260,75 +200,16 @@ void ElasticBand::Report(double time, const BandMemory& memory, Log& log) const 
                         params_.stuck_time, pair));
 }
 
-planning::BandTask ElasticBand::MakeTask(double time, const motion::Trajectory* request,
-                                         const std::vector<planning::BandBody>& bodies,
-                                         VectorView measured, OptionalVector rate,
-                                         BandMemory& memory) const {
-  planning::BandTask task;
-  task.start = params_.plan_period.TickAfter(time);
-  task.request = [request](double t, int derivative, Eigen::Ref<VectorXd> out) {
-    request->Evaluate(t, derivative, out);
-  };
-  task.request_end = request->times().back();
-  task.bodies = bodies;
-  task.seed = static_cast<std::uint64_t>(params_.seed) + memory.plans;
-  for (int d = 0; d < 3; ++d) {
-    task.deviation[d].setZero(measured.size());
-    if (!memory.held.empty()) memory.held.Evaluate(task.start, d, task.deviation[d]);
-  }
-  if (Astray(time, request, measured, memory)) {
-    const VectorXd v = rate ? VectorXd(*rate) : VectorXd::Zero(measured.size());
-    task.deviation[0] = measured + params_.plan_period.seconds() * v;
-    task.deviation[0] -= request->Evaluate(task.start, 0);
-    task.deviation[1] = v - request->Evaluate(task.start, 1);
-    task.deviation[2].setZero();
-  }
-  const int pause = std::min(memory.failures, kMostPause);
-  task.search = memory.plans;
-  task.fresh = memory.plans < kFreshPlans;
-  task.explore =
-      planning::Moves(bodies) || pause < 3 || memory.plans % static_cast<std::uint64_t>(pause) == 0;
-  return task;
-}
-
 void ElasticBand::Plan(double time, Log& log, const RequestAhead& request, const ObstacleSet& set,
-                       VectorView measured, OptionalVector rate, BandMemory& memory) const {
+                       VectorView measured, std::optional<VectorView> rate,
+                       BandMemory& memory) const {
   if (!request.trajectory || !params_.enabled) return;
   RequireSize(*request.trajectory, measured.size());
+  const planning::BandSituation now{time, request.trajectory, set.obstacles, measured};
   const bool was_stuck = memory.stuck;
-  Follow(time, request.trajectory.get(), measured, memory);
+  replanner_.Follow(now, memory);
   if (memory.stuck && !was_stuck) Report(time, memory, log);
-  if (Kept(time, request, set, measured, memory)) return;
-  const bool foreseen = memory.plans > 0 && request.trajectory == memory.request &&
-                        AsForeseen(memory.seen, set.obstacles, Since(time, memory)) &&
-                        !Astray(time, request.trajectory.get(), measured, memory);
-  if (!memory.next.empty()) {
-    memory.held = memory.next;
-    memory.held_until = memory.next_until;
-  }
-  const auto bodies = MakeBodies(time, set);
-  const planning::BandTask task =
-      MakeTask(time, request.trajectory.get(), bodies, measured, rate, memory);
-  planning::BandPlanner planner(model_, SettingsOf(params_), params_.self_collision);
-  planning::BandPlan found = planner.Plan(task, memory.held.empty() ? nullptr : &memory.held);
-  memory.next = std::move(found.curve);
-  memory.change = task.start;
-  memory.next_until = found.check.touch;
-  if (planning::Moves(bodies)) memory.next_until = std::min(memory.next_until, memory.next.end());
-  if (!foreseen) memory.sure_from = task.start;
-  memory.request = request.trajectory;
-  memory.seen_at = time;
-  memory.seen = set.obstacles;
-  memory.plans += 1;
-  memory.start = found.start;
-  memory.clear = found.check.clear();
-  memory.failures = memory.clear ? 0 : memory.failures + 1;
-  memory.nearest = found.check.min_distance;
-  memory.link = found.check.link;
-  memory.obstacle = found.check.body;
-  memory.time = found.check.time;
-  memory.cost = found.cost;
-  memory.evaluations = static_cast<std::uint64_t>(found.evaluations);
+  replanner_.Plan(now, params_.plan_period.TickAfter(time), rate, memory);
 }
 
 }  // namespace oca::systems

@@ -3,12 +3,11 @@
 
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include "oca/framework/dataflow/params.h"
 #include "oca/framework/dataflow/system.h"
-#include "oca/models/planning/band_planner.h"
-#include "oca/systems/methods/band_memory.h"
+#include "oca/models/planning/band_replanner.h"
+#include "oca/systems/signals/band_memory.h"
 #include "oca/systems/signals/clear_motion.h"
 #include "oca/systems/signals/model_set.h"
 #include "oca/systems/signals/request_ahead.h"
@@ -56,7 +55,7 @@ namespace oca::systems {
 ///       plan          BandMemory
 /// throws ConfigError if there is no such model, a parameter is out of its bounds, or plan_period
 ///        is shorter than period; while running if the request has another number of joints
-/// source models/planning/band_planner.h; docs/explanation/recommended.md
+/// source models/planning/band_replanner.h; docs/explanation/recommended.md
 class ElasticBand final : public System {
  public:
   static constexpr SystemDoc kDoc{
@@ -95,35 +94,21 @@ class ElasticBand final : public System {
   ElasticBand(const Params& params, const ModelSet& models);
 
  private:
-  using OptionalVector = std::optional<VectorView>;
-  static planning::BandPlannerSettings SettingsOf(const Params& params);
-  planning::BandTask MakeTask(double time, const motion::Trajectory* request,
-                              const std::vector<planning::BandBody>& bodies, VectorView measured,
-                              OptionalVector rate, BandMemory& memory) const;
-  std::vector<planning::BandBody> MakeBodies(double time, const ObstacleSet& set) const;
-  bool Kept(double time, const RequestAhead& request, const ObstacleSet& set, VectorView measured,
-            BandMemory& memory) const;
-  bool Astray(double time, const motion::Trajectory* request, VectorView measured,
-              BandMemory& memory) const;
-  void Follow(double time, const motion::Trajectory* request, VectorView measured,
-              BandMemory& memory) const;
-
-  /// For how long what was seen at the last plan is foreseen to go on, s.
-  double Since(double time, const BandMemory& memory) const;
+  static planning::ReplanSettings SettingsOf(const Params& params);
   void CalcClear(double time, const RequestAhead& request, const ObstacleSet& set,
                  VectorView measured, VectorView planned, const BandMemory& memory,
                  ClearMotion& motion) const;
-
   void Start(VectorView measured, MutableVectorView position_out) const;
   void Report(double time, const BandMemory& memory, Log& log) const;
   void Plan(double time, Log& log, const RequestAhead& request, const ObstacleSet& set,
-            VectorView measured, OptionalVector rate, BandMemory& memory) const;
+            VectorView measured, std::optional<VectorView> rate, BandMemory& memory) const;
   void Sample(double time, const RequestAhead& request, const BandMemory& memory,
               MutableVectorView next_position, MutableVectorView next_velocity,
               MutableVectorView next_acceleration) const;
 
   const Params params_;
   const std::shared_ptr<const robot::RobotModel> model_;
+  const planning::BandReplanner replanner_;
   const DiscreteState<Vector> position_;
   const DiscreteState<Vector> velocity_;
   const DiscreteState<Vector> acceleration_;

@@ -8,9 +8,6 @@
 #include "oca/models/robot/motion_limits.h"
 #include "oca/models/robot/robot_model.h"
 #include "oca/models/robot/saturated_task.h"
-#include "oca/systems/methods/velocity_methods.h"
-#include "oca/systems/sensing/model_links.h"
-#include "oca/systems/signals/roles.h"
 
 namespace oca::systems {
 namespace {
@@ -20,14 +17,14 @@ constexpr double kNoLever = 1e-9;
 
 }  // namespace
 
-struct FlaccoDeLuca::Motion {
+struct FlaccoDeLucaLaw::Motion {
   robot::JointMatrix M;  ///< sum J^T J of the repulsed points
   robot::JointVector b;  ///< sum J^T (J r + v)
   robot::JointVector lower;
   robot::JointVector upper;
 };
 
-void FlaccoDeLuca::Params::Describe(Fields<Params>& fields) {
+void FlaccoDeLucaLaw::Params::Describe(Fields<Params>& fields) {
   AddModelAndTip(fields, "link that is repulsed; may be left out if one is last");
   fields.Add("repulsion", &Params::repulsion, "",
              "which links are repulsed: tip, as published, or all");
@@ -45,36 +42,23 @@ void FlaccoDeLuca::Params::Describe(Fields<Params>& fields) {
   AddDamping(fields);
 }
 
-FlaccoDeLuca::FlaccoDeLuca(const Params& params, const ModelSet& models)
+FlaccoDeLucaLaw::FlaccoDeLucaLaw(const Params& params, const ModelSet& models)
     : params_(WithDamping(params)),
       model_(FilteredModel(models, params.model)),
       tip_(TipNumber(*model_, params.tip)),
-      damping_{params.most_damping, params.damping_threshold},
-      proximities(DeclareInput<ProximitySet>("proximities")),
-      links(DeclareInput<LinkPoses>("links")),
-      wish(DeclareInput<Vector>("wish", RateSpec(*model_))),
-      solution_(DeclareCached<&FlaccoDeLuca::CalcSolution>(proximities, links, wish)),
-      velocity(DeclareOutput<Vector, &AvoidanceVelocity::velocity>("velocity", RateSpec(*model_),
-                                                                   solution_)),
-      share(DeclareOutput<Vector, &AvoidanceVelocity::share>("share", {1, Unit::Any()}, solution_)),
-      rows(DeclareOutput<Vector, &AvoidanceVelocity::rows>("rows", {1, Unit::Any()}, solution_)) {
-  DeclareRole(Limits{.shown = Limits::Shown::kAbove,
-                     .signal = rows,
-                     .bound = {0.0},
-                     .how = "repulsed or held back"});
-}
+      damping_{params.most_damping, params.damping_threshold} {}
 
-double FlaccoDeLuca::Risk(double distance) const {
+double FlaccoDeLucaLaw::Risk(double distance) const {
   return 1.0 / (1.0 + std::exp(params_.alpha * (2.0 * distance / params_.influence_distance - 1)));
 }
 
-bool FlaccoDeLuca::Repulsed(int link) const {
+bool FlaccoDeLucaLaw::Repulsed(int link) const {
   return params_.repulsion == Repulsion::kAll || model_->body(link) == model_->body(tip_);
 }
 
-void FlaccoDeLuca::AddLink(const ProximitySet& set, std::size_t first, int link,
-                           std::span<const Eigen::Isometry3d> X_WL, VectorView request,
-                           Motion& motion) const {
+void FlaccoDeLucaLaw::AddLink(const ProximitySet& set, std::size_t first, int link,
+                              std::span<const Eigen::Isometry3d> X_WL, VectorView wish,
+                              Motion& motion) const {
   const Proximity* nearest = &set.proximities[first];
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
   for (std::size_t i = first; i < set.proximities.size(); ++i) {
@@ -92,7 +76,7 @@ void FlaccoDeLuca::AddLink(const ProximitySet& set, std::size_t first, int link,
     robot::PointJacobian(*model_, X_WL, link, nearest->point_on_link, J);
     const double length = direction.norm();
     const Eigen::Vector3d away = length > 1e-9 ? direction / length : nearest->normal;
-    const Eigen::Vector3d v = J.lazyProduct(request) + params_.repulsion_speed * risk * away;
+    const Eigen::Vector3d v = J.lazyProduct(wish) + params_.repulsion_speed * risk * away;
     motion.M += J.transpose().lazyProduct(J);
     motion.b += J.transpose().lazyProduct(v);
   }
@@ -105,10 +89,9 @@ void FlaccoDeLuca::AddLink(const ProximitySet& set, std::size_t first, int link,
   }
 }
 
-void FlaccoDeLuca::CalcSolution(const ProximitySet& set, const LinkPoses& poses, VectorView request,
-                                AvoidanceVelocity& result) const {
-  const auto X_WL = PosesInOrder(*model_, poses, result.reordered);
-  const Eigen::Index n = request.size();
+void FlaccoDeLucaLaw::Choose(const ProximitySet& set, std::span<const Eigen::Isometry3d> X_WL,
+                             VectorView wish, AvoidanceVelocity& result) const {
+  const Eigen::Index n = wish.size();
   Motion motion{robot::JointMatrix::Zero(n, n), robot::JointVector::Zero(n), robot::JointVector(n),
                 robot::JointVector(n)};
   for (Eigen::Index j = 0; j < n; ++j) {
@@ -127,9 +110,9 @@ void FlaccoDeLuca::CalcSolution(const ProximitySet& set, const LinkPoses& poses,
     const auto here = all.begin() + static_cast<std::ptrdiff_t>(i);
     if (std::any_of(all.begin(), here, same)) continue;
     const int link = robot::NumberOfLink(*model_, all[i].link);
-    AddLink(set, i, link, X_WL, request, motion);
+    AddLink(set, i, link, X_WL, wish, motion);
   }
-  result.velocity = robot::SaturateInNullspace(motion.M, motion.b, robot::JointVector(request),
+  result.velocity = robot::SaturateInNullspace(motion.M, motion.b, robot::JointVector(wish),
                                                motion.lower, motion.upper, damping_);
 }
 

@@ -44,18 +44,13 @@ namespace oca::systems {
 /// links may not come clear. It evades by as much as balances the pull of the request: 0.1 m for
 /// repulsion_speed 0.5 m/s and a VelocityLoop's position_gain 5 1/s.
 ///
-/// in    proximities  ProximitySet
-///       links        LinkPoses
-///       wish         n  u/s
-/// out   velocity     n  u/s        u
-///       share        1             of avoidance: the largest risk
-///       rows         1             number of proximities that take part
-/// state -
+/// Ports are those of VelocityMethod; share is the largest risk.
+///
 /// throws ConfigError if there is no such model or link, it has more than 32 joints, or a parameter
 ///        is out of its bounds; while running if a proximity or a pose is of no link of the model
 /// source Flacco, Kroeger, De Luca, Khatib, A depth space approach to human-robot collision
 ///        avoidance, ICRA 2012, eq. (4) to (9); docs/theory.md
-class FlaccoDeLuca final : public System {
+class FlaccoDeLucaLaw {
  public:
   static constexpr SystemDoc kDoc{
       "repulses the tip, and slows the joints that lead the arm to obstacles",
@@ -79,9 +74,13 @@ class FlaccoDeLuca final : public System {
     double damping_threshold{0.1};
     static void Describe(Fields<Params>& fields);
   };
-  static Params Example() { return {}; }
+  static constexpr const char* kHow = "repulsed or held back";
 
-  FlaccoDeLuca(const Params& params, const ModelSet& models);
+  FlaccoDeLucaLaw(const Params& params, const ModelSet& models);
+
+  const robot::RobotModel& model() const { return *model_; }
+  void Choose(const ProximitySet& set, std::span<const Eigen::Isometry3d> X_WL, VectorView wish,
+              AvoidanceVelocity& result) const;
 
   /// Between 0 and 1; 1/2 at half the influence distance, 1 / (1 + exp(-alpha)) at contact.
   double Risk(double distance) const;
@@ -96,21 +95,8 @@ class FlaccoDeLuca final : public System {
   bool Repulsed(int link) const;
   void AddLink(const ProximitySet& set, std::size_t first, int link,
                std::span<const Eigen::Isometry3d> X_WL, VectorView wish, Motion& motion) const;
-  void CalcSolution(const ProximitySet& set, const LinkPoses& poses, VectorView wish_value,
-                    AvoidanceVelocity& result) const;
-
- public:
-  const Input<ProximitySet> proximities;
-  const Input<LinkPoses> links;
-  const Input<Vector> wish;
-
- private:
-  const Cached<AvoidanceVelocity> solution_;
-
- public:
-  const Output<Vector> velocity;
-  const Output<Vector> share;
-  const Output<Vector> rows;
 };
+
+using FlaccoDeLuca = VelocityMethod<FlaccoDeLucaLaw>;
 
 }  // namespace oca::systems

@@ -5,10 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/robot/robot_model.h"
+#include "oca/systems/basics/require.h"
+#include "oca/systems/basics/shared_params.h"
 #include "oca/systems/sensing/model_links.h"
 #include "oca/systems/signals/roles.h"
 
@@ -16,13 +17,6 @@ namespace oca::systems {
 namespace {
 
 constexpr double kFading = 10.0;  // s, of the way that a joint was led
-
-/// A gain above 1 / period would ask for more than all of h within one period.
-void RequireGain(const char* where, double gain, const Period& period) {
-  if (gain * period.seconds() <= 1.0 + std::numeric_limits<double>::epsilon()) return;
-  throw ConfigError(fmt::format("{}: got {} 1/s; expected at most 1 / period, {} 1/s", where, gain,
-                                1.0 / period.seconds()));
-}
 
 SafetyFilter::Params Checked(const SafetyFilter::Params& params) {
   Validated(params);
@@ -67,8 +61,8 @@ struct SafetyFilter::Solution : robot::BarrierFilter::Solution {
 };
 
 void SafetyFilter::Params::Describe(Fields<Params>& fields) {
-  fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
-  fields.Add("period", &Params::period, "s", "control period").Above(0.0).Required();
+  AddModel(fields);
+  AddControlPeriod(fields);
   fields
       .Add("safe_distance", &Params::safe_distance, "m",
            "distance that is kept, but for the margin of docs/explanation/safety_filter.md")
@@ -123,9 +117,9 @@ SafetyFilter::SafetyFilter(const Params& params, const ModelSet& models)
     : params_(Checked(params)),
       model_(MovableModel(models, params.model)),
       filter_(model_, SettingsOf(params_, *model_)),
-      c_(DeclareDiscreteState("c", PositionSpec(*model_), 0.0)),
+      c_(DeclareDiscreteState("c", DeltaSpec(*model_), 0.0)),
       u_(DeclareDiscreteState("u", RateSpec(*model_), 0.0)),
-      l_(DeclareDiscreteState("l", PositionSpec(*model_), 0.0)),
+      l_(DeclareDiscreteState("l", DeltaSpec(*model_), 0.0)),
       activity_(DeclareDiscreteState("activity", FilterActivity{})),
       proximities(DeclareInput<ProximitySet>("proximities")),
       links(DeclareInput<LinkPoses>("links")),

@@ -9,6 +9,7 @@
 
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/robot/robot_model.h"
+#include "oca/systems/basics/shared_params.h"
 #include "oca/systems/methods/velocity_methods.h"
 #include "oca/systems/sensing/model_links.h"
 #include "oca/systems/signals/roles.h"
@@ -28,8 +29,8 @@ struct ServoScaling::Slowed {
 };
 
 void ServoScaling::Params::Describe(Fields<Params>& fields) {
-  fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
-  fields.Add("period", &Params::period, "s", "control period").Above(0.0).Required();
+  AddModel(fields);
+  AddControlPeriod(fields);
   fields
       .Add("slow_distance", &Params::slow_distance, "m",
            "from an obstacle, below which the motion is slowed")

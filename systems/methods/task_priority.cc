@@ -6,9 +6,6 @@
 #include "oca/models/robot/kinematics.h"
 #include "oca/models/robot/robot_model.h"
 #include "oca/systems/basics/require.h"
-#include "oca/systems/methods/velocity_methods.h"
-#include "oca/systems/sensing/model_links.h"
-#include "oca/systems/signals/roles.h"
 
 namespace oca::systems {
 namespace {
@@ -21,7 +18,7 @@ constexpr double kFullShare = 0.5;
 constexpr double kClose = 0.05;
 constexpr double kContact = 0.01;
 
-TaskPriority::Params Checked(const TaskPriority::Params& params) {
+TaskPriorityLaw::Params Checked(const TaskPriorityLaw::Params& params) {
   WithDamping(params);
   RequireAbove("swap_distance", params.swap_distance, params.contact_distance);
   return params;
@@ -29,14 +26,14 @@ TaskPriority::Params Checked(const TaskPriority::Params& params) {
 
 }  // namespace
 
-struct TaskPriority::Rows {
+struct TaskPriorityLaw::Rows {
   robot::JointMatrix M;  ///< sum a J_o^T J_o
   robot::JointVector b;  ///< sum a J_o^T e
   double swap{0.0};
   int count{0};
 };
 
-void TaskPriority::Params::Describe(Fields<Params>& fields) {
+void TaskPriorityLaw::Params::Describe(Fields<Params>& fields) {
   AddModelAndTip(fields, "link whose motion is kept; may be left out if one is last");
   fields.Add("tip_task", &Params::tip_task, "", "what of it is kept: position or pose");
   fields.Add("safe_distance", &Params::safe_distance, "m", "distance that is aimed at").AtLeast(0);
@@ -61,24 +58,13 @@ void TaskPriority::Params::Describe(Fields<Params>& fields) {
   AddDamping(fields);
 }
 
-TaskPriority::TaskPriority(const Params& params, const ModelSet& models)
+TaskPriorityLaw::TaskPriorityLaw(const Params& params, const ModelSet& models)
     : params_(Checked(params)),
       model_(FilteredModel(models, params.model)),
       tip_(TipNumber(*model_, params.tip)),
-      damping_{params.most_damping, params.damping_threshold},
-      proximities(DeclareInput<ProximitySet>("proximities")),
-      links(DeclareInput<LinkPoses>("links")),
-      wish(DeclareInput<Vector>("wish", RateSpec(*model_))),
-      solution_(DeclareCached<&TaskPriority::CalcSolution>(proximities, links, wish)),
-      velocity(DeclareOutput<Vector, &AvoidanceVelocity::velocity>("velocity", RateSpec(*model_),
-                                                                   solution_)),
-      share(DeclareOutput<Vector, &AvoidanceVelocity::share>("share", {1, Unit::Any()}, solution_)),
-      rows(DeclareOutput<Vector, &AvoidanceVelocity::rows>("rows", {1, Unit::Any()}, solution_)) {
-  DeclareRole(
-      Limits{.shown = Limits::Shown::kAbove, .signal = rows, .bound = {0.0}, .how = "evading"});
-}
+      damping_{params.most_damping, params.damping_threshold} {}
 
-robot::JointMatrix TaskPriority::TipTaskMatrix(std::span<const Eigen::Isometry3d> X_WL) const {
+robot::JointMatrix TaskPriorityLaw::TipTaskMatrix(std::span<const Eigen::Isometry3d> X_WL) const {
   Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, robot::kMostFilteredJoints> J(
       6, model_->num_positions());
   robot::LinkJacobian(*model_, X_WL, tip_, J);
@@ -86,8 +72,8 @@ robot::JointMatrix TaskPriority::TipTaskMatrix(std::span<const Eigen::Isometry3d
   return J.transpose().lazyProduct(J);
 }
 
-void TaskPriority::AddRow(const Proximity& proximity, std::span<const Eigen::Isometry3d> X_WL,
-                          VectorView request, Rows& sums) const {
+void TaskPriorityLaw::AddRow(const Proximity& proximity, std::span<const Eigen::Isometry3d> X_WL,
+                             VectorView wish, Rows& sums) const {
   const double d = proximity.distance;
   sums.swap = std::max(sums.swap, robot::Fade(d, params_.contact_distance, params_.swap_distance));
   const double near =
@@ -97,7 +83,7 @@ void TaskPriority::AddRow(const Proximity& proximity, std::span<const Eigen::Iso
   const double speed =
       std::min(params_.approach_gain * (params_.safe_distance - d), params_.retreat_speed);
   const double asked = proximity.normal.dot(proximity.obstacle_velocity) + speed;
-  const double e = asked - J.dot(request);
+  const double e = asked - J.dot(wish);
   if (e <= 0.0) return;
   const double closeness = kClose / (std::max(d, 0.0) + kContact);
   const double weight = near * std::min(1.0, e / kFullShortfall) * (1.0 + closeness * closeness);
@@ -106,13 +92,12 @@ void TaskPriority::AddRow(const Proximity& proximity, std::span<const Eigen::Iso
   ++sums.count;
 }
 
-void TaskPriority::CalcSolution(const ProximitySet& set, const LinkPoses& poses, VectorView request,
-                                AvoidanceVelocity& result) const {
-  const auto X_WL = PosesInOrder(*model_, poses, result.reordered);
-  const Eigen::Index n = request.size();
+void TaskPriorityLaw::Choose(const ProximitySet& set, std::span<const Eigen::Isometry3d> X_WL,
+                             VectorView wish, AvoidanceVelocity& result) const {
+  const Eigen::Index n = wish.size();
   Rows sums{robot::JointMatrix::Zero(n, n), robot::JointVector::Zero(n)};
-  for (const Proximity& proximity : set.proximities) AddRow(proximity, X_WL, request, sums);
-  result.velocity = request;
+  for (const Proximity& proximity : set.proximities) AddRow(proximity, X_WL, wish, sums);
+  result.velocity = wish;
   result.share = sums.swap;
   result.rows = sums.count;
   if (sums.count == 0) return;

@@ -41,18 +41,13 @@ namespace oca::systems {
 /// most of it: an average, where a SafetyFilter keeps each row. fade goes from 1 at its second
 /// argument to 0 at its third; damping is Chiaverini's, robot::Damping.
 ///
-/// in    proximities  ProximitySet  with the velocities of obstacles
-///       links        LinkPoses
-///       wish         n  u/s
-/// out   velocity     n  u/s        u
-///       share        1             of avoidance: beta
-///       rows         1             number of proximities that take part
-/// state -
+/// Ports are those of VelocityMethod; share is beta.
+///
 /// throws ConfigError if there is no such model or link, it has more than 32 joints, or a parameter
 ///        is out of its bounds; while running if a proximity or a pose is of no link of the model
 /// source Maciejewski, Klein 1985, eq. (15), Obstacle avoidance for kinematically redundant
 ///        manipulators, IJRR 4(3); Chiaverini 1997; docs/theory.md
-class TaskPriority final : public System {
+class TaskPriorityLaw {
  public:
   static constexpr SystemDoc kDoc{
       "evades in the null space of the tip, and first of all close to contact",
@@ -78,9 +73,13 @@ class TaskPriority final : public System {
     double damping_threshold{0.1};
     static void Describe(Fields<Params>& fields);
   };
-  static Params Example() { return {}; }
+  static constexpr const char* kHow = "evading";
 
-  TaskPriority(const Params& params, const ModelSet& models);
+  TaskPriorityLaw(const Params& params, const ModelSet& models);
+
+  const robot::RobotModel& model() const { return *model_; }
+  void Choose(const ProximitySet& set, std::span<const Eigen::Isometry3d> X_WL, VectorView wish,
+              AvoidanceVelocity& result) const;
 
  private:
   struct Rows;  ///< the normal equations of the proximities' rows
@@ -92,21 +91,8 @@ class TaskPriority final : public System {
   robot::JointMatrix TipTaskMatrix(std::span<const Eigen::Isometry3d> X_WL) const;
   void AddRow(const Proximity& proximity, std::span<const Eigen::Isometry3d> X_WL, VectorView wish,
               Rows& rows) const;
-  void CalcSolution(const ProximitySet& set, const LinkPoses& poses, VectorView wish_value,
-                    AvoidanceVelocity& result) const;
-
- public:
-  const Input<ProximitySet> proximities;
-  const Input<LinkPoses> links;
-  const Input<Vector> wish;
-
- private:
-  const Cached<AvoidanceVelocity> solution_;
-
- public:
-  const Output<Vector> velocity;
-  const Output<Vector> share;
-  const Output<Vector> rows;
 };
+
+using TaskPriority = VelocityMethod<TaskPriorityLaw>;
 
 }  // namespace oca::systems

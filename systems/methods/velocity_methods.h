@@ -9,9 +9,13 @@
 #include <vector>
 
 #include "oca/framework/dataflow/params.h"
+#include "oca/framework/dataflow/system.h"
 #include "oca/models/robot/filtered_inverse.h"
 #include "oca/systems/basics/require.h"
+#include "oca/systems/basics/shared_params.h"
+#include "oca/systems/sensing/model_links.h"
 #include "oca/systems/signals/model_set.h"
+#include "oca/systems/signals/roles.h"
 #include "oca/systems/signals/signals.h"
 
 namespace oca::systems {
@@ -21,7 +25,7 @@ namespace oca::systems {
 /// Describes the parameters model and tip, `tip_meaning` being that of the latter.
 template <class P>
 void AddModelAndTip(Fields<P>& fields, const char* tip_meaning) {
-  fields.Add("model", &P::model, "", "name of the robot; may be left out if there is but one");
+  AddModel(fields);
   fields.Add("tip", &P::tip, "", tip_meaning);
 }
 
@@ -65,5 +69,63 @@ int TipNumber(const robot::RobotModel& model, const std::string& tip);
 /// d(distance)/d(position) of every joint. throws ModelError if it is of no link of the model
 robot::JointVector RowOf(const robot::RobotModel& model, std::span<const Eigen::Isometry3d> X_WL,
                          const Proximity& proximity);
+
+/// A law that chooses the joint velocity of one arm, as a system; what FlaccoDeLuca and TaskPriority
+/// share.
+///
+/// `Law` names the parameters and documents the type, and is made of (params, models). model() is
+/// its arm, kHow what Limits says of it, and Choose(set, X_WL, wish, result) computes u, X_WL being
+/// the poses of the model's links in its own order.
+///
+/// in    proximities  ProximitySet
+///       links        LinkPoses
+///       wish         n  u/s        the joint velocity that follows the request
+/// out   velocity     n  u/s        u
+///       share        1             of avoidance, from 0 to 1
+///       rows         1             number of proximities that take part
+/// state -
+template <class Law>
+class VelocityMethod final : public System {
+ public:
+  static constexpr SystemDoc kDoc = Law::kDoc;
+  using Params = typename Law::Params;
+  static Params Example() { return {}; }
+
+  VelocityMethod(const Params& params, const ModelSet& models)
+      : law_(params, models),
+        proximities(DeclareInput<ProximitySet>("proximities")),
+        links(DeclareInput<LinkPoses>("links")),
+        wish(DeclareInput<Vector>("wish", RateSpec(law_.model()))),
+        solution_(DeclareCached<&VelocityMethod::CalcSolution>(proximities, links, wish)),
+        velocity(DeclareOutput<Vector, &AvoidanceVelocity::velocity>(
+            "velocity", RateSpec(law_.model()), solution_)),
+        share(
+            DeclareOutput<Vector, &AvoidanceVelocity::share>("share", {1, Unit::Any()}, solution_)),
+        rows(DeclareOutput<Vector, &AvoidanceVelocity::rows>("rows", {1, Unit::Any()}, solution_)) {
+    DeclareRole(
+        Limits{.shown = Limits::Shown::kAbove, .signal = rows, .bound = {0.0}, .how = Law::kHow});
+  }
+
+ private:
+  void CalcSolution(const ProximitySet& set, const LinkPoses& poses, VectorView request,
+                    AvoidanceVelocity& result) const {
+    law_.Choose(set, PosesInOrder(law_.model(), poses, result.reordered), request, result);
+  }
+
+  const Law law_;
+
+ public:
+  const Input<ProximitySet> proximities;
+  const Input<LinkPoses> links;
+  const Input<Vector> wish;
+
+ private:
+  const Cached<AvoidanceVelocity> solution_;
+
+ public:
+  const Output<Vector> velocity;
+  const Output<Vector> share;
+  const Output<Vector> rows;
+};
 
 }  // namespace oca::systems

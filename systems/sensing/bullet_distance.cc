@@ -9,6 +9,7 @@
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/error.h"
 #include "oca/models/robot/kinematics.h"
+#include "oca/systems/basics/shared_params.h"
 #include "oca/systems/sensing/distance_blind_spots.h"
 #include "oca/systems/sensing/model_links.h"
 #include "oca/systems/signals/roles.h"
@@ -53,7 +54,7 @@ double SpeedOf(const LinkCollider& link, const LinkPoses& poses) {
 }  // namespace
 
 void BulletDistance::Params::Describe(Fields<Params>& fields) {
-  fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
+  AddModel(fields);
   fields.Add("max_distance", &Params::max_distance, "m", "distance beyond which pairs are left out")
       .Above(0.0);
   fields.Add("ignore", &Params::ignore, "",
@@ -64,7 +65,7 @@ void BulletDistance::Params::Describe(Fields<Params>& fields) {
              "whether links of the robot itself count as obstacles, but for adjacent ones and "
              "those disabled in the SRDF");
   fields.Add("others", &Params::others, "",
-             "models whose links count as obstacles; [\"*\"]: all others of the diagram");
+             "models whose links count as obstacles; [\"*\"]: all others in sight of the file");
 }
 
 BulletDistance::BulletDistance(const Params& params, const ModelSet& models)
@@ -111,8 +112,8 @@ void BulletDistance::DeclareRoles(const Params& params, const ModelSet& models) 
   }
   DeclareRole(std::move(measures));
   DeclareRole(BlindSpots{.spots =
-                             [params, models](const std::string& own_name) {
-                               return DistanceBlindSpots(params, models, own_name);
+                             [params, models](const std::string& own_name, bool one_robot) {
+                               return DistanceBlindSpots(params, models, own_name, one_robot);
                              },
                          .behind = obstacles});
   DeclareRole(Plots{.id = "distance", .title = "Distances", .signal = proximities, .unit = "m"});
@@ -125,9 +126,7 @@ std::vector<Input<LinkPoses>> BulletDistance::DeclareOtherLinks() {
   }
   std::vector<Input<LinkPoses>> inputs;
   for (std::size_t i = 0; i < moving_others_; ++i) {
-    std::string port = "links_" + others_[i].name;
-    std::replace(port.begin(), port.end(), '.', '_');
-    inputs.push_back(DeclareInput<LinkPoses>(port));
+    inputs.push_back(DeclareInput<LinkPoses>(LinksInput(others_[i].local_name)));
   }
   return inputs;
 }
@@ -286,9 +285,9 @@ void BulletDistance::CheckNames(const LinkPoses& poses) const {
 void BulletDistance::CheckVelocities(const Other& other, const LinkPoses& poses) const {
   if (poses.velocities.size() == poses.size()) return;
   throw ConfigError(fmt::format(
-      "links_{0}: got poses without velocities; expected both: connect the input `velocity` of the "
-      "RobotKinematics of '{0}'",
-      other.name));
+      "{}: got poses without velocities; expected both: connect the input `velocity` of the "
+      "RobotKinematics of '{}'",
+      LinksInput(other.local_name), other.name));
 }
 
 }  // namespace oca::systems

@@ -43,13 +43,15 @@ namespace oca::systems {
 /// in    links         LinkPoses    of `model`
 /// in    obstacles     ObstacleSet
 /// in    links_<name>  LinkPoses    for each of `others` that has movable joints; with velocities;
-///                                  by its full name, `_` for a dot
+///                                  by the name that the file has for it, or else the nearest file
+///                                  around it
 /// out   proximities   ProximitySet
 /// state -
 /// throws ConfigError if a model or a link of `ignore` does not exist, no movable link of the model
 ///        has a collision shape, a pair is no pair, max_distance is not positive,
-///        calculate_link_forces has no `others`, or more than 8 of them move; while running if a
-///        link comes in that is not of the model, or links of `others` without velocities
+///        calculate_link_forces has no `others`, or more than 8 of them move or two of these have
+///        one name; while running if a link comes in that is not of the model, or links of `others`
+///        without velocities
 /// source report section 3.2, Algorithm 2; docs/theory.md, Distances
 class BulletDistance final : public System {
  public:
@@ -79,7 +81,8 @@ class BulletDistance final : public System {
     Eigen::Isometry3d X;  ///< in the world, if its model has no movable joint
   };
   struct Other {
-    std::string name;
+    std::string name;        ///< the full one
+    std::string local_name;  ///< what its input is named by
     std::shared_ptr<const robot::RobotModel> model;
     std::vector<Neighbour> links;
   };

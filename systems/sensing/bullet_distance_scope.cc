@@ -5,6 +5,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
+#include <map>
 #include <stdexcept>
 
 #include "oca/framework/dataflow/error.h"
@@ -53,11 +55,11 @@ std::vector<BulletDistance::Neighbour> BulletDistance::MakeNeighbours(
 std::vector<BulletDistance::Other> BulletDistance::MakeOthers(const Params& params,
                                                               const ModelSet& models) {
   const std::string own = models.FullName(params.model);
-  ModelSet::Models all = models.all();
+  std::map<std::string, std::string> all = models.in_sight();
   all.erase(own);
   if (params.calculate_link_forces && params.others.empty()) {
     std::vector<std::string> names;
-    for (const auto& entry : all) names.push_back(entry.first);
+    for (const auto& entry : all) names.push_back(entry.second);
     throw ConfigError(fmt::format(
         "calculate_link_forces: got true without `others`; expected the models whose links push{}",
         names.empty()
@@ -65,15 +67,17 @@ std::vector<BulletDistance::Other> BulletDistance::MakeOthers(const Params& para
             : fmt::format(", of: {}", fmt::join(names, ", "))));
   }
   std::vector<Other> others;
-  const auto add = [&others](const std::string& name,
-                             const std::shared_ptr<const robot::RobotModel>& model) {
-    others.push_back({name, model, MakeNeighbours(name, *model)});
+  const auto add = [&](const std::string& name, const std::string& local_name) {
+    const auto& model = models.all().at(name);
+    others.push_back({name, local_name, model, MakeNeighbours(name, *model)});
   };
   if (LooksAtAll(params)) {
-    for (const auto& [name, model] : all) add(name, model);
+    for (const auto& [name, local_name] : all) add(name, local_name);
+    std::stable_sort(others.begin(), others.end(),
+                     [](const Other& a, const Other& b) { return a.local_name < b.local_name; });
   } else {
     for (const std::string& given : params.others) {
-      const auto model = models.Get(given);
+      models.Get(given);  // throws if there is none
       const std::string name = models.FullName(given);
       const bool again = std::any_of(others.begin(), others.end(),
                                      [&](const Other& other) { return other.name == name; });
@@ -81,11 +85,20 @@ std::vector<BulletDistance::Other> BulletDistance::MakeOthers(const Params& para
         throw ConfigError(
             fmt::format("others: got '{}'; expected each other model once by its name", given));
       }
-      add(name, model);
+      add(name, given);
     }
   }
-  std::stable_partition(others.begin(), others.end(),
-                        [](const Other& other) { return Moves(*other.model); });
+  const auto still = std::stable_partition(others.begin(), others.end(),
+                                           [](const Other& other) { return Moves(*other.model); });
+  const auto twice = std::adjacent_find(others.begin(), still, [](const Other& a, const Other& b) {
+    return a.local_name == b.local_name;
+  });
+  if (twice != still) {
+    throw ConfigError(
+        fmt::format("others: got {} for both '{}' and '{}'; expected a name in this "
+                    "file for either of them (models)",
+                    LinksInput(twice->local_name), twice->name, std::next(twice)->name));
+  }
   return others;
 }
 

@@ -38,11 +38,10 @@ class Spots {
   Spots(const BulletDistance::Params& params, const ModelSet& models, const std::string& own_name)
       : params_(params), models_(models), own_name_(own_name) {}
 
-  std::vector<std::string> Find() {
+  std::vector<std::string> Find(bool one_robot) {
     const auto model = models_.Get(params_.model);
     own_ = models_.FullName(params_.model);
-    const bool only = params_.model.empty() || models_.all().size() == 1;
-    const std::string of = only ? "" : fmt::format(" of '{}'", own_);
+    const std::string of = one_robot ? "" : fmt::format(" of '{}'", own_);
     AddUnseen(*model, of);
     AddUnmovable(*model, of);
     if (!params_.self_collision && HasOwnPairs(*model)) {
@@ -71,7 +70,8 @@ class Spots {
     const auto& others = params_.others;
     return params_.calculate_link_forces &&
            std::any_of(others.begin(), others.end(), [&](const std::string& name) {
-             return name == "*" || models_.FullName(name) == other;
+             return name == "*" ? models_.in_sight().contains(other)
+                                : models_.FullName(name) == other;
            });
   }
 
@@ -103,12 +103,17 @@ class Spots {
       if (LooksAt(name)) {
         AddUnseen(*model, fmt::format(" of '{}'", name));
       } else if (HasSolids(*model) || !robot::DrawnOnly(*model).empty()) {
-        found_.push_back(fmt::format("model '{}' ({})", name,
-                                     params_.calculate_link_forces
-                                         ? "not among others of " + own_name_
-                                         : "calculate_link_forces is off"));
+        found_.push_back(fmt::format("model '{}' ({})", name, WhyNot(name)));
       }
     }
+  }
+
+  std::string WhyNot(const std::string& other) const {
+    if (!params_.calculate_link_forces) return "calculate_link_forces is off";
+    const auto& others = params_.others;
+    const bool all = others.size() == 1 && others.front() == "*";
+    return all ? fmt::format("its links do not come into the file of {}", own_name_)
+               : "not among others of " + own_name_;
   }
 
   const BulletDistance::Params& params_;
@@ -121,8 +126,9 @@ class Spots {
 }  // namespace
 
 std::vector<std::string> DistanceBlindSpots(const BulletDistance::Params& params,
-                                            const ModelSet& models, const std::string& own_name) {
-  return Spots(params, models, own_name).Find();
+                                            const ModelSet& models, const std::string& own_name,
+                                            bool one_robot) {
+  return Spots(params, models, own_name).Find(one_robot);
 }
 
 }  // namespace oca::systems

@@ -39,6 +39,7 @@ PortSpec DeltaSpec(const robot::RobotModel& model) {
 PortSpec PositionSpec(const robot::RobotModel& model) {
   const Eigen::Index n = model.num_positions();
   Plausible plausible{Eigen::VectorXd(n), Eigen::VectorXd(n), {}, robot::kPossibleRule};
+  plausible.names.reserve(static_cast<std::size_t>(n));
   for (Eigen::Index i = 0; i < n; ++i) {
     std::tie(plausible.lower[i], plausible.upper[i]) = robot::PossibleRange(model, i);
     plausible.names.push_back("joint '" +

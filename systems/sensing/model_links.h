@@ -20,11 +20,12 @@ std::shared_ptr<const robot::RobotModel> MovableModel(const ModelSet& models,
 
 /// Length and unit of the joint positions, and where they can be: 2 pi rad or 10 m beyond the
 /// limits, and never beyond 1e6 (a joint without limits that has turned 160,000 times, or a length
-/// that doubles no longer tell to 1e-10). A reading out there is no posture of the robot.
+/// that doubles no longer tell to 1e-10). A reading out there is no posture of the robot. For
+/// inputs: nothing looks at where states and outputs can be.
 PortSpec PositionSpec(const robot::RobotModel& model);
 
 /// The same of what can be anything: differences of positions, and requests, which may ask for what
-/// the joints cannot do.
+/// the joints cannot do; and of states and outputs.
 PortSpec DeltaSpec(const robot::RobotModel& model);
 
 /// Length and unit of their rates.

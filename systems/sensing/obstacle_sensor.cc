@@ -75,7 +75,7 @@ ObstacleSensor::ObstacleSensor(const Params& params)
       obstacles(DeclareObstacles()) {
   DeclareUpdate<&ObstacleSensor::Sample>(Every{params_.period}, Writes(line_), kTime, in);
   DeclareRole(BlindSpots{.spots =
-                             [](const std::string& own_name) {
+                             [](const std::string& own_name, bool /*one_robot*/) {
                                return std::vector<std::string>{
                                    fmt::format("obstacles but as '{}' reports them", own_name)};
                              },

@@ -4,14 +4,13 @@
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/robot/joint_limits.h"
 #include "oca/models/robot/kinematics.h"
+#include "oca/systems/basics/shared_params.h"
 #include "oca/systems/sensing/model_links.h"
 #include "oca/systems/signals/roles.h"
 
 namespace oca::systems {
 
-void RobotKinematics::Params::Describe(Fields<Params>& fields) {
-  fields.Add("model", &Params::model, "", "name of the robot; may be left out if there is but one");
-}
+void RobotKinematics::Params::Describe(Fields<Params>& fields) { AddModel(fields); }
 
 RobotKinematics::RobotKinematics(const Params& params, const ModelSet& models)
     : model_(MovableModel(models, Validated(params).model)),

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 
-#include "oca/systems/methods/motion_limiter.h"
 #include "oca/systems/signals/json_fields.h"
 
 namespace oca::systems {

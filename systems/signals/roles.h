@@ -115,8 +115,8 @@ struct MeasuresDistances {
 
 /// What it does not see, or makes others not see: phrases for who takes a run for clear.
 struct BlindSpots {
-  /// `own_name`: of the block in its diagram.
-  std::function<std::vector<std::string>(const std::string& own_name)> spots{};
+  /// `own_name`: of the block in its diagram; `one_robot`: the only one there is need not be named.
+  std::function<std::vector<std::string>(const std::string& own_name, bool one_robot)> spots{};
   InputHandle behind{};  ///< what drives it has blind spots of its own that count too
 };
 

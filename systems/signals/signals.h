@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "oca/framework/dataflow/signal.h"
-#include "oca/models/geometry/collider.h"
+#include "oca/models/geometry/obstacle.h"
 #include "oca/models/name.h"
 #include "oca/models/robot/kinematics.h"
 #include "oca/models/robot/proximity.h"
@@ -20,28 +20,8 @@ namespace oca::systems {
 // The signals of an avoidance loop. All positions are in m, all vectors have world axes. Lists keep
 // their capacity over assignment, so copying one from tick to tick does not allocate.
 
-/// What an obstacle is, apart from where it is: shared by all its samples.
-struct ObstacleBody {
-  models::Name id{};
-  std::shared_ptr<const geometry::Collider> collider{};
-  std::string file{};  ///< of a mesh, as the user wrote it
-  /// No point of it is ever faster, m/s; 0 if nothing is known beyond its present velocity.
-  double fastest{0.0};
-};
-
-/// An obstacle at one instant. `linear` and `angular` velocity (m/s, rad/s) are those of its
-/// origin.
-struct Obstacle {
-  std::shared_ptr<const ObstacleBody> body{};
-  Eigen::Isometry3d X_WO{Eigen::Isometry3d::Identity()};
-  Eigen::Vector3d linear{Eigen::Vector3d::Zero()};
-  Eigen::Vector3d angular{Eigen::Vector3d::Zero()};
-
-  /// Velocity of the point of the obstacle that is now at p_W, m/s.
-  Eigen::Vector3d VelocityAt(const Eigen::Vector3d& p_W) const {
-    return linear + angular.cross(p_W - X_WO.translation());
-  }
-};
+using geometry::Obstacle;
+using geometry::ObstacleBody;
 
 /// `layout` and `moving` spare who follows the set a look at what stands: two sets of the same
 /// layout, if it is not 0, hold the same bodies in the same order, and those that are not in

@@ -141,6 +141,16 @@ check_systems_are_told() {
   done
 }
 
+check_systems_are_in_their_rooms() { # the table of docs/architecture.md says where each one lies
+  local room names name
+  while IFS='|' read -r _ room names _; do
+    room=$(sed -E 's/^ *([a-z]+).*/\1/' <<< "$room")
+    for name in $(grep -oE '`[A-Za-z]+`' <<< "$names" | tr -d '`'); do
+      grep -rqE "^(class|struct|using) $name\b" "systems/$room" || problem "docs/architecture.md: $name; got room $room, where it is not"
+    done
+  done < <(sed -n '/^| room | systems |/,/^$/p' docs/architecture.md | tail -n +3)
+}
+
 check_commands_are_there() {
   local page command
   "$simulator" --help | sed -n '/^Subcommands:/,$p' | awk 'NR > 1 && /^  [a-z]/ { print $1 }' > "$work/commands"
@@ -163,11 +173,11 @@ check_examples_are_short_and_told() {
   [ "$count" -ge 10 ] || problem "tools/examples: $count numbered programs; expected at least 10"
 }
 
-check_ports_are_members_of_their_names() { # an input that shares its name with an output: NAME_in
+check_ports_are_members_of_their_names() {
   local member port seen=0
   while read -r member port; do
     seen=$((seen + 1))
-    [ "$member" = push_back ] || [ "$member" = "$port" ] || [ "$member" = "${port}_in" ] ||
+    [ "$member" = push_back ] || [ "$member" = "$port" ] ||
       problem "systems: member $member is port $port; expected one name"
   done < <(cat systems/*/*.h systems/*/*.cc | tr '\n' ' ' |
     grep -oP '\b\w+\(\s*Declare(Input|OptionalInput|Output|StateOutput)\b(<[^()]*>)?\(\s*"\w+"' |

@@ -21,7 +21,8 @@ int main(int argc, char** argv) {
     for (int seed = next++; seed < runs; seed = next++) {
       try {
         const auto loaded = file.Build({{"simulator.seed", std::to_string(seed)}});
-        ++(oca::runs::Run(loaded, {}).ExpectationsMet() ? met : unmet);
+        const auto result = oca::runs::Run(loaded, {});
+        ++(result.failure ? failed : result.ExpectationsMet() ? met : unmet);
       } catch (const std::exception& error) {
         std::fprintf(stderr, "seed %d: %s\n", seed, error.what());
         ++failed;

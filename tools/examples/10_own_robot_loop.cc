@@ -43,7 +43,8 @@ int main(int argc, char** argv) try {
   for (long k = 0; k < ticks && status.ok(); ++k) {
     std::this_thread::sleep_until(wake += std::chrono::milliseconds(1));
     const auto woken = Clock::now();
-    scene.obstacles[0].X_WO.translation().z() += 1e-5 * std::cos(0.001 * static_cast<double>(k));
+    const double rise = 1e-5 * std::cos(0.001 * static_cast<double>(k));
+    for (auto& obstacle : scene.obstacles) obstacle.X_WO.translation().z() += rise;
     const bool fine = loop.Set(joints, robot.q).ok() && loop.Set(camera, scene).ok() &&
                       (status = loop.Tick()).ok();
     if (fine) robot.Move(loop.Get(command));

@@ -5,7 +5,7 @@ set -euo pipefail
 includes=(-I.)
 [ -d "$OCA_BUILD/include" ] && includes+=("-I$OCA_BUILD/include")
 shopt -s nullglob
-for source in tests/consumer/*.cc tools/control_loop_example.cc tools/examples/*.cc; do
+for source in tests/consumer/*.cc tools/examples/*.cc; do
   seconds=$("$(dirname "$0")/compile_unit.sh" -O2 -DFMT_SHARED "${includes[@]}" "$source")
   echo "$source $seconds" >&2
   echo "$seconds"

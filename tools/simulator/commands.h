@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "oca/tools/simulator/simulator_main.h"
+#include "tools/simulator/run_files.h"
 
 namespace oca::tools {
 
@@ -16,10 +17,7 @@ struct RunArguments {
   std::vector<std::string> overrides;
   std::optional<double> duration;
   std::optional<int> seed;
-  std::string csv_folder;
-  std::string record;  ///< file to record into; empty: none
-  std::string record_compression{"zstd"};
-  std::string report;       ///< HTML file to write; empty: none
+  FileArguments files;
   std::optional<int> live;  ///< port to show the run on; 0: any that is free
   std::string live_address{"127.0.0.1"};
   std::vector<std::string> live_origins;  ///< of other pages that may connect

@@ -21,7 +21,6 @@
 #include "oca/diagrams/record/page.h"
 #include "oca/framework/dataflow/error.h"
 #include "tools/simulator/interrupt.h"
-#include "tools/simulator/run_files.h"
 #include "tools/simulator/terminal.h"
 
 namespace oca::tools {
@@ -85,7 +84,7 @@ int RunLiveCommand(const RunArguments& arguments, const std::vector<files::Overr
   }
   CatchInterrupts();
   live::LiveServer server(ServerOptions(arguments));
-  RunFiles files(arguments, overrides);
+  RunFiles files(arguments.files, overrides);
   live::LiveRunOptions options;
   options.file = arguments.file;
   options.catalogue = catalogue;

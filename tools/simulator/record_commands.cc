@@ -27,7 +27,7 @@ record::McapFile ReadRecord(const std::string& file) {
 
 int ExportCommand(const std::string& file, const std::string& folder) {
   const record::McapFile record = ReadRecord(file);
-  std::vector<runs::OutputFile> outputs{{"--csv", folder}};
+  std::vector<runs::OutputFile> outputs{{"--csv", folder, true}};
   for (const auto& output : record::ExportedFiles(record, folder)) {
     outputs.push_back({"--csv", output});
   }

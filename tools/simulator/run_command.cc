@@ -17,7 +17,6 @@
 #include "tools/simulator/commands.h"
 #include "tools/simulator/interrupt.h"
 #include "tools/simulator/live_commands.h"
-#include "tools/simulator/run_files.h"
 #include "tools/simulator/run_summary.h"
 #include "tools/simulator/terminal.h"
 
@@ -84,7 +83,7 @@ int RunCommand(const RunArguments& arguments, const files::Catalogue& catalogue)
   if (arguments.live) return RunLiveCommand(arguments, overrides, catalogue, &log);
   const record::RunSource source(arguments.file, overrides, catalogue);
   const loading::LoadedDiagram& loaded = source.loaded();
-  RunFiles files(arguments, overrides);
+  RunFiles files(arguments.files, overrides);
   std::optional<ProgressBar> bar;
   runs::RunOptions options;
   options.duration = arguments.duration;

@@ -1,34 +1,46 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "oca/diagrams/record/record.h"
-#include "oca/diagrams/record/report.h"
-#include "oca/diagrams/runs/csv.h"
-#include "tools/simulator/commands.h"
+#include "oca/diagrams/files/override.h"
+#include "oca/diagrams/runs/run_output.h"
+
+namespace CLI {
+class App;
+}
+
+namespace oca::record {
+class Recording;
+}
 
 namespace oca::tools {
 
-/// What the options of `run` want to be made of it: --csv, --record, --report.
+/// The files that `run` shall make of a run; an empty name: none.
+struct FileArguments {
+  std::string csv_folder;
+  std::string record;  ///< MCAP
+  std::string record_compression{"zstd"};
+  std::string report;  ///< HTML
+};
+/// Adds their options to `run`.
+void AddFileOptions(CLI::App& run, FileArguments& arguments);
+
+/// What makes them.
 class RunFiles {
  public:
-  RunFiles(const RunArguments& arguments, const std::vector<files::Override>& overrides);
-  RunFiles(const RunFiles&) = delete;
-  RunFiles& operator=(const RunFiles&) = delete;
+  RunFiles(const FileArguments& arguments, const std::vector<files::Override>& overrides);
 
-  const std::vector<runs::RunOutput*>& outputs() const { return outputs_; }
+  std::vector<runs::RunOutput*> outputs() const;
   /// After the run: a warning if the record lacks samples.
   void TellDropped() const;
 
  private:
+  std::vector<std::unique_ptr<runs::RunOutput>> outputs_;
   const std::string record_file_;
-  std::optional<runs::Csv> csv_;
-  std::optional<record::Record> record_;
-  std::optional<record::Report> report_;
-  std::vector<runs::RunOutput*> outputs_;
+  const record::Recording* record_{nullptr};
 };
 
 }  // namespace oca::tools

@@ -89,13 +89,7 @@ class CommandLine {
     run->add_option("-t,--duration", run_.duration, "seconds to simulate, instead of the file's");
     run->add_option("--seed", run_.seed, "seed of everything random")
         ->check(WholeNumber(10) & CLI::Range(0.0, 2147483647.0));
-    run->add_option("--csv", run_.csv_folder, "folder to write the recorded signals to")
-        ->check(FileName());
-    run->add_option("--record", run_.record, "MCAP file to record the run into")->check(FileName());
-    run->add_option("--record-compression", run_.record_compression, "none, lz4 or zstd")
-        ->check(CLI::IsMember({"none", "lz4", "zstd"}));
-    run->add_option("--report", run_.report, "HTML file of the run: opens in a browser, offline")
-        ->check(FileName());
+    AddFileOptions(*run, run_.files);
     CLI::Option* const live =
         run->add_option("--live", run_.live,
                         "show the run while it goes on, to browsers and Foxglove: =PORT, or 8765")
@@ -307,8 +301,10 @@ int SimulatorMain(int argc, char** argv, const files::Catalogue& catalogue) {
     return CommandLine(catalogue).Main(argc, argv);
   } catch (const std::exception& error) {
     Tell("error: {}\n", error.what());
-    return kRunFailed;
+  } catch (...) {  // of a block of somebody else's
+    Tell("error: an exception of an unknown type\n");
   }
+  return kRunFailed;
 }
 
 }  // namespace oca::tools

@@ -156,7 +156,7 @@ int SweepCommand(const SweepArguments& arguments, const files::Catalogue& catalo
   models::OpenedFiles opened;
   const loading::Blueprint blueprint(campaign.file, catalogue);
   for (const std::string& warning : Inspect(campaign, blueprint)) Tell("{}\n", warning);
-  std::vector<runs::OutputFile> outputs{{"-o", folder}, {"-o", folder / "results.db"}};
+  std::vector<runs::OutputFile> outputs{{"-o", folder, true}, {"-o", folder / "results.db"}};
   for (const char* const end : {".jsonl", ".jsonl.part", ".timings.jsonl"}) {
     outputs.push_back({"-o", folder / (shard.Stem() + end)});
   }

@@ -20,6 +20,7 @@ using sweep::Share;
 using sweep::Spread;
 
 constexpr std::size_t kColumnsAtOnce = 3;
+constexpr std::size_t kLeastWidth = 27;  // of a column
 constexpr std::size_t kFailuresShown = 10;
 const char* const kNothing = "-";
 
@@ -88,7 +89,7 @@ std::vector<Measure> Measures() {
 bool IsWorst(const Measure& measure) { return std::string_view(measure.name) == "  worst"; }
 
 /// A measure that no combination has is left out; so is one that says the same as the one before.
-std::string Rows(const std::vector<CombinationSummary>& columns) {
+std::string Rows(const std::vector<CombinationSummary>& columns, std::size_t width) {
   std::string text;
   std::vector<std::string> before;
   for (const Measure& measure : Measures()) {
@@ -100,7 +101,7 @@ std::string Rows(const std::vector<CombinationSummary>& columns) {
     before = cells;
     if (!known || repeats) continue;
     text += fmt::format("  {:<24}", measure.name);
-    for (const std::string& cell : cells) text += fmt::format("{:<27} ", cell);
+    for (const std::string& cell : cells) text += fmt::format("{:<{}} ", cell, width);
     text.erase(text.find_last_not_of(' ') + 1);
     text += '\n';
   }
@@ -171,14 +172,19 @@ std::string SweepTable(const sweep::Results& results, const sweep::Summary& summ
     const std::vector<CombinationSummary> columns(
         all.begin() + static_cast<std::ptrdiff_t>(first),
         all.begin() + static_cast<std::ptrdiff_t>(first + count));
+    std::size_t width = kLeastWidth;
     if (all.size() > 1) {
+      for (const CombinationSummary& one : columns) {
+        width = std::max(width, sweep::TitleOf(one.settings).size());
+      }
       text += fmt::format("  {:<24}", "");
-      for (const CombinationSummary& one : columns)
-        text += fmt::format("{:<28}", sweep::TitleOf(one.settings));
+      for (const CombinationSummary& one : columns) {
+        text += fmt::format("{:<{}} ", sweep::TitleOf(one.settings), width);
+      }
       text.erase(text.find_last_not_of(' ') + 1);
       text += '\n';
     }
-    text += Rows(columns);
+    text += Rows(columns, width);
   }
   if (summary.failures.empty()) return text;
   text += fmt::format("{} of {} runs not clear, not arrived, not as expected or not finished:\n",

@@ -1,6 +1,6 @@
 # A mimic's limits bind the joint that leads it, through a chain too: 'first' may use [-0.5, 0.2] rad
 # and 0.5 rad/s. They were dropped in silence.
-for i in $(seq 0 100); do echo "{\"position\": [$i], \"measured_position\": [0]}"; done > up
+for i in $(seq 0 100); do echo "{\"request\": [$i], \"measured_position\": [0]}"; done > up
 sed 's/\[\([1-9]\)/[-\1/' up > down
 for way in up down; do
   "$SIMULATOR" eval MotionLimiter --params '{"period": 0.01}' --model arm="$CASE/arm.urdf" \

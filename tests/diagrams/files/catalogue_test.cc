@@ -132,6 +132,48 @@ TEST(CatalogueTest, ARowOfACallableHasParametersTooIfItWants) {
   EXPECT_EQ(row.MakeExample({})->outputs().front().name, "out");
 }
 
+TEST(CatalogueTest, ACallableThatMakesNothingIsToldOf) {
+  Catalogue catalogue;
+  catalogue.Add("Nothing", kNormDoc, []() -> std::unique_ptr<System> { return nullptr; });
+  const CatalogueRow& row = *catalogue.Find("Nothing");
+  const auto made_nothing =
+      ThrowsMessage<ConfigError>(HasSubstr("'Nothing': made nothing; expected a system"));
+  EXPECT_THAT([&] { row.MakeExample({}); }, made_nothing);
+  Problems problems;
+  EXPECT_EQ(row.Make(Value(Value::Map{}, {}), "systems.x", {}, problems), nullptr);
+  EXPECT_THAT([&] { problems.Throw(); },
+              ThrowsMessage<ConfigError>(HasSubstr("systems.x: catalogue: type 'Nothing'")));
+}
+
+TEST(CatalogueTest, AnExampleIsWhatItsFieldsSay) {
+  Catalogue catalogue;
+  catalogue.Add("Scale", kNormDoc, Foreign::Params{-1.0},
+                [](const Foreign::Params&) { return MakeNorm(); });
+  EXPECT_THAT([&] { catalogue.Find("Scale")->MakeExample({}); },
+              ThrowsMessage<ConfigError>(HasSubstr("'Scale': example; got factor: got -1")));
+}
+
+TEST(CatalogueTest, ARowReadsParametersAndMakesAnyNumberOfSystemsOfThem) {
+  auto catalogue = Catalogue();
+  catalogue.Add<Foreign>("Foreign");
+  const CatalogueRow& row = *catalogue.Find("Foreign");
+  const auto given = [](double factor) {
+    return Value(Value::Map{{"factor", {}, Value(factor, {})}}, {});
+  };
+  Problems problems;
+  const auto params = row.Read(given(4.0), "systems.x", problems);
+  EXPECT_EQ(JsonOfFields(row.fields(), params.get()).dump(), R"({"factor":4})");
+  const auto one = row.Make(params.get(), given(4.0), "systems.x", {}, problems);
+  EXPECT_NE(one, row.Make(params.get(), given(4.0), "systems.x", {}, problems));
+  EXPECT_TRUE(problems.empty());
+  EXPECT_EQ(row.Read(given(-1.0), "systems.x", problems), nullptr);
+  const auto unlucky = row.Read(given(13.0), "systems.x", problems);
+  EXPECT_EQ(row.Make(unlucky.get(), given(13.0), "systems.x", {}, problems), nullptr);
+  ASSERT_EQ(problems.all().size(), 2u);
+  EXPECT_THAT(problems.all()[0].ToString(), HasSubstr("systems.x.factor: got -1"));
+  EXPECT_THAT(problems.all()[1].ToString(), HasSubstr("systems.x: brings bad luck"));
+}
+
 class ForeignFileTest : public testing::Test {
  protected:
   loading::LoadedDiagram Load(const std::string& systems, const Catalogue& catalogue) {

@@ -22,7 +22,7 @@ class DocumentTest : public testing::Test {
     Problems found;
     Value value = LoadDocument(folder.path() / "main.yaml", parsed, found);
     problems.clear();
-    for (const std::string& problem : found.all()) problems += problem + "\n";
+    for (const Diagnostic& problem : found.all()) problems += problem.ToString() + "\n";
     return value;
   }
   std::string ProblemOf(const std::string& override_text) {

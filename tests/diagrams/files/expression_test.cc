@@ -24,7 +24,7 @@ class Resolved {
     Problems found;
     Expressions expressions(At(document_.value, "parameters"), found);
     value = expressions.Resolve(Value(text, Location()));
-    for (const std::string& problem : found.all()) problems += problem + "\n";
+    for (const Diagnostic& problem : found.all()) problems += problem.ToString() + "\n";
   }
   Value value;
   std::string problems;
@@ -220,7 +220,7 @@ TEST(ExpressionTest, AResultThatIsNotFiniteIsToldOnceWithWhatItComesFrom) {
   Expressions expressions(At(document.value, "parameters"), problems);
   expressions.Resolve(At(document.value, "x"));
   ASSERT_EQ(problems.all().size(), 1u);
-  EXPECT_THAT(problems.all().front(),
+  EXPECT_THAT(problems.all().front().ToString(),
               HasSubstr("f.yaml:2:5: error: ${reach / rate}: the result is not finite; rate is 0 "
                         "(f.yaml:1:20); reach is 2 (f.yaml:1:30)"));
 }
@@ -284,7 +284,7 @@ TEST(ExpressionTest, AProblemIsToldWhereTheExpressionStands) {
   Expressions expressions(At(document.value, "parameters"), problems);
   expressions.Resolve(document.value);
   ASSERT_EQ(problems.all().size(), 1u);
-  EXPECT_THAT(problems.all().front(), HasSubstr("f.yaml:3:5: error: "));
+  EXPECT_THAT(problems.all().front().ToString(), HasSubstr("f.yaml:3:5: error: "));
 }
 
 TEST(ExpressionTest, ParametersThatMultiplyOneAnotherAreRefusedQuickly) {
@@ -306,7 +306,7 @@ TEST(ExpressionTest, AParameterThatNothingUsesIsNamedWithItsNearest) {
   Expressions expressions(At(document.value, "parameters"), problems);
   expressions.Resolve(Value(std::string("${twice}"), Location()));
   ASSERT_EQ(expressions.Unused().size(), 1u);
-  EXPECT_THAT(expressions.Unused()[0],
+  EXPECT_THAT(expressions.Unused()[0].ToString(),
               HasSubstr("parameters.raech: nothing uses it; did you mean 'reach'?"));
   EXPECT_THAT(expressions.Unused({"raech"}), testing::IsEmpty());
   EXPECT_EQ(expressions.Unused({"raeching"}).size(), 1u);

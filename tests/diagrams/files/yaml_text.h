@@ -13,7 +13,7 @@ struct YamlText {
   explicit YamlText(std::string_view text) {
     Problems found;
     value = ReadYaml(text, "f.yaml", found);
-    for (const std::string& problem : found.all()) problems += problem + "\n";
+    for (const Diagnostic& problem : found.all()) problems += problem.ToString() + "\n";
   }
   Value value;
   std::string problems;

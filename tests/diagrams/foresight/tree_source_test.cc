@@ -40,7 +40,9 @@ struct Alone {
     EXPECT_EQ(text.problems, "");
     source = MakeTreeSource(text.value, name, {}, files::Catalogue::Standard(), problems);
   }
-  std::string Problem() const { return problems.empty() ? "none" : problems.all().front(); }
+  std::string Problem() const {
+    return problems.empty() ? "none" : problems.all().front().ToString();
+  }
 
   Problems problems;
   std::unique_ptr<Diagram> source;

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <fstream>
 #include <sstream>
+#include <string>
 #include <thread>
 
 #include "oca/diagrams/live/live_run.h"
@@ -17,6 +17,7 @@ namespace oca::live {
 namespace live_change_test {
 
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr char kBall[] = R"(
 name: ball
@@ -37,9 +38,10 @@ record: {signals: {"rate.value": 100}}
 /// A run on a thread of its own, recorded in memory, with a client that changes it.
 class LiveChangeTest : public testing::Test {
  protected:
-  LiveChangeTest() : sink_(bytes_, record::Compression::kNone), server_(AnyPort()) {
-    options_.file = folder_.path() / "ball.yaml";
-    std::ofstream(options_.file) << kBall;
+  explicit LiveChangeTest(const std::string& diagram = kBall, const std::string& used = "")
+      : sink_(bytes_, record::Compression::kNone), server_(AnyPort()) {
+    folder_.Write("used.yaml", used);
+    options_.file = folder_.Write("ball.yaml", diagram);
     options_.interrupted = [this] { return stop_.load(); };
     options_.outputs = {&recording_};
     run_ = std::thread([this] { result_ = RunLive(options_, server_); });
@@ -164,6 +166,34 @@ TEST_F(LiveChangeTest, TellsWhoLooksOnWhatChangedOfTheDiagram) {
   json after = late.ReadOp("serverInfo");
   EXPECT_EQ(after["metadata"]["oca.parameters/slope"], "7.25");
   EXPECT_EQ(after["sessionId"], before["sessionId"]);  // the run goes on
+}
+
+/// Two uses of a file with an obstacle.
+class LiveNestingTest : public LiveChangeTest {
+ protected:
+  LiveNestingTest()
+      : LiveChangeTest(
+            "systems:\n"
+            "  left: {type: Diagram, file: used.yaml}\n"
+            "  right: {type: Diagram, file: used.yaml}\n"
+            "record: {signals: {left.obstacles.obstacles: 100, right.obstacles.obstacles: 100}}\n",
+            kBall) {}
+};
+
+TEST_F(LiveNestingTest, AnObstacleOfEachUseOfAFileIsMovedByItsPath) {
+  Client client(server_.port());
+  client.Subscribe(ChannelOf(client, "/right/obstacles/obstacles"), 1);
+  client.Send(R"({"op": "setParameters", "parameters":
+      [{"name": "right.obstacles.ball.position", "value": [0.5, 2, 3]}]})");
+  WaitFor(client, R"("xyz":[0.5,2)");
+  client.Subscribe(ChannelOf(client, "/left/obstacles/obstacles"), 2);
+  const record::McapFile file = Stop();
+  EXPECT_FALSE(result_.run.failure);
+  EXPECT_EQ(result_.changes, 1);
+  EXPECT_THAT(file.MessagesOf("/right/obstacles/obstacles").back()->data,
+              HasSubstr(R"("xyz":[0.5,2)"));
+  EXPECT_THAT(file.MessagesOf("/left/obstacles/obstacles").back()->data,
+              Not(HasSubstr(R"("xyz":[0.5)")));
 }
 
 }  // namespace live_change_test

@@ -65,6 +65,23 @@ TEST_F(LiveRunTest, OffersNumbersSwitchesAndObstaclesThatStand) {
               ElementsAre(0.0, 0.6, 1.0));
 }
 
+TEST_F(LiveRunTest, NamesObstaclesThatStandByTheirPaths) {
+  folder_.Write("used.yaml",
+                "systems: {o: {type: ObstacleSource, obstacles: [{id: box, shape: {type: sphere, "
+                "radius: 0.1}, pose: {xyz: [0, 0, 1]}}]}}\n");
+  const LoadedDiagram loaded =
+      LoadDiagram(folder_.Write("both.yaml",
+                                "systems:\n"
+                                "  left: {type: Diagram, file: used.yaml}\n"
+                                "  right: {type: Diagram, file: used.yaml}\n"));
+  std::vector<std::string> names;
+  for (const LiveParameter& one : LiveParametersOf(loaded)) names.push_back(one.name);
+  EXPECT_THAT(names, ElementsAre("left.o.box.position", "right.o.box.position"));
+  const std::vector<double> moved{0.0, 0.5, 1.25};
+  EXPECT_EQ(OverrideOf(loaded, {names[0], moved}).path, "left.systems.o.obstacles.0.pose.xyz");
+  EXPECT_EQ(OverrideOf(loaded, {names[1], moved}).path, "right.systems.o.obstacles.0.pose.xyz");
+}
+
 TEST_F(LiveRunTest, KnowsHowFarTheFieldsBehindAParameterGo) {
   const auto ranges =
       RangesOf(LoadDiagram(std::filesystem::path(OCA_SOURCE_DIR) / "diagrams/static_test.yaml"));

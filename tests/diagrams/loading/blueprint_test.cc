@@ -15,6 +15,7 @@
 #include "oca/framework/dataflow/dynamic_port.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/robot/robot_model.h"
+#include "tests/diagrams/loading/shipped_files.h"
 #include "tests/models/geometry/mesh_files.h"
 #include "tests/temporary_folder.h"
 
@@ -23,13 +24,14 @@ namespace blueprint_test {
 
 namespace fs = std::filesystem;
 using files::Override;
+using shipped_files::DiagramFiles;
+using shipped_files::kFolder;
+using shipped_files::TestName;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 using Overrides = std::vector<Override>;
-
-const fs::path kFolder = OCA_SOURCE_DIR "/diagrams";
 
 /// A tree with the place of every node.
 std::string Text(const Value& value) {
@@ -81,16 +83,6 @@ std::string RefusalOf(const std::function<void()>& load) {
   }
 }
 
-std::vector<std::string> DiagramFiles() {
-  std::vector<std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(kFolder)) {
-    const fs::path name = entry.path().lexically_relative(kFolder);
-    if (name.extension() == ".yaml" && *name.begin() != "parts") files.push_back(name.string());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 class EveryBlueprintTest : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryBlueprintTest, BuildsWhatALoadGives) {
@@ -106,12 +98,7 @@ TEST_P(EveryBlueprintTest, BuildsWhatALoadGives) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Diagrams, EveryBlueprintTest, testing::ValuesIn(DiagramFiles()),
-                         [](const auto& file) {
-                           std::string name = fs::path(file.param).replace_extension().string();
-                           std::replace(name.begin(), name.end(), '/', '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Diagrams, EveryBlueprintTest, testing::ValuesIn(DiagramFiles()), TestName);
 
 /// Overrides that change which files are read, or what of them.
 TEST(BlueprintTest, BuildsWhatALoadGivesWhateverAnOverrideChanges) {
@@ -150,6 +137,28 @@ TEST(BlueprintTest, BuildsWhatALoadGivesWhateverAnOverrideChanges) {
     refusals += refused.empty() ? 0 : 1;
   }
   EXPECT_EQ(refusals, 7);
+}
+
+/// Parameters that the file gives to those that it uses, and parameters of these alone.
+TEST(BlueprintTest, BuildsWhatALoadGivesOfFilesThatAreUsed) {
+  const fs::path file = kFolder / "dual_arm.yaml";
+  const Blueprint blueprint(file);
+  const std::vector<Overrides> variations{
+      {},
+      {{"parameters.max_distance", "0.3"}},
+      {{"parameters.max_distance", "0.35"}, {"left.parameters.start.1", "0.9"}},
+      {{"left.parameters.reach", "[0, 0, 0, 0, 0, 0, 0]"}},
+      {{"right.systems.plant.initial_position", "${reach}"}},
+      {{"models.left.base_pose.xyz.1", "0.5"}},
+      {{"parameters.avoidance", "vortex"}},
+      {{"parameters.rate", "-3"}},
+      {}};
+  for (const Overrides& overrides : variations) {
+    std::vector<std::string> built, fresh;
+    const std::string refused = RefusalOf([&] { built = Everything(blueprint.Build(overrides)); });
+    EXPECT_EQ(refused, RefusalOf([&] { fresh = Everything(LoadDiagram(file, overrides)); }));
+    EXPECT_EQ(built, fresh);
+  }
 }
 
 TEST(BlueprintTest, DrawsEachSeedAsALoadDoes) {

@@ -3,67 +3,20 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <algorithm>
 
-#include "oca/diagrams/runs/run.h"
 #include "oca/framework/dataflow/error.h"
-#include "oca/models/robot/robot_model.h"
-#include "tests/temporary_folder.h"
+#include "tests/diagrams/loading/chain_file.h"
 
 namespace oca::loading {
 namespace loader_test {
 
+using chain_file::Chain;
 using testing::AllOf;
 using testing::HasSubstr;
-using testing::Not;
 
-class LoaderTest : public testing::Test {
- protected:
-  LoadedDiagram Load(const std::string& text, const std::vector<files::Override>& overrides = {}) {
-    return LoadDiagram(folder.Write("d.yaml", text), overrides);
-  }
-  /// The error text, without the folder; empty if the text loads.
-  std::string Refusal(const std::string& text) {
-    try {
-      Load(text);
-      return "";
-    } catch (const ConfigError& error) {
-      std::string what = error.what();
-      const std::string place = folder.path().string() + "/";
-      for (auto at = what.find(place); at != std::string::npos; at = what.find(place)) {
-        what.erase(at, place.size());
-      }
-      return what;
-    }
-  }
-  test::TemporaryFolder folder;
-};
-
-/// A source, a gain and a lag in a row: line 2 is the simulator, 4 to 6 the systems, 8 and 9 the
-/// connections. What a test replaces keeps these lines.
-std::string Chain(const std::string& from = "", const std::string& to = "") {
-  std::string text =
-      "name: chain\n"
-      "simulator: {duration: 1}\n"
-      "systems:\n"
-      "  source: {type: Constant, value: [1, 2], unit: rad}\n"
-      "  gain: {type: Gain, gain: 3}\n"
-      "  lag: {type: FirstOrderLag, time_constant: 0.1}\n"
-      "connections:\n"
-      "  - source.value -> gain.in\n"
-      "  - gain.out -> lag.in\n";
-  if (!from.empty()) {
-    const auto at = text.find(from);
-    if (at == std::string::npos) throw std::logic_error("nothing to replace: " + from);
-    text.replace(at, from.size(), to);
-  }
-  return text;
-}
-
-const char* const kArm =
-    "models: {arm: {urdf: package://lwr4/lwr4.urdf, srdf: package://lwr4/lwr4.srdf}}\n";
+class LoaderTest : public chain_file::ChainFile {};
 
 /// Chain() with its gain from part_low.yaml or part_high.yaml, which know `low`, and `high` and
 /// `spare`.
@@ -133,42 +86,6 @@ TEST_F(LoaderTest, NamesAnUnknownTopLevelKeyAndTheNearest) {
               HasSubstr("d.yaml:2:1: error: simulater: unknown key; did you mean 'simulator'?"));
 }
 
-TEST_F(LoaderTest, NamesAnUnknownSystemTypeAndTheNearest) {
-  EXPECT_THAT(
-      Refusal(Chain("type: Gain", "type: Gian")),
-      HasSubstr("d.yaml:5:16: error: systems.gain.type: no system type 'Gian'; did you mean "
-                "'Gain'?"));
-}
-
-TEST_F(LoaderTest, NamesAnUnknownParameterAndTheNearest) {
-  EXPECT_THAT(
-      Refusal(Chain("gain: 3", "gian: 3")),
-      HasSubstr("d.yaml:5:22: error: systems.gain.gian: unknown key; did you mean 'gain'?"));
-}
-
-TEST_F(LoaderTest, NamesUnknownPortsAndTheNearest) {
-  EXPECT_THAT(Refusal(Chain("gain.out ->", "gain.oot ->")),
-              AllOf(HasSubstr("d.yaml:9:5: error: connections: gain: "), HasSubstr("oot"),
-                    HasSubstr("did you mean 'out'?")));
-  EXPECT_THAT(Refusal(Chain("-> lag.in", "-> lag.input")),
-              AllOf(HasSubstr("d.yaml:9:5: error: connections: lag: "), HasSubstr("input")));
-}
-
-TEST_F(LoaderTest, NamesUnknownSystemsInConnectionsAndTheNearest) {
-  EXPECT_THAT(Refusal(Chain("gain.out ->", "gian.out ->")),
-              HasSubstr("d.yaml:9:5: error: connections: no system 'gian'; did you mean 'gain'?"));
-}
-
-TEST_F(LoaderTest, ConnectionsThatAreNoneAreRefused) {
-  for (const char* line : {"gain.out lag.in", "gain.out ->", "-> lag.in", "gain -> lag", "3",
-                           "{gain.out: lag.in}", "gain.out -> lag.in -> lag.in", "[a]"}) {
-    EXPECT_THAT(Refusal(Chain("gain.out -> lag.in", line)), HasSubstr("d.yaml:9:")) << line;
-  }
-  EXPECT_THAT(Refusal(Chain("connections:\n  - source.value -> gain.in\n  - gain.out -> lag.in\n",
-                            "connections: {a: b}\n")),
-              HasSubstr("connections: got a map; expected a list"));
-}
-
 TEST_F(LoaderTest, ReportsAllErrorsOfAFileAtOnce) {
   const std::string refusal = Refusal(
       "names: x\n"
@@ -207,82 +124,6 @@ TEST_F(LoaderTest, ReportsWiringRecordAndExpectationsTogether) {
               HasSubstr("expect.lag.otu[0]: no output 'lag.otu'; did you mean 'lag.out'?"));
 }
 
-TEST_F(LoaderTest, SizesThatDifferAreNamedWithBothSides) {
-  EXPECT_THAT(Refusal(Chain("gain: 3", "gain: [1, 2, 3]")),
-              AllOf(HasSubstr("d.yaml:8:5: error: "), HasSubstr("2"), HasSubstr("3"),
-                    HasSubstr("gain.in"), HasSubstr("source.value")));
-}
-
-TEST_F(LoaderTest, UnitsThatDifferAreNamedWithBothSides) {
-  const std::string text =
-      "systems:\n"
-      "  source: {type: Constant, value: [0, 0, 0, 0, 0, 0, 0], unit: m}\n"
-      "  kinematics: {type: RobotKinematics, model: arm}\n"
-      "connections: [source.value -> kinematics.position]\n";
-  EXPECT_THAT(Refusal(kArm + text), AllOf(HasSubstr("d.yaml:5:15: error: "), HasSubstr("unit"),
-                                          HasSubstr("rad"), HasSubstr(" m")));
-}
-
-TEST_F(LoaderTest, SixJointsAgainstSevenAreRefused) {
-  const std::string text =
-      "systems:\n"
-      "  source: {type: Constant, value: [0, 0, 0, 0, 0, 0], unit: rad}\n"
-      "  kinematics: {type: RobotKinematics, model: arm}\n"
-      "connections: [source.value -> kinematics.position]\n";
-  EXPECT_THAT(Refusal(kArm + text), AllOf(HasSubstr("size"), HasSubstr("6"), HasSubstr("7")));
-}
-
-TEST_F(LoaderTest, TypesThatDifferAreNamedWithBothSides) {
-  const std::string text =
-      "systems:\n"
-      "  source: {type: ObstacleSource}\n"
-      "  gain: {type: Gain, gain: 1}\n"
-      "connections: [source.obstacles -> gain.in]\n";
-  EXPECT_THAT(Refusal(text), AllOf(HasSubstr("d.yaml:4:15: error: "), HasSubstr("ObstacleSet"),
-                                   HasSubstr("Vector")));
-}
-
-TEST_F(LoaderTest, TwoDriversOfOneInputAreRefused) {
-  EXPECT_THAT(Refusal(Chain() + "  - source.value -> lag.in\n"),
-              AllOf(HasSubstr("d.yaml:10:5: error: "), HasSubstr("lag.in")));
-}
-
-TEST_F(LoaderTest, AnUnconnectedInputIsNamed) {
-  EXPECT_THAT(Refusal(Chain("  - source.value -> gain.in\n", "")),
-              AllOf(HasSubstr("d.yaml:5:3: error: gain.in"), HasSubstr("not connected")));
-}
-
-TEST_F(LoaderTest, AnAlgebraicLoopIsShownAsAPath) {
-  const std::string text =
-      "systems:\n"
-      "  a: {type: Gain, gain: 1}\n"
-      "  b: {type: Gain, gain: 1}\n"
-      "connections: [a.out -> b.in, b.out -> a.in]\n";
-  EXPECT_THAT(Refusal(text),
-              AllOf(HasSubstr("d.yaml:"), HasSubstr("algebraic loop"), HasSubstr("a.out"),
-                    HasSubstr("b.in"), HasSubstr("b.out"), HasSubstr("a.in")));
-}
-
-TEST_F(LoaderTest, SystemsThatShareANameAreRefused) {
-  EXPECT_THAT(Refusal(Chain("  gain:", "  source:")),
-              HasSubstr("d.yaml:5:3: error: source: duplicate key; the first is at d.yaml:4:3"));
-}
-
-TEST_F(LoaderTest, NamesThatAreNoneAreRefused) {
-  EXPECT_THAT(Refusal(Chain("  gain:", "  my gain:")),
-              HasSubstr("d.yaml:5:3: error: systems.my gain"));
-}
-
-TEST_F(LoaderTest, ADiagramWithoutSystemsIsRefused) {
-  EXPECT_THAT(Refusal("name: x\n"), HasSubstr("systems: missing; expected a map of named systems"));
-  EXPECT_THAT(Refusal("systems: {}\n"), HasSubstr("systems: got none; expected at least one"));
-  EXPECT_THAT(Refusal("systems: [1]\n"), HasSubstr("systems: got a list; expected a map"));
-  EXPECT_THAT(Refusal("systems:\n"), HasSubstr("systems: no value"));
-  EXPECT_THAT(Refusal("systems: {a: 3}\n"), HasSubstr("systems.a: got 3; expected a map"));
-  EXPECT_THAT(Refusal("systems: {a: {gain: 3}}\n"), HasSubstr("systems.a.type: missing"));
-  EXPECT_THAT(Refusal("systems: {a: {type: 3}}\n"), HasSubstr("systems.a.type: got 3"));
-}
-
 TEST_F(LoaderTest, DurationsAndTolerancesOutOfBoundsAreRefused) {
   for (const char* simulator :
        {"{duration: -1}", "{duration: 1e8}", "{relative_tolerance: 0}", "{absolute_tolerance: -1}",
@@ -302,18 +143,6 @@ TEST_F(LoaderTest, TolerancesOfUnknownSystemsAreRefused) {
               HasSubstr("simulator_tolerances.lag.relative"));
 }
 
-TEST_F(LoaderTest, APeriodOfZeroIsRefusedAndAFrequencyTaken) {
-  const auto with = [&](const std::string& period) {
-    return Chain("{type: Gain, gain: 3}", "{type: ZeroOrderHold, " + period + "}");
-  };
-  EXPECT_THAT(Refusal(with("period: 0")), HasSubstr("d.yaml:5:39: error: systems.gain.period"));
-  EXPECT_THAT(Refusal(with("period: -0.01")), HasSubstr("systems.gain.period"));
-  EXPECT_THAT(Refusal(with("frequency: 0")), HasSubstr("systems.gain.frequency: got 0 Hz"));
-  EXPECT_THAT(Refusal(with("frequency: 100, period: 0.01")), HasSubstr("frequency"));
-  EXPECT_EQ(Refusal(with("frequency: 60")), "");
-  EXPECT_EQ(Refusal(with("period: \"${1 / 60}\"")), "");
-}
-
 TEST_F(LoaderTest, AnExpressionThatLacksQuotesIsAnsweredWithAdvice) {
   EXPECT_THAT(Refusal(Chain("gain: 3", "gain: ${1 + 2}")),
               AllOf(HasSubstr("d.yaml:5:"), HasSubstr("an expression needs quotes")));
@@ -324,53 +153,6 @@ TEST_F(LoaderTest, TextAndListsInPlaceOfNamesAreRefused) {
   EXPECT_THAT(Refusal("parameters: [1]\n" + Chain()),
               HasSubstr("parameters: got a list; expected a map"));
   EXPECT_THAT(Refusal("models: [1]\n" + Chain()), HasSubstr("models: got a list; expected a map"));
-}
-
-TEST_F(LoaderTest, ModelsThatDoNotExistAreRefused) {
-  const std::string kinematics = "systems: {k: {type: RobotKinematics, model: amr}}\n";
-  EXPECT_THAT(Refusal(kArm + kinematics),
-              AllOf(HasSubstr("d.yaml:2:"), HasSubstr("systems.k"), HasSubstr("amr"),
-                    HasSubstr("did you mean 'arm'?")));
-  EXPECT_THAT(Refusal("models: {arm: {urdf: missing.urdf}}\n" + kinematics),
-              AllOf(HasSubstr("d.yaml:1:10: error: models.arm: "), HasSubstr("missing.urdf")));
-  EXPECT_THAT(Refusal("models: {arm: {srdf: x}}\n" + kinematics),
-              HasSubstr("models.arm: got neither urdf nor xacro; expected one of"));
-  EXPECT_THAT(Refusal("models: {arm: {urdf: ''}}\n" + kinematics), HasSubstr("models.arm"));
-  EXPECT_THAT(Refusal("models: {arm: {urdf: package://none/a.urdf}}\n" + kinematics),
-              HasSubstr("no package 'none'; looked in packages"));
-}
-
-TEST_F(LoaderTest, AModelThatFailsIsReportedOnce) {
-  const std::string refusal = Refusal(
-      "models: {arm: {urdf: missing.urdf}}\n"
-      "systems: {k: {type: RobotKinematics, model: arm}, s: {type: Constant, value: 1}}\n"
-      "connections: [s.value -> k.position]\n");
-  EXPECT_EQ(std::count(refusal.begin(), refusal.end(), '\n'), 0) << refusal;
-}
-
-TEST_F(LoaderTest, BasePosesThatAreNoneAreRefused) {
-  const auto with = [&](const std::string& pose) {
-    return Refusal("models: {arm: {urdf: package://planar2/planar2.urdf, base_pose: " + pose +
-                   "}}\n" + Chain());
-  };
-  EXPECT_EQ(with("{xyz: [0, 0, 1], rpy: [0, 0, 0]}"), "");
-  EXPECT_THAT(with("{xyz: [0, 0]}"), HasSubstr("models.arm.base_pose.xyz"));
-  EXPECT_THAT(with("{xyz: [0, 0, a]}"), HasSubstr("models.arm.base_pose.xyz[2]"));
-  EXPECT_THAT(with("{xyz: [0, 0, .nan]}"), HasSubstr("models.arm.base_pose.xyz[2]: got '.nan'"));
-  EXPECT_THAT(with("{xyz: [0, -1000001, 0]}"), HasSubstr("models.arm.base_pose.xyz"));
-  EXPECT_THAT(with("{xyz: [0, 0, 0], rpy: [1e300, 0, 0]}"), HasSubstr("models.arm.base_pose.rpy"));
-  EXPECT_THAT(with("{quaternion: [0, 0, 0, 0]}"), HasSubstr("models.arm"));
-  EXPECT_THAT(with("{zyx: [0, 0, 0]}"), HasSubstr("did you mean 'xyz'?"));
-}
-
-TEST_F(LoaderTest, AnInitialPositionOfTheWrongLengthIsRefused) {
-  const std::string text =
-      "systems:\n"
-      "  source: {type: Constant, value: [0, 0, 0], unit: rad/s}\n"
-      "  plant: {type: IntegratorPlant, initial_position: [0, 0]}\n"
-      "connections: [source.value -> plant.command]\n";
-  EXPECT_THAT(Refusal(text), AllOf(HasSubstr("d.yaml:4:15: error: "), HasSubstr("size"),
-                                   HasSubstr("2"), HasSubstr("3")));
 }
 
 TEST_F(LoaderTest, RecordsOfUnknownSignalsAndRatesAreRefused) {
@@ -424,53 +206,6 @@ TEST_F(LoaderTest, ExpectationsOnUnknownMetricsNameTheNearest) {
               HasSubstr("did you mean 'max_joint_speed'?"));
 }
 
-class PackageTest : public LoaderTest {
- protected:
-  void SetUp() override {
-    for (const char* place : {"own", "path/lwr4", "second/lwr4"}) {
-      folder.Write(std::string(place) + "/lwr4.urdf",
-                   "<robot name='" + std::string(place) + "'><link name='base'/></robot>");
-    }
-  }
-  void TearDown() override { unsetenv("OCA_PACKAGE_PATH"); }
-  std::string NameOfModel(const std::string& packages) {
-    const LoadedDiagram loaded =
-        Load(packages + "models: {arm: {urdf: package://lwr4/lwr4.urdf}}\n" + Chain());
-    return loaded.models.Get("arm")->name().text();
-  }
-};
-
-TEST_F(PackageTest, TheFileThenTheEnvironmentThenTheModelsOfOca) {
-  EXPECT_EQ(NameOfModel(""), "lwr4");
-  const std::string path = (folder.path() / "none").string() + ":" +
-                           (folder.path() / "path").string() + ":" +
-                           (folder.path() / "second").string();
-  setenv("OCA_PACKAGE_PATH", path.c_str(), 1);
-  EXPECT_EQ(NameOfModel(""), "path/lwr4");
-  EXPECT_EQ(NameOfModel("packages: {lwr4: own}\n"), "own");
-  EXPECT_EQ(NameOfModel("packages: {other: own}\n"), "path/lwr4");
-}
-
-TEST_F(PackageTest, FoldersThatAreNoTextAreRefused) {
-  EXPECT_THAT(Refusal("packages: {lwr4: 3}\n" + Chain()),
-              HasSubstr("packages.lwr4: got 3; expected a folder"));
-}
-
-TEST_F(LoaderTest, FilesAreFoundBesideTheFileThatNamesThem) {
-  folder.Write("parts/box.obj",
-               "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
-  folder.Write("parts/part.yaml",
-               "systems:\n  obstacles:\n    type: ObstacleSource\n    obstacles: [{id: a, pose: "
-               "{xyz: [0, 0, 0]}, shape: {type: "
-               "mesh, file: box.obj}}]\n");
-  EXPECT_EQ(Refusal("include: [parts/part.yaml]\n"), "");
-  folder.Write("parts/part.yaml",
-               "systems:\n  obstacles:\n    type: ObstacleSource\n    obstacles: [{id: a, pose: "
-               "{xyz: [0, 0, 0]}, shape: {type: "
-               "mesh, file: parts/box.obj}}]\n");
-  EXPECT_THAT(Refusal("include: [parts/part.yaml]\n"), HasSubstr("parts/parts/box.obj"));
-}
-
 TEST_F(LoaderTest, OverridesAreNamedInTheirErrors) {
   try {
     Load(Chain(), {{"systems.gain.gian", "3"}});
@@ -488,52 +223,6 @@ TEST_F(LoaderTest, OverridesAreNamedInTheirErrors) {
     EXPECT_THAT(error.what(),
                 AllOf(HasSubstr("-s systems.lag.time_constant"), HasSubstr("got -1 s")));
   }
-}
-
-TEST_F(LoaderTest, AListWithAnItemThatDoesNotExistIsNotMistakenForZero) {
-  EXPECT_THAT(Refusal(Chain("value: [1, 2]", "value: [1, two]")),
-              HasSubstr("systems.source.value[1]: got 'two'"));
-  EXPECT_THAT(Refusal(Chain("value: [1, 2]", "value: []")), HasSubstr("systems.source.value"));
-  EXPECT_THAT(Refusal(Chain("value: [1, 2]", "value: [.nan, 2]")), HasSubstr("got '.nan'"));
-}
-
-TEST_F(LoaderTest, AnAttachedObjectBecomesALinkThatMovesWithItsCarrier) {
-  const LoadedDiagram loaded = Load(
-      "models:\n"
-      "  arm:\n"
-      "    urdf: package://planar2/planar2.urdf\n"
-      "    attached:\n"
-      "      - {id: cup, link: planar2_tip, shape: {type: sphere, radius: 0.05},\n"
-      "         pose: {xyz: [0.1, 0, 0]}}\n" +
-      Chain());
-  const auto arm = loaded.models.Get("arm");
-  EXPECT_EQ(arm->num_positions(), 2);
-  const robot::Link& cup = arm->links()[arm->FindLink("cup")];
-  EXPECT_EQ(cup.collisions.size(), 1u);
-  const robot::Joint& joint = arm->joints()[cup.parent_joint];
-  EXPECT_EQ(joint.parent_link, arm->FindLink("planar2_tip"));
-  EXPECT_EQ(joint.X_PJ.translation(), Eigen::Vector3d(0.1, 0.0, 0.0));
-}
-
-TEST_F(LoaderTest, AttachedObjectsThatCannotBeAreRefused) {
-  const auto with = [&](const std::string& object) {
-    return Refusal("models: {arm: {urdf: package://planar2/planar2.urdf, attached: [" + object +
-                   "]}}\n" + Chain());
-  };
-  const std::string ball = "shape: {type: sphere, radius: 0.05}";
-  EXPECT_EQ(with("{id: cup, link: planar2_tip, " + ball + "}"), "");
-  EXPECT_THAT(with("{id: cup, link: planar2_tpi, " + ball + "}"),
-              AllOf(HasSubstr("models.arm"), HasSubstr("nearest is 'planar2_tip'")));
-  EXPECT_THAT(with("{id: planar2_tip, link: planar2_tip, " + ball + "}"), HasSubstr("taken"));
-  EXPECT_THAT(with("{id: cup, " + ball + "}"), HasSubstr("models.arm.attached[0].link"));
-  EXPECT_THAT(with("{id: cup, link: planar2_tip, shape: {type: sphere, radius: 0}}"),
-              HasSubstr("models.arm.attached[0].shape.radius"));
-  EXPECT_THAT(with("{id: cup, link: planar2_tip, shape: {type: box}}"),
-              HasSubstr("models.arm.attached[0].shape.size"));
-  EXPECT_THAT(with("{id: cup, link: planar2_tip, shape: {type: half_space}}"),
-              HasSubstr("models.arm.attached[0].shape.type: got a half_space"));
-  EXPECT_THAT(with("{id: cup, link: planar2_tip, touchs: [], " + ball + "}"),
-              HasSubstr("did you mean 'touches'?"));
 }
 
 }  // namespace loader_test

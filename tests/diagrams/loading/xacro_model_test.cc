@@ -146,10 +146,10 @@ TEST_F(XacroModelTest, RefusesWhatIsNotOneDescription) {
               HasSubstr("d.yaml:2:10: error: models.arm: got both urdf and xacro; expected one"));
   EXPECT_THAT(Refusal("{arguments: {n: 1}}"), HasSubstr("got neither urdf nor xacro"));
   EXPECT_THAT(Refusal("{urdf: arm.urdf.xacro}"),
-              HasSubstr("models.arm.urdf: got 'arm.urdf.xacro'; expected a URDF (key xacro"));
-  EXPECT_THAT(Refusal("{xacro: arm.urdf}"), HasSubstr("models.arm.xacro: got 'arm.urdf'"));
+              HasSubstr("models.arm: urdf: got 'arm.urdf.xacro'; expected a URDF (key xacro"));
+  EXPECT_THAT(Refusal("{xacro: arm.urdf}"), HasSubstr("models.arm: xacro: got 'arm.urdf'"));
   EXPECT_THAT(Refusal("{urdf: a.urdf, arguments: {n: 1}}"),
-              HasSubstr("models.arm.arguments: got 'n'; expected none"));
+              HasSubstr("models.arm: arguments: got 'n'; expected none"));
   EXPECT_THAT(Refusal("{xacro: arm.urdf.xacro, arguments: [1]}"),
               HasSubstr("models.arm.arguments: got a list; expected a map of arguments"));
   EXPECT_THAT(Refusal("{xacro: arm.urdf.xacro, arguments: {n: [1]}}"),

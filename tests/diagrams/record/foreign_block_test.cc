@@ -49,7 +49,7 @@ class Lidar final : public System {
   Lidar()
       : obstacles(DeclareInput<ObstacleSet>("obstacles")),
         proximities(DeclareOutput<ProximitySet, &Lidar::Calc>("proximities", {}, obstacles)) {
-    DeclareRole(systems::BlindSpots{.spots = [](const std::string& own_name) {
+    DeclareRole(systems::BlindSpots{.spots = [](const std::string& own_name, bool /*one_robot*/) {
       return std::vector<std::string>{"glass (" + own_name + " is a lidar)"};
     }});
     DeclareRole(

@@ -133,6 +133,40 @@ std::vector<std::string> NamesOf(const std::vector<McapAttachment>& attachments)
   return names;
 }
 
+/// Where a file lies by its name, what it names lies from there, whatever its folder links to.
+TEST(RecordFilesTest, RunsAgainWithOverridesIfFoldersAreLinks) {
+  const TemporaryFolder folder;
+  const std::string more = "include: [\"more_${kind}.yaml\"]\nparameters: {kind: big}\n";
+  folder.Write("shared/deep/with.yaml",
+               more + "systems: {gain: {type: Gain, gain: \"${factor}\"}}\n");
+  folder.Write("shared/deep/more_big.yaml", "parameters: {factor: 3}\n");
+  folder.Write("shared/stage.yaml",
+               "parameters: {own: 2}\n"
+               "systems:\n"
+               "  gain: {type: Gain, gain: \"${own}\"}\n"
+               "  o: {type: ObstacleSource, obstacles: [{id: a, shape: {type: cloud, file: "
+               "deep/points.csv, radius: 0.1}, pose: {xyz: [0, 0, 0]}}]}\n"
+               "connections: [inputs.in -> gain.in, gain.out -> outputs.out]\n");
+  folder.Write("shared/deep/points.csv", "1,2,3\n");
+  folder.Write("real/work/one.yaml",
+               "include: [linked/with.yaml]\n"
+               "systems:\n"
+               "  source: {type: Constant, value: [1], unit: rad}\n"
+               "  stage: {type: Diagram, file: linked/../stage.yaml}\n"
+               "connections: [source.value -> gain.in, gain.out -> stage.in]\n");
+  fs::create_directory_symlink("../../shared/deep", folder.path() / "real/work/linked");
+  fs::create_directory_symlink("real/work", folder.path() / "top");
+  for (const char* const way : {"real/work/one.yaml", "top/one.yaml"}) {
+    const ExtractedRecord first(FileOf(FilesOf(loading::LoadDiagram(folder.path() / way), 1.0)));
+    const ExtractedRecord second(FileOf(FilesOf(first.Load({{"parameters.factor", "4"}}), 1.0)));
+    const auto again = second.Load({{"stage.parameters.own", "5"}});
+    EXPECT_EQ(
+        again.diagram->GetOutput<Vector>("stage.gain.out").Eval(again.diagram->MakeContext())[0],
+        20.0)
+        << way;
+  }
+}
+
 TEST(RecordFilesTest, LeavesWhatAParameterCouldHaveChosenAtHome) {
   const TemporaryFolder folder;
   folder.Write("part_one.yaml", "systems: {c: {type: Constant, value: 1}}\n");

@@ -8,7 +8,7 @@
 #include "oca/diagrams/runs/result_json.h"
 #include "oca/diagrams/runs/run.h"
 #include "oca/models/robot/robot_model.h"
-#include "oca/systems/methods/motion_limiter.h"
+#include "oca/systems/plants/motion_limiter.h"
 #include "tests/allocation_count.h"
 #include "tests/diagrams/runs/method_run.h"
 

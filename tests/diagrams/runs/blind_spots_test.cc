@@ -7,14 +7,17 @@
 
 #include <nlohmann/json.hpp>
 
+#include "oca/diagrams/files/catalogue.h"
 #include "oca/diagrams/runs/result_json.h"
 #include "oca/diagrams/runs/run.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/systems/signals/signals.h"
 #include "tests/temporary_folder.h"
 
 namespace oca::runs {
 namespace blind_spots_test {
 
+using systems::ProximitySet;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -107,10 +110,9 @@ TEST_F(BlindSpotsTest, WhatIsDrawnMayCollide) {
 
 TEST_F(BlindSpotsTest, NamesModelsOwnLinksAndPairsThatAreLeftOut) {
   const auto loaded = loading::LoadDiagram(OCA_SOURCE_DIR "/diagrams/static_test.yaml");
-  EXPECT_THAT(BlindSpots(loaded),
-              ElementsAre("obstacles at links of 'arm' that cannot move: lwr4_base_link",
-                          "own links of 'arm' (self_collision is off)",
-                          "model 'frame' (calculate_link_forces is off)"));
+  EXPECT_THAT(BlindSpots(loaded), ElementsAre("obstacles at links that cannot move: lwr4_base_link",
+                                              "own links (self_collision is off)",
+                                              "model 'frame' (calculate_link_forces is off)"));
   const auto seeing = loading::LoadDiagram(
       OCA_SOURCE_DIR "/diagrams/static_test.yaml",
       {{"parameters.calculate_link_forces", "true"}, {"parameters.self_collision", "true"}});
@@ -134,8 +136,95 @@ TEST_F(BlindSpotsTest, NamesModelsThatOnlyAnotherUsedFileKnows) {
   const auto spots = BlindSpots(loaded);
   EXPECT_THAT(spots, testing::Contains("model 'b.arm' (not known in the file of a.distance)"));
   EXPECT_THAT(spots, testing::Contains("model 'a.arm' (not known in the file of b.distance)"));
+  EXPECT_THAT(spots, testing::Contains("own links of 'a.arm' (self_collision is off)"));
+  EXPECT_THAT(spots, testing::Contains("own links of 'b.arm' (self_collision is off)"));
   const auto seeing = BlindSpots(loading::LoadDiagram(OCA_SOURCE_DIR "/diagrams/dual_arm.yaml"));
   EXPECT_THAT(seeing, testing::Each(testing::Not(HasSubstr("not known"))));
+}
+
+/// Puts together what two blocks see, the first one now, the other one as it was a while ago.
+class Fusion final : public System {
+ public:
+  Fusion()
+      : last_(DeclareDiscreteState("last", ProximitySet())),
+        now(DeclareInput<ProximitySet>("now")),
+        late(DeclareOptionalInput<ProximitySet>("late")),
+        out(DeclareOutput<ProximitySet, &Fusion::Calc>("out", {}, now, last_)) {
+    DeclareUpdate<&Fusion::Keep>(Every{Period(1, 10)}, Writes(last_), late);
+  }
+
+ private:
+  void Calc(const ProximitySet& seen, const ProximitySet& last, ProximitySet& all) const {
+    all = seen;
+    all.proximities.insert(all.proximities.end(), last.proximities.begin(), last.proximities.end());
+  }
+  void Keep(const ProximitySet* seen, ProximitySet& last) const {
+    if (seen != nullptr) last = *seen;
+  }
+  const DiscreteState<ProximitySet> last_;
+
+ public:
+  const Input<ProximitySet> now;
+  const OptionalInput<ProximitySet> late;
+  const Output<ProximitySet> out;
+};
+
+/// Obstacles as they came in.
+class Relay final : public System {
+ public:
+  Relay()
+      : in(DeclareInput<systems::ObstacleSet>("in")),
+        out(DeclareOutput<systems::ObstacleSet, &Relay::Calc>("out", {}, in)) {}
+
+ private:
+  void Calc(const systems::ObstacleSet& from, systems::ObstacleSet& to) const { to = from; }
+
+ public:
+  const Input<systems::ObstacleSet> in;
+  const Output<systems::ObstacleSet> out;
+};
+
+// A block of distances and a sensor stand behind blocks that pass on what they say. What the robot
+// is controlled by is none of the judge's.
+TEST_F(BlindSpotsTest, LooksBehindBlocksThatPassOnWhatASensorOrADistanceSays) {
+  auto catalogue = files::Catalogue::Standard();
+  const SystemDoc doc{"passes on", "", ""};
+  catalogue.Add("Fusion", doc, [] { return std::make_unique<Fusion>(); });
+  catalogue.Add("Relay", doc, [] { return std::make_unique<Relay>(); });
+  const auto spots = [&](const std::string& more) {
+    return BlindSpots(loading::LoadDiagram(
+        folder.Write("fused.yaml",
+                     "models: {arm: {urdf: package://lwr4/lwr4.urdf, srdf: "
+                     "package://lwr4/lwr4.srdf}}\n"
+                     "systems:\n"
+                     "  q: {type: Constant, value: [0, 1, 0, 0, 0, 0, 0], unit: rad}\n"
+                     "  kinematics: {type: RobotKinematics}\n"
+                     "  obstacles: {type: ObstacleSource, obstacles: []}\n"
+                     "  sensor: {type: ObstacleSensor, period: 0.1}\n"
+                     "  relay: {type: Relay}\n"
+                     "  whole: {type: BulletDistance, max_distance: 1}\n"
+                     "  sensed: {type: BulletDistance, max_distance: 1, self_collision: true}\n"
+                     "  fusion: {type: Fusion}\n"
+                     "  metrics: {type: MotionMetrics, period: 0.01}\n"
+                     "connections:\n"
+                     "  - q.value -> kinematics.position\n"
+                     "  - kinematics.links -> whole.links\n"
+                     "  - kinematics.links -> sensed.links\n"
+                     "  - obstacles.obstacles -> whole.obstacles\n"
+                     "  - obstacles.obstacles -> sensor.in\n"
+                     "  - sensor.obstacles -> relay.in\n"
+                     "  - relay.out -> sensed.obstacles\n"
+                     "  - whole.proximities -> fusion.now\n"
+                     "  - fusion.out -> metrics.proximities\n" +
+                         more),
+        {}, catalogue));
+  };
+  EXPECT_THAT(spots(""), ElementsAre("obstacles at links that cannot move: lwr4_base_link",
+                                     "own links (self_collision is off)"));
+  EXPECT_THAT(
+      spots("  - sensed.proximities -> fusion.late\n"),
+      ElementsAre("obstacles at links that cannot move: lwr4_base_link",
+                  "own links (self_collision is off)", "obstacles but as 'sensor' reports them"));
 }
 
 TEST_F(BlindSpotsTest, NamesASensorThatAJudgeBelieves) {

@@ -10,6 +10,7 @@
 namespace oca::runs {
 namespace in_memory_test {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
@@ -53,10 +54,12 @@ TEST_F(InMemoryTest, SaysWhatItDoesNotHave) {
 TEST_F(InMemoryTest, RefusesASignalThatThereIsNotOrThatIsNoVectorBeforeTheRun) {
   InMemory misspelt({"ramp.valu"}, Period(1, 2));
   EXPECT_THAT([&] { runs::Run(loaded_, {.outputs = {&misspelt}}); },
-              ThrowsMessage<WiringError>(HasSubstr("value")));
+              ThrowsMessage<ConfigError>(
+                  AllOf(HasSubstr("series: ramp.valu"), HasSubstr("ports are: value"))));
   InMemory objects({"obstacles.obstacles"}, Period(1, 2));
   EXPECT_THAT([&] { runs::Run(loaded_, {.outputs = {&objects}}); },
-              ThrowsMessage<WiringError>(HasSubstr("expected a Vector")));
+              ThrowsMessage<ConfigError>(
+                  AllOf(HasSubstr("series: obstacles.obstacles"), HasSubstr("got Vector"))));
   InMemory never({"ramp.value"}, Period());
   EXPECT_THROW(runs::Run(loaded_, {.outputs = {&never}}), ConfigError);
 }

@@ -129,9 +129,52 @@ TEST_F(RunTest, RefusesOutputsThatWouldReplaceWhatItReadsOrOneAnotherBeforeAnyth
       ConfigError);
 }
 
+TEST_F(RunTest, WritesNothingIfOneOfItsOutputsCannotBeMade) {
+  const LoadedDiagram loaded = Load(kRamp);
+  const fs::path folder = folder_.path() / "kept";
+  Csv csv(folder);
+  InMemory unknown({"rate.valu"}, Period(1, 2));
+  EXPECT_THAT(
+      [&] {
+        runs::Run(loaded, {.outputs = {&csv, &unknown}});
+      },
+      ThrowsMessage<ConfigError>(HasSubstr("series: rate.valu")));
+  EXPECT_FALSE(fs::exists(folder));
+  Csv nowhere(folder_.Write("file", "") / "csv"), missing("/proc/none/csv");
+  EXPECT_THAT(
+      [&] {
+        runs::Run(loaded, {.outputs = {&csv, &nowhere}});
+      },
+      ThrowsMessage<ConfigError>(HasSubstr("cannot be written: Not a directory")));
+  EXPECT_THAT(
+      [&] {
+        runs::Run(loaded, {.outputs = {&csv, &missing}});
+      },
+      ThrowsMessage<ConfigError>(HasSubstr("csv: /proc/none/csv cannot be written")));
+  EXPECT_FALSE(fs::exists(folder));
+  runs::Run(loaded, {.outputs = {&csv}});
+  EXPECT_TRUE(fs::exists(folder / "rate.value.csv"));
+}
+
+TEST_F(RunTest, RefusesNoOutputAndOneThatIsThereTwice) {
+  const LoadedDiagram loaded = Load(kRamp);
+  EXPECT_THAT([&] { runs::Run(loaded, {.outputs = {nullptr}}); },
+              ThrowsMessage<ConfigError>(HasSubstr("outputs[0]: got none")));
+  InMemory series({"rate.value"}, Period(1, 2));
+  EXPECT_THAT(
+      [&] {
+        runs::Run(loaded, {.outputs = {&series, &series}});
+      },
+      ThrowsMessage<ConfigError>(HasSubstr("outputs[1]: got the same as outputs[0]")));
+}
+
 /// Notes what a run calls.
 class Noting final : public RunOutput {
  public:
+  void Prepare(const RunStart& run) override {
+    notes += "prepares;";
+    EXPECT_FALSE(run.continued);
+  }
   void Begin(const RunStart& run) override {
     notes += run.continued ? "goes on;" : "begins;";
     EXPECT_EQ(run.simulator.context().time(), run.continued ? 1.0 : 0.0);
@@ -190,11 +233,14 @@ TEST_F(RunTest, GoesOnWithAnotherDiagramFromTheStatesItHas) {
   EXPECT_EQ(hook.refusal, "");
   EXPECT_EQ(hook.prepared, 2);
   EXPECT_EQ(result.duration, 2.0);
-  EXPECT_EQ(noting.notes, "begins;careful;pauses;goes on;ends;");
+  EXPECT_EQ(noting.notes, "prepares;begins;careful;pauses;goes on;ends;");
   const Eigen::MatrixXd x = series.Matrix();
   EXPECT_NEAR(x(0, 0), 0.0, 1e-12);
+  EXPECT_EQ(series.times(), (Eigen::VectorXd(5) << 0.0, 0.5, 1.0, 1.5, 2.0).finished());
   EXPECT_NEAR(x(x.rows() - 1, 0), 1.0 * 1.0 + 10.0 * 1.0, 1e-9);
-  EXPECT_THAT(Text(folder_.path() / "csv/x.out.csv"), HasSubstr("\n1.5,"));
+  EXPECT_THAT(
+      Text(folder_.path() / "csv/x.out.csv"),
+      testing::MatchesRegex("time,x.*\n0,.*\n0.5,[^\n]*\n1,[^\n]*\n1.5,[^\n]*\n2,[^\n]*\n"));
 }
 
 TEST_F(RunTest, StaysAsItIsIfAnotherDiagramCannotGoOn) {
@@ -203,7 +249,7 @@ TEST_F(RunTest, StaysAsItIsIfAnotherDiagramCannotGoOn) {
   Noting noting;
   const RunResult result = runs::Run(loaded, {.outputs = {&noting}, .hook = &hook});
   EXPECT_THAT(hook.refusal, HasSubstr("got other systems or states than before"));
-  EXPECT_EQ(noting.notes, "begins;careful;ends;");
+  EXPECT_EQ(noting.notes, "prepares;begins;careful;ends;");
   EXPECT_EQ(result.duration, 2.0);
 }
 

@@ -9,7 +9,7 @@
 #include "oca/diagrams/runs/run.h"
 #include "oca/framework/dataflow/port_access.h"
 #include "oca/framework/simulation/simulator.h"
-#include "oca/systems/methods/motion_limiter.h"
+#include "oca/systems/plants/motion_limiter.h"
 #include "oca/systems/signals/filter_activity.h"
 #include "tests/allocation_count.h"
 

@@ -18,11 +18,26 @@ TEST(AlgebraicLoopTest, IsShownAsAPathWithTheAdviceWhereAStateWouldBreakIt) {
   const auto& b = builder.Add<blocks::Map>("b");
   builder.Connect(a.out, b.in);
   builder.Connect(b.out, a.in);
+  EXPECT_THAT(ProblemsOf(builder),
+              ElementsAre(std::string("algebraic loop: a.out -> b.in -> b.out -> a.in -> a.out") +
+                          kAdvice));
+}
+
+TEST(AlgebraicLoopTest, BeginsAtTheSystemThatWasAddedFirstWhateverLeadsToIt) {
+  DiagramBuilder builder;
+  const auto& before = builder.Add<blocks::Map>("before");
+  const auto& x = builder.Add<blocks::Map>("x");
+  const auto& y = builder.Add<blocks::Map>("y");
+  const auto& z = builder.Add<blocks::Map>("z");
+  builder.Connect(y.out, before.in);
+  builder.Connect(x.out, y.in);
+  builder.Connect(y.out, z.in);
+  builder.Connect(z.out, x.in);
   EXPECT_THAT(
       ProblemsOf(builder),
-      ElementsAre(testing::AnyOf(
-          std::string("algebraic loop: a.out -> b.in -> b.out -> a.in -> a.out") + kAdvice,
-          std::string("algebraic loop: b.out -> a.in -> a.out -> b.in -> b.out") + kAdvice)));
+      ElementsAre(std::string("algebraic loop: x.out -> y.in -> y.out -> z.in -> z.out -> x.in -> "
+                              "x.out") +
+                  kAdvice));
 }
 
 TEST(AlgebraicLoopTest, OfOneSystemIsFoundToo) {
@@ -47,11 +62,9 @@ TEST(AlgebraicLoopTest, ShowsOnlyTheSystemsOnTheLoop) {
   builder.Connect(back.out, after.in);
   EXPECT_THAT(
       ProblemsOf(builder),
-      ElementsAre(testing::AnyOf(
+      ElementsAre(
           std::string("algebraic loop: sum.out -> back.in -> back.out -> sum.in1 -> sum.out") +
-              kAdvice,
-          std::string("algebraic loop: back.out -> sum.in1 -> sum.out -> back.in -> back.out") +
-              kAdvice)));
+          kAdvice));
 }
 
 TEST(AlgebraicLoopTest, EveryLoopIsToldThoseBehindAnotherToo) {
@@ -67,9 +80,9 @@ TEST(AlgebraicLoopTest, EveryLoopIsToldThoseBehindAnotherToo) {
   builder.Connect(sum.out, sum.in1);
   builder.Connect(sum.out, behind.in);
   builder.Connect(apart.out, apart.in);
-  EXPECT_THAT(ProblemsOf(builder),
-              testing::UnorderedElementsAre(
-                  std::string("algebraic loop: first.out -> first.in -> first.out") + kAdvice,
+  EXPECT_THAT(
+      ProblemsOf(builder),
+      ElementsAre(std::string("algebraic loop: first.out -> first.in -> first.out") + kAdvice,
                   std::string("algebraic loop: sum.out -> sum.in1 -> sum.out") + kAdvice,
                   std::string("algebraic loop: apart.out -> apart.in -> apart.out") + kAdvice));
 }

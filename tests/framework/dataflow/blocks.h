@@ -256,12 +256,13 @@ class LabelSink final : public System {
 
 /// The problems that Build finds; none if it succeeds.
 inline std::vector<std::string> ProblemsOf(DiagramBuilder& builder) {
+  std::vector<std::string> problems;
   try {
     builder.Build();
   } catch (const WiringError& error) {
-    return error.problems;
+    for (const WiringProblem& problem : error.problems) problems.push_back(problem.ToString());
   }
-  return {};
+  return problems;
 }
 
 }  // namespace blocks

@@ -21,7 +21,7 @@ using testing::HasSubstr;
 class Fragile final : public System {
  public:
   enum class Part { kOutput, kUpdate, kReset, kDerivative, kPublish, kInitialization, kNone };
-  enum class How { kThrow, kNan };
+  enum class How { kThrow, kThrowNumber, kNan };
 
   Fragile(Part part, How how, double from)
       : part_(part),
@@ -47,6 +47,7 @@ class Fragile final : public System {
   double Break(Part part, double t) const {
     if (part != part_ || healed || t < from_) return 0.0;
     if (how_ == How::kThrow) throw std::runtime_error("broken on purpose");
+    if (how_ == How::kThrowNumber) throw 13;
     return std::numeric_limits<double>::quiet_NaN();
   }
   void Calc(double t, MutableVectorView y) const { y[0] = 1.0 + Break(Part::kOutput, t); }
@@ -88,7 +89,11 @@ struct Case {
 };
 
 const char* const kThrown = "broken on purpose";
+const char* const kUnknown = "an exception of an unknown type";
 const Case kCases[] = {
+    {Part::kOutput, How::kThrowNumber, "out", kUnknown, 0.3},
+    {Part::kUpdate, How::kThrowNumber, "", kUnknown, 0.4},
+    {Part::kDerivative, How::kThrowNumber, "x", kUnknown, 0.3},
     {Part::kOutput, How::kThrow, "out", kThrown, 0.3},
     {Part::kOutput, How::kNan, "out", "the value is not finite", 0.3},
     {Part::kUpdate, How::kThrow, "", kThrown, 0.4},

@@ -174,5 +174,33 @@ TEST(FunctionTest, WithMemoryItsOutputIsAState) {
       ThrowsMessage<ConfigError>(HasSubstr("period")));
 }
 
+TEST(FunctionTest, PortsHaveNamesThatPathsCanSay) {
+  const auto copy = [](VectorView a) -> Eigen::VectorXd { return a; };
+  for (const char* name : {"", "o.p", "o p", "\n"}) {
+    EXPECT_THAT(
+        [&] {
+          MakeBlock({.inputs = {{"a"}}, .output = {name, 2}}, copy);
+        },
+        ThrowsMessage<WiringError>(HasSubstr("output name: got")))
+        << name;
+    EXPECT_THAT(
+        [&] {
+          MakeBlock({.inputs = {{name}}, .output = {"out", 2}}, copy);
+        },
+        ThrowsMessage<WiringError>(HasSubstr("input name: got")))
+        << name;
+  }
+}
+
+TEST(FunctionTest, NoTwoInputsShareAName) {
+  const auto sum = [](VectorView a, VectorView b, MutableVectorView out) { out = a + b; };
+  EXPECT_THAT(
+      [&] {
+        MakeBlock({.inputs = {{"a"}, {"a"}}, .output = {"a"}}, sum);
+      },
+      ThrowsMessage<WiringError>(HasSubstr("input name: 'a' is taken")));
+  EXPECT_EQ(MakeBlock({.inputs = {{"a"}, {"b"}}, .output = {"a"}}, sum)->outputs().size(), 1u);
+}
+
 }  // namespace function_test
 }  // namespace oca

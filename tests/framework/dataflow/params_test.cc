@@ -30,10 +30,7 @@ std::vector<std::string> ProblemsOf(const Value& value) {
   P params;
   ReadFields(value, FieldsOf<P>(), "", &params, problems);
   std::vector<std::string> texts;
-  for (const std::string& problem : problems.all()) {
-    const std::string marker = "error: ";
-    texts.push_back(problem.substr(problem.find(marker) + marker.size()));
-  }
+  for (const Diagnostic& problem : problems.all()) texts.push_back(problem.what);
   return texts;
 }
 

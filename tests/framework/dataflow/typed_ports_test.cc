@@ -135,5 +135,22 @@ TEST(TypedPortsTest, AHandleIsTypedOnlyAsWhatItIs) {
   EXPECT_THROW(Typed<Vector>(InputHandle{{&labeller, -1}}), WiringError);
 }
 
+TEST(TypedPortsTest, APortThatIsAskedForByPathIsNamedByItIfItIsNotThereOrOfAnotherType) {
+  const auto diagram = MakeDiagramOf(std::make_unique<blocks::Source>(Vec({1, 2})));
+  const std::string system = diagram->systems().front().path;
+  const auto refusal = [&](const auto& ask) -> std::string {
+    try {
+      ask();
+    } catch (const WiringError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(refusal([&] { diagram->GetOutput<Vector>(system + ".valu"); }),
+              testing::StartsWith(system + ": no output port 'valu'"));
+  EXPECT_THAT(refusal([&] { diagram->GetOutput<Label>(system + ".value"); }),
+              HasSubstr("'" + system + ".value': type; got Label; expected Vector"));
+}
+
 }  // namespace typed_ports_test
 }  // namespace oca

@@ -5,6 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "oca/framework/dataflow/diagram.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/params.h"
 #include "tests/framework/dataflow/example_params.h"
@@ -118,6 +119,21 @@ TEST(IncludedFieldsTest, AreThoseOfTheStructAround) {
   *static_cast<double*>(FieldsOf<Outer>()[1].member(&outer)) = -3.0;
   EXPECT_THAT([&] { Validated(outer); },
               ThrowsMessage<ConfigError>(HasSubstr("depth: got -3 m; expected > 0")));
+}
+
+/// A block whose author did not think of bounds.
+class Tank final : public System {
+ public:
+  using Params = Inner;
+  explicit Tank(const Params& params) : depth(params.depth) {}
+  const double depth;
+};
+
+TEST(ValidatedTest, ABuilderAddsNoBlockWhoseParametersAreOutOfBounds) {
+  DiagramBuilder builder;
+  EXPECT_THAT([&] { builder.Add<Tank>("tank", {.depth = -1.0}); },
+              ThrowsMessage<ConfigError>(HasSubstr("depth: got -1 m; expected > 0")));
+  EXPECT_EQ(builder.Add<Tank>("tank", {.depth = 2.0}).depth, 2.0);
 }
 
 }  // namespace validated_test

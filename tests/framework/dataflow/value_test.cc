@@ -84,6 +84,15 @@ TEST(ProblemsTest, AreThrownTogetherOneALine) {
   }
 }
 
+TEST(DiagnosticTest, ShowsItsPlaceItsKindAndWhatItSays) {
+  Diagnostic diagnostic;
+  diagnostic.location = {kFile, 1, 2};
+  diagnostic.what = "what: error: no";
+  EXPECT_EQ(diagnostic.ToString(), "arm.yaml:1:2: error: what: error: no");
+  diagnostic.kind = Diagnostic::Kind::kWarning;
+  EXPECT_EQ(diagnostic.ToString(), "arm.yaml:1:2: warning: what: error: no");
+}
+
 TEST(DidYouMeanTest, SuggestsTheNearestName) {
   const std::vector<std::string> names{"gain", "max_distance", "min_distance", "period"};
   EXPECT_EQ(DidYouMean("gian", names), "; did you mean 'gain'?");

@@ -46,5 +46,10 @@ TEST(RequireTest, TellsPeriodsApartAtZero) {
   EXPECT_THROW(RequirePositive("period", Period()), ConfigError);
 }
 
+TEST(RequireTest, GainsUseUpAtMostAllWithinAPeriod) {
+  EXPECT_NO_THROW(RequireGain("gain", 100.0, Period(1, 100)));
+  EXPECT_THROW(RequireGain("gain", 100.1, Period(1, 100)), ConfigError);
+}
+
 }  // namespace require_test
 }  // namespace oca::systems

@@ -16,13 +16,13 @@ struct OverlayBench {
   explicit OverlayBench(const DeltaOverlay::Params& params) {
     DiagramBuilder builder;
     overlay = &builder.Add<DeltaOverlay>("overlay", params);
-    builder.ExportInput("position", overlay->position_in);
-    builder.ExportInput("velocity", overlay->velocity_in);
+    builder.ExportInput("request", overlay->request);
+    builder.ExportInput("request_velocity", overlay->request_velocity);
     builder.ExportInput("delta", overlay->delta);
     diagram = builder.Build();
     simulator = std::make_unique<Simulator>(*diagram);
-    Fix("position", 1.0);
-    Fix("velocity", 2.0);
+    Fix("request", 1.0);
+    Fix("request_velocity", 2.0);
     Fix("delta", 0.0);
   }
   void Fix(const char* name, double value) {
@@ -69,7 +69,7 @@ TEST(DeltaOverlayTest, PassesTheRequestWhenDisabled) {
 
 TEST(DeltaOverlayTest, CountsAnAbsentVelocityAsZero) {
   SystemBench<DeltaOverlay> bench(DeltaOverlay::Params{.period = Period(1, 100)});
-  bench->position_in.Fix(bench.context(), One(1.0));
+  bench->request.Fix(bench.context(), One(1.0));
   bench->delta.Fix(bench.context(), One(0.02));
   EXPECT_DOUBLE_EQ(bench->velocity.Eval(bench.context())[0], 2.0);
 }

@@ -129,8 +129,9 @@ TEST(JacobianMappingTest, IsZeroWithoutWrenchesAndForLinksThatCannotMove) {
   EXPECT_EQ(DeltaOf({}, links, WrenchSet{{On("lwr4_base_link", links)}}), Eigen::VectorXd::Zero(7));
 }
 
-/// Three joints about z: two that are `gap` m apart, and one 300 km from them.
-std::shared_ptr<const robot::RobotModel> LongArm(double gap) {
+/// Three joints about z: two that are `gap` m apart, and one `reach` m from them; in the middle of
+/// the world.
+std::shared_ptr<const robot::RobotModel> LongArm(double gap, double reach) {
   std::vector<robot::Link> links(4);
   std::vector<robot::Joint> joints(3);
   for (int i = 0; i < 4; ++i) links[i].name = models::Name("link_" + std::to_string(i));
@@ -141,26 +142,38 @@ std::shared_ptr<const robot::RobotModel> LongArm(double gap) {
     joints[j].child_link = j + 1;
     joints[j].axis = Eigen::Vector3d::UnitZ();
   }
+  joints[0].X_PJ.translation().x() = -0.5 * reach;
   joints[1].X_PJ.translation().x() = gap;
-  joints[2].X_PJ.translation().x() = 3e5;
+  joints[2].X_PJ.translation().x() = reach;
   return std::make_shared<const robot::RobotModel>(models::Name("long"), std::move(links),
                                                    std::move(joints));
 }
 
-// Within the poses that links may have it never has to; the arithmetic is tested among the models.
-TEST(JacobianMappingTest, SaysThatNothingHadToBeDamped) {
-  for (const double gap : {1.0, 0.1, 0.0}) {
-    const auto arm = LongArm(gap);
-    ModelSet models;
-    models.Add("long", arm);
-    SystemBench<JacobianMapping> bench(JacobianMapping::Params{}, models);
-    const LinkPoses links = LinksAt(*arm, Eigen::Vector3d::Zero());
-    LinkWrench wrench = On("link_3", links);
-    wrench.torque.z() = 1.0;
-    bench->links.Fix(bench.context(), links);
-    bench->wrenches.Fix(bench.context(), WrenchSet{{wrench}});
-    EXPECT_EQ(bench->regularised.Eval(bench.context())[0], 0.0) << gap;
-  }
+/// `regularised` of the arm, a moment on whose last link is to turn it.
+double RegularisedOf(double gap, double reach, const JacobianMapping::Params& params = {}) {
+  const auto arm = LongArm(gap, reach);
+  ModelSet models;
+  models.Add("long", arm);
+  SystemBench<JacobianMapping> bench(params, models);
+  const LinkPoses links = LinksAt(*arm, Eigen::Vector3d::Zero());
+  LinkWrench wrench = On("link_3", links);
+  wrench.torque.z() = 1.0;
+  bench->links.Fix(bench.context(), links);
+  bench->wrenches.Fix(bench.context(), WrenchSet{{wrench}});
+  EXPECT_TRUE(bench->delta.Eval(bench.context()).allFinite());
+  return bench->regularised.Eval(bench.context())[0];
+}
+
+TEST(JacobianMappingTest, SaysWhereNothingHadToBeDamped) {
+  for (const double gap : {1.0, 0.1, 0.0}) EXPECT_EQ(RegularisedOf(gap, 3e5), 0.0) << gap;
+}
+
+// From the last link the first two joints look the same: their columns are 1 / reach rad apart.
+TEST(JacobianMappingTest, SaysWhereJointsCannotBeToldApart) {
+  EXPECT_EQ(RegularisedOf(0.1, 1.8e6), 1.0);
+  EXPECT_EQ(RegularisedOf(0.1, 1.8e6, {.method = Method::kDamped, .damping = 0.1}), 1.0);
+  EXPECT_EQ(RegularisedOf(0.1, 1.8e6, {.method = Method::kDamped, .damping = 10.0}), 0.0);
+  EXPECT_EQ(RegularisedOf(0.1, 1.8e6, {.method = Method::kTranspose}), 0.0);
 }
 
 TEST(JacobianMappingTest, RefusesLinksThatAreMissingOrForeign) {

@@ -208,7 +208,7 @@ Loop Settle(Method method, double relaxation_time, bool adaptive) {
       "relaxation", DeltaRelaxation::Params{.relaxation_time = relaxation_time, .period = period});
   const auto& limiter = builder.Add<DeltaLimiter>(
       "limiter", DeltaLimiter::Params{.max_joint_velocity = 0.6, .period = period});
-  builder.Connect(request.value, overlay.position_in);
+  builder.Connect(request.value, overlay.request);
   builder.Connect(overlay.position, servo.position);
   builder.Connect(plant.position, servo.measured_position);
   builder.Connect(servo.command, plant.command);

@@ -21,10 +21,10 @@ Eigen::VectorXd Answer(const FlaccoDeLuca::Params& params, const Eigen::Vector2d
   return Bench(params).Answer(Eigen::Vector2d::Zero(), wish, set);
 }
 
-FlaccoDeLuca::Params All() { return {.repulsion = FlaccoDeLuca::Repulsion::kAll}; }
+FlaccoDeLuca::Params All() { return {.repulsion = FlaccoDeLucaLaw::Repulsion::kAll}; }
 
 TEST(FlaccoDeLucaTest, TheRiskIsThePublishedSigmoid) {
-  const FlaccoDeLuca system({}, TestModels("planar2"));
+  const FlaccoDeLucaLaw system({}, TestModels("planar2"));
   EXPECT_NEAR(system.Risk(0.2), 0.5, 1e-15);
   EXPECT_NEAR(system.Risk(0.0), 0.9975273768, 1e-10);
   EXPECT_NEAR(system.Risk(0.4), 0.0024726232, 1e-10);
@@ -32,7 +32,7 @@ TEST(FlaccoDeLucaTest, TheRiskIsThePublishedSigmoid) {
 }
 
 TEST(FlaccoDeLucaTest, TheSlopeOfTheRiskIsThatOfItsFormula) {
-  const FlaccoDeLuca system({}, TestModels("planar2"));
+  const FlaccoDeLucaLaw system({}, TestModels("planar2"));
   for (const double d : {-0.05, 0.0, 0.1, 0.2, 0.39}) {
     const double step = 1e-6;
     const double numeric = (system.Risk(d + step) - system.Risk(d - step)) / (2 * step);

@@ -84,7 +84,7 @@ TEST(TaskPriorityTest, ObstaclesOnEitherSideShareWhatCannotBeHad) {
 TEST(TaskPriorityTest, KeepsTheTipOfASevenJointArmWhileNothingIsClose) {
   TaskPriority::Params params = Wide();
   params.swap_distance = 0.15;
-  for (const auto task : {TaskPriority::TipTask::kPosition, TaskPriority::TipTask::kPose}) {
+  for (const auto task : {TaskPriorityLaw::TipTask::kPosition, TaskPriorityLaw::TipTask::kPose}) {
     params.tip_task = task;
     Bench method(params, "lwr4");
     const auto& model = method.model();
@@ -99,7 +99,7 @@ TEST(TaskPriorityTest, KeepsTheTipOfASevenJointArmWhileNothingIsClose) {
     EXPECT_GT(change.norm(), 1e-2);
     const Eigen::VectorXd moved = J * change;
     EXPECT_LT(moved.head<3>().norm(), 1e-10);
-    EXPECT_EQ(moved.norm() < 1e-10, task == TaskPriority::TipTask::kPose);
+    EXPECT_EQ(moved.norm() < 1e-10, task == TaskPriorityLaw::TipTask::kPose);
   }
 }
 

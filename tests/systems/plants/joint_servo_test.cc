@@ -31,8 +31,8 @@ struct Chain {
     servo = &builder.Add<JointServo>("servo", Deadbeat());
     plant =
         &builder.Add<IntegratorPlant>("plant", IntegratorPlant::Params{.initial_position = 0.2});
-    builder.Connect(generator->position, overlay->position_in);
-    builder.Connect(generator->velocity, overlay->velocity_in);
+    builder.Connect(generator->position, overlay->request);
+    builder.Connect(generator->velocity, overlay->request_velocity);
     builder.Connect(limiter->limited_delta, overlay->delta);
     builder.Connect(overlay->position, servo->position);
     builder.Connect(overlay->velocity, servo->velocity);

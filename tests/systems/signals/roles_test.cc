@@ -18,11 +18,11 @@
 #include "oca/systems/judging/motion_metrics.h"
 #include "oca/systems/methods/elastic_band.h"
 #include "oca/systems/methods/flacco_de_luca.h"
-#include "oca/systems/methods/motion_limiter.h"
 #include "oca/systems/methods/safety_filter.h"
 #include "oca/systems/methods/servo_scaling.h"
 #include "oca/systems/methods/task_priority.h"
 #include "oca/systems/plants/integrator_plant.h"
+#include "oca/systems/plants/motion_limiter.h"
 #include "oca/systems/sensing/bullet_distance.h"
 #include "oca/systems/sensing/obstacle_source.h"
 #include "tests/systems/test_models.h"
@@ -111,7 +111,7 @@ TEST(RolesTest, ADeltaIsFollowedFromTheMappingToTheOverlay) {
   EXPECT_EQ(DeltaLimiter(DeltaLimiter::Example()).role<CarriesDelta>()->relaxation_time,
             std::nullopt);
   const DeltaOverlay overlay({.period = Period(1, 100)});
-  EXPECT_EQ(overlay.role<AddsDelta>()->request, overlay.position_in);
+  EXPECT_EQ(overlay.role<AddsDelta>()->request, overlay.request);
 }
 
 TEST(RolesTest, WhatARobotsLoopReplacesSaysSo) {
@@ -156,10 +156,10 @@ TEST(RolesTest, ADistanceBlockSaysWhatItLooksAt) {
   EXPECT_EQ(measures->others[1].links, distance.FindInput("links_other"));
   EXPECT_THAT(measures->ignored,
               ElementsAre(std::pair<std::string, std::string>("planar2_link_1", "ball")));
-  EXPECT_THAT(distance.role<BlindSpots>()->spots("sight"), Contains(HasSubstr("(ignore)")));
+  EXPECT_THAT(distance.role<BlindSpots>()->spots("sight", false), Contains(HasSubstr("(ignore)")));
   params.others = {"third"};
   const BulletDistance blind(params, models);
-  EXPECT_THAT(blind.role<BlindSpots>()->spots("sight"),
+  EXPECT_THAT(blind.role<BlindSpots>()->spots("sight", false),
               Contains("model 'other' (not among others of sight)"));
 }
 

@@ -6,7 +6,7 @@ import type { SceneView } from "./scene_view";
 /** Drags obstacles of a live scene, parallel to the picture; with Shift along the vertical. */
 export function dragObstacles(view: SceneView, live: LiveSource): void {
   const canvas = view.canvas;
-  let held: { id: string; plane: THREE.Plane; offset: THREE.Vector3 } | undefined;
+  let held: { parameter: string; plane: THREE.Plane; offset: THREE.Vector3 } | undefined;
   const at = (event: PointerEvent): THREE.Raycaster => {
     const box = canvas.getBoundingClientRect();
     return view.ray(event.clientX - box.left, event.clientY - box.top);
@@ -16,7 +16,7 @@ export function dragObstacles(view: SceneView, live: LiveSource): void {
     const hit = view.obstacleAt(event.clientX - box.left, event.clientY - box.top);
     if (!hit) return;
     const normal = event.shiftKey ? view.camera.getWorldDirection(new THREE.Vector3()) : new THREE.Vector3(0, 0, 1);
-    held = { id: hit.id, plane: new THREE.Plane().setFromNormalAndCoplanarPoint(normal, hit.point),
+    held = { parameter: live.positionOf(hit.id), plane: new THREE.Plane().setFromNormalAndCoplanarPoint(normal, hit.point),
              offset: hit.origin.sub(hit.point) };
     view.controls.enabled = false;
     canvas.setPointerCapture(event.pointerId);
@@ -24,7 +24,7 @@ export function dragObstacles(view: SceneView, live: LiveSource): void {
   canvas.addEventListener("pointermove", (event) => {
     if (!held) return;
     const point = at(event).ray.intersectPlane(held.plane, new THREE.Vector3());
-    if (point) live.set(`obstacles.${held.id}.position`, point.add(held.offset).toArray());
+    if (point) live.set(held.parameter, point.add(held.offset).toArray());
   });
   const release = (): void => {
     held = undefined;

@@ -44,6 +44,12 @@ export class LiveSource {
     }
   }
 
+  /** The parameter that says where an obstacle is, `left.obstacles.box.position`; of several obstacles of that id the first one's. */
+  positionOf(id: string): string {
+    const position = `${id}.position`;
+    return this.parameters.find(({ name }) => name.endsWith(`.${position}`))?.name ?? position;
+  }
+
   private connect(): void {
     const client = new FoxgloveClient({ ws: new WebSocket(this.url, [FoxgloveClient.SUPPORTED_SUBPROTOCOL]) });
     const subscriptions = new Map<number, Subscription>();

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/framework/dataflow/check_name.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "oca/framework/dataflow/error.h"
+
+namespace oca::internal {
+
+void CheckName(const std::string& name, const char* what) {
+  const auto good = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
+  if (name.empty() || !std::all_of(name.begin(), name.end(), good)) {
+    throw WiringError(
+        fmt::format("{} name: got '{}'; expected letters, digits and underscores", what, name));
+  }
+}
+
+}  // namespace oca::internal

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "oca/models/geometry/obstacle.h"
+#include "oca/models/motion/trajectory.h"
+#include "oca/models/planning/band_memory.h"
+#include "oca/models/planning/band_planner.h"
+#include "oca/models/robot/clear_motion.h"
+
+namespace oca::planning {
+
+struct ReplanSettings {
+  BandPlannerSettings planner{};
+  double period{0.02};           ///< s; from plan to plan, and to make one
+  double prediction{2.0};        ///< s; how long obstacles are taken to go on as now
+  double restart_distance{0.1};  ///< rad, m; of arm and band above which plans start from the arm
+  double stuck_time{2.0};        ///< s; without progress, after which the arm is stuck
+  double stuck_motion{0.01};     ///< rad, m; what counts as progress
+  bool self_collision{false};
+  std::uint64_t seed{0};
+};
+
+/// What is known at an instant; everything of `n` joints.
+struct BandSituation {
+  using Positions = Eigen::Ref<const Eigen::VectorXd>;
+  double time{0.0};  ///< s
+  const std::shared_ptr<const motion::Trajectory>& request;
+  const std::vector<geometry::Obstacle>& obstacles;
+  Positions measured;  ///< where the arm is
+};
+
+/// Plans bands one after the other along a request, for an arm that follows them among obstacles
+/// that are taken to go on as now for `prediction` and then to stay.
+///
+/// A plan begins with the state that the band before it has at that time, or with the arm, if that
+/// is farther than restart_distance from where the band says. The first eight plans look for
+/// shorter ways even if theirs is clear; after them a plan whose obstacles still stand where they
+/// stood is kept. What it knows from plan to plan is the BandMemory.
+/// source docs/explanation/recommended.md
+class BandReplanner {
+ public:
+  BandReplanner(std::shared_ptr<const robot::RobotModel> model, const ReplanSettings& settings);
+
+  /// Whether the arm gets on, into `moved`, `resting` and `stuck`: it is stuck if the request rests,
+  /// its goal is not reached to 0.01 and nothing moved by stuck_motion for stuck_time.
+  void Follow(const BandSituation& now, BandMemory& memory) const;
+
+  /// Makes the plan that begins at `start` (s), unless the last one is kept. `rate` is the arm's
+  /// velocity, 0 if it is not known. Allocates if it plans.
+  void Plan(const BandSituation& now, double start,
+            const std::optional<BandSituation::Positions>& rate, BandMemory& memory) const;
+
+  /// For how long the bands are clear from now on, and of what; 0 while the arm is more than 0.005
+  /// from `planned`, another motion is requested, or obstacles are not where they were foreseen,
+  /// until a plan that was made for them has begun.
+  void TellClear(const BandSituation& now, const BandSituation::Positions& planned,
+                 const BandMemory& memory, robot::ClearMotion& motion) const;
+
+ private:
+  /// For how long what was seen at the last plan is foreseen to go on, s.
+  double Since(double time, const BandMemory& memory) const;
+  bool Kept(const BandSituation& now, BandMemory& memory) const;
+  bool Astray(const BandSituation& now, BandMemory& memory) const;
+  std::vector<BandBody> MakeBodies(const BandSituation& now) const;
+  BandTask MakeTask(const BandSituation& now, double start, std::span<const BandBody> bodies,
+                    const std::optional<BandSituation::Positions>& rate, BandMemory& memory) const;
+
+  const std::shared_ptr<const robot::RobotModel> model_;
+  const ReplanSettings settings_;
+};
+
+}  // namespace oca::planning

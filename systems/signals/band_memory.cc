@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/systems/signals/band_memory.h"
+
+#include <cmath>
+
+#include "oca/systems/signals/json_fields.h"
+
+namespace oca {
+
+using systems::BandMemory;
+using systems::Json;
+
+Fault Signal<BandMemory>::Check(const BandMemory& value, Look /*look*/) {
+  return Fault::UnlessFinite(value.held.controls().allFinite() &&
+                             value.next.controls().allFinite() && std::isfinite(value.nearest) &&
+                             std::isfinite(value.cost));
+}
+
+void Signal<BandMemory>::WriteJson(const BandMemory& value, std::string& out) {
+  out += Json{{"plans", value.plans},
+              {"start", planning::kBandStartNames[static_cast<std::size_t>(value.start)]},
+              {"clear", value.clear},
+              {"stuck", value.stuck},
+              {"nearest", value.nearest},
+              {"link", value.link.text()},
+              {"obstacle", value.obstacle.text()},
+              {"time", value.time},
+              {"cost", value.cost},
+              {"evaluations", value.evaluations}}
+             .dump();
+}
+
+}  // namespace oca

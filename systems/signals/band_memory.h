@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "oca/framework/dataflow/signal.h"
+#include "oca/models/planning/band_memory.h"
+
+namespace oca::systems {
+
+/// JSON: {"plans", "start": "request" | "last" | "pause" | "detour" | "random" | "path", "clear",
+/// "stuck", "nearest", "link", "obstacle", "time", "cost", "evaluations"}; the bands themselves are
+/// neither written nor read.
+using planning::BandMemory;
+
+}  // namespace oca::systems
+
+namespace oca {
+
+template <>
+struct Signal<systems::BandMemory> {
+  static constexpr const char* kName = "BandMemory";
+  static Fault Check(const systems::BandMemory& value, Look look);
+  static void WriteJson(const systems::BandMemory& value, std::string& out);
+};
+
+}  // namespace oca

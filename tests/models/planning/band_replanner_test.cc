@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/models/planning/band_replanner.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/models/planning/scene.h"
+
+namespace oca::planning {
+namespace band_replanner_test {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+/// Joint 1 of planar3 turns by 1 rad in 2 s; a box stands far away.
+class BandReplannerTest : public testing::Test {
+ protected:
+  BandReplannerTest() {
+    auto body = std::make_shared<geometry::ObstacleBody>();
+    body->id = models::Name("box");
+    body->collider = geometry::MakeCollider(geometry::Box{Vector3d(0.1, 0.1, 0.1)}, "box");
+    obstacles_.resize(1);
+    obstacles_[0].body = body;
+    obstacles_[0].X_WO.translation() = Vector3d(5.0, 0.0, 0.0);
+  }
+  BandSituation At(double time, const VectorXd& measured) const {
+    return {time, request_, obstacles_, measured};
+  }
+  VectorXd Requested(double time) const { return request_->Evaluate(time, 0); }
+  double ClearFor(double time, const VectorXd& measured, const VectorXd& planned) const {
+    robot::ClearMotion motion;
+    replanner_.TellClear(At(time, measured), planned, memory_, motion);
+    return motion.clear_for;
+  }
+
+  const std::shared_ptr<const motion::Trajectory> request_ =
+      std::make_shared<const motion::Trajectory>(
+          motion::Trajectory::CubicHermite({{.time = 0.0, .position = Vector3d(0, 0, 0)},
+                                            {.time = 2.0, .position = Vector3d(1, 0, 0)}}));
+  std::vector<geometry::Obstacle> obstacles_;
+  const BandReplanner replanner_{test::Arm("planar3"), {}};
+  BandMemory memory_;
+};
+
+TEST_F(BandReplannerTest, IsStuckOnceTheRequestRestsAndNothingMovedForStuckTime) {
+  const VectorXd here = Vector3d(0.5, 0, 0);
+  for (const double time : {0.0, 1.0, 1.99, 2.0, 3.98}) {
+    replanner_.Follow(At(time, here), memory_);
+    EXPECT_FALSE(memory_.stuck) << time;
+  }
+  replanner_.Follow(At(4.0, here), memory_);
+  EXPECT_TRUE(memory_.stuck) << "2 s after it was last seen to get on, at 1.99 s";
+  replanner_.Follow(At(4.0, here + VectorXd(Vector3d(0.009, 0, 0))), memory_);
+  EXPECT_TRUE(memory_.stuck);
+  replanner_.Follow(At(4.0, here + VectorXd(Vector3d(0.011, 0, 0))), memory_);
+  EXPECT_FALSE(memory_.stuck);
+  for (const double goal : {0.991, 0.989}) {
+    replanner_.Follow(At(9.0, Vector3d(goal, 0, 0)), memory_);
+    replanner_.Follow(At(20.0, Vector3d(goal, 0, 0)), memory_);
+    EXPECT_EQ(memory_.stuck, goal < 0.99) << "it has arrived";
+    memory_ = {};
+  }
+}
+
+TEST_F(BandReplannerTest, KeepsAPlanWhileWhatStandsStaysWhereItStood) {
+  replanner_.Plan(At(0.0, Requested(0.0)), 0.02, std::nullopt, memory_);
+  EXPECT_EQ(memory_.plans, 1u);
+  EXPECT_EQ(memory_.change, 0.02);
+  EXPECT_EQ(memory_.start, BandStart::kRequest);
+  replanner_.Plan(At(0.02, Requested(0.02)), 0.04, std::nullopt, memory_);
+  EXPECT_EQ(memory_.plans, 1u);
+  obstacles_[0].X_WO.translation().x() += 1e-3;
+  replanner_.Plan(At(0.04, Requested(0.04)), 0.06, std::nullopt, memory_);
+  EXPECT_EQ(memory_.plans, 2u);
+}
+
+TEST_F(BandReplannerTest, StartsFromAnArmThatIsFartherThanRestartDistance) {
+  const VectorXd rate = Vector3d(0.5, 0, 0);
+  for (const double off : {0.099, 0.101}) {
+    memory_ = {};
+    const VectorXd measured = Requested(1.0) + VectorXd(Vector3d(0, off, 0));
+    replanner_.Plan(At(1.0, measured), 1.02, BandSituation::Positions(rate), memory_);
+    VectorXd start = Requested(1.02);
+    memory_.next.Add(1.02, 0, start);
+    const VectorXd expected = off < 0.1 ? Requested(1.02) : VectorXd(measured + 0.02 * rate);
+    EXPECT_LT((start - expected).norm(), 1e-12) << off;
+  }
+}
+
+TEST_F(BandReplannerTest, IsClearFromTheStartOfItsPlanOnWhileTheArmFollows) {
+  const VectorXd planned = Requested(0.0);
+  EXPECT_EQ(ClearFor(0.0, planned, planned), 0.0) << "without a plan";
+  replanner_.Plan(At(0.0, planned), 0.02, std::nullopt, memory_);
+  EXPECT_EQ(ClearFor(0.019, planned, planned), 0.0);
+  EXPECT_EQ(ClearFor(0.02, planned, planned), 30.0);
+  EXPECT_EQ(ClearFor(0.02, planned + VectorXd(Vector3d(0, 0.0049, 0)), planned), 30.0);
+  EXPECT_EQ(ClearFor(0.02, planned + VectorXd(Vector3d(0, 0.0051, 0)), planned), 0.0);
+  obstacles_[0].linear = Vector3d(0.05, 0, 0);  // 15 mm in 0.3 s
+  EXPECT_EQ(ClearFor(0.02, planned, planned), 0.0);
+}
+
+}  // namespace band_replanner_test
+}  // namespace oca::planning

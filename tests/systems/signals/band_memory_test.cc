@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/systems/signals/band_memory.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace oca::systems {
+namespace band_memory_test {
+
+TEST(BandMemorySignalTest, WritesWhatThePlanCameTo) {
+  BandMemory memory;
+  memory.plans = 3;
+  memory.start = planning::BandStart::kDetour;
+  memory.stuck = true;
+  memory.nearest = 0.0625;
+  memory.link = models::Name("wrist");
+  memory.obstacle = models::Name("box");
+  std::string text;
+  Signal<BandMemory>::WriteJson(memory, text);
+  EXPECT_EQ(text, R"({"plans":3,"start":"detour","clear":true,"stuck":true,"nearest":0.0625,)"
+                  R"("link":"wrist","obstacle":"box","time":0.0,"cost":0.0,"evaluations":0})");
+}
+
+TEST(BandMemorySignalTest, ABandThatIsNotFiniteIsNoSignal) {
+  BandMemory memory;
+  EXPECT_TRUE(Signal<BandMemory>::Check(memory, Look::kFinite).ok());
+  memory.next = planning::BandCurve(2, {0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75});
+  memory.next.controls()(0, 0) = std::nan("");
+  EXPECT_FALSE(Signal<BandMemory>::Check(memory, Look::kFinite).ok());
+}
+
+}  // namespace band_memory_test
+}  // namespace oca::systems
