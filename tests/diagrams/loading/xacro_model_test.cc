@@ -44,8 +44,9 @@ INSTANTIATE_TEST_SUITE_P(
             "limited: true}}",
             "[0, 0.5, 0.8, 0, 0.3]"},
         Arm{"gen", "gen_description",
-            "{xacro: package://gen_description/robots/gen.urdf.xacro, arguments: {vision: true}}",
-            "[0, 0.5, 0.8, 0, 0.3, 0, 0.01]"}),
+            "{xacro: package://gen_description/robots/gen.urdf.xacro, arguments: {vision: true, "
+            "gripper: ''}}",
+            "[0, 0.5, 0.8, 0, 0.3, 0]"}),
     [](const auto& tested) { return std::string(tested.param.name); });
 
 std::string DiagramOf(const Arm& arm) {
