@@ -116,6 +116,9 @@ void BulletDistance::DeclareRoles(const Params& params, const ModelSet& models) 
                                return DistanceBlindSpots(params, models, own_name, one_robot);
                              },
                          .behind = obstacles});
+  if (const std::string unseen = OutOfSight(params, models); !unseen.empty()) {
+    DeclareRole(Remarks{.warnings = {unseen}});
+  }
   DeclareRole(Plots{.id = "distance", .title = "Distances", .signal = proximities, .unit = "m"});
 }
 

@@ -93,6 +93,8 @@ class BulletDistance final : public System {
   static std::vector<Neighbour> MakeNeighbours(const std::string& name,
                                                const robot::RobotModel& model);
   static std::vector<Other> MakeOthers(const Params& params, const ModelSet& models);
+  /// What there is to be told of robots that `*` leaves out; empty if there are none.
+  static std::string OutOfSight(const Params& params, const ModelSet& models);
   std::vector<LinkCollider> MakeMovable() const;
   std::vector<std::pair<models::Name, models::Name>> MakeIgnored(const Params& params,
                                                                  const ModelSet& models) const;

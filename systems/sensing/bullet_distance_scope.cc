@@ -102,6 +102,19 @@ std::vector<BulletDistance::Other> BulletDistance::MakeOthers(const Params& para
   return others;
 }
 
+std::string BulletDistance::OutOfSight(const Params& params, const ModelSet& models) {
+  if (!params.calculate_link_forces || !LooksAtAll(params)) return "";
+  std::vector<std::string> names;
+  for (const auto& [name, model] : models.all()) {
+    if (Moves(*model) && !models.in_sight().contains(name)) names.push_back(name);
+  }
+  if (names.empty()) return "";
+  return fmt::format(
+      "others: '*' does not see {}: no links of it come into this file; expected a connection from "
+      "inputs.{} here, and one to it where the file is used",
+      fmt::join(names, ", "), LinksInput("<other>"));
+}
+
 std::vector<std::pair<models::Name, models::Name>> BulletDistance::MakeIgnored(
     const Params& params, const ModelSet& models) const {
   std::vector<std::pair<models::Name, models::Name>> ignored;

@@ -103,12 +103,12 @@ class Spots {
       if (LooksAt(name)) {
         AddUnseen(*model, fmt::format(" of '{}'", name));
       } else if (HasSolids(*model) || !robot::DrawnOnly(*model).empty()) {
-        found_.push_back(fmt::format("model '{}' ({})", name, WhyNot(name)));
+        found_.push_back(fmt::format("model '{}' ({})", name, WhyNot()));
       }
     }
   }
 
-  std::string WhyNot(const std::string& other) const {
+  std::string WhyNot() const {
     if (!params_.calculate_link_forces) return "calculate_link_forces is off";
     const auto& others = params_.others;
     const bool all = others.size() == 1 && others.front() == "*";
