@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oca/diagrams/files/diagram_file.h"
 
+#include <fmt/format.h>
+
+#include "oca/framework/dataflow/error.h"
+#include "oca/models/robot/xacro.h"
+
 namespace oca::files {
 
 void AttachedParams::Describe(Fields<AttachedParams>& fields) {
@@ -13,8 +18,12 @@ void AttachedParams::Describe(Fields<AttachedParams>& fields) {
 }
 
 void ModelParams::Describe(Fields<ModelParams>& fields) {
-  fields.Add("urdf", &ModelParams::urdf, "", "robot description: a path or package://NAME/PATH")
-      .Required();
+  fields.Add("urdf", &ModelParams::urdf, "",
+             "robot description: a path or package://NAME/PATH; this or xacro is required");
+  fields.Add("xacro", &ModelParams::xacro, "",
+             "instead of urdf: a file that is expanded first, named .xacro");
+  fields.Add("arguments", &ModelParams::arguments, "",
+             "values of the arguments that the xacro declares, by name");
   fields.Add("srdf", &ModelParams::srdf, "", "pairs of links that are not checked for collision");
   fields.Add("collision", &ModelParams::collision, "",
              "what its collision meshes count as: their convex hull, or the convex parts of a "
@@ -33,6 +42,25 @@ void ModelParams::Describe(Fields<ModelParams>& fields) {
       .Above(0.0);
   fields.Add("attached", &ModelParams::attached, "",
              "tools and grasped objects: they move with a link of the robot and collide");
+}
+
+const std::string& DescriptionOf(const ModelParams& params) {
+  const bool xacro = !params.xacro.empty();
+  if (xacro == !params.urdf.empty()) {
+    throw ConfigError(fmt::format("got {}; expected one of urdf and xacro",
+                                  xacro ? "both urdf and xacro" : "neither urdf nor xacro"));
+  }
+  const std::string& file = xacro ? params.xacro : params.urdf;
+  if (robot::IsXacro(file) != xacro) {
+    throw ConfigError(fmt::format(
+        "{}: got '{}'; expected {}", xacro ? "xacro" : "urdf", file,
+        xacro ? "a file named .xacro (a URDF goes into urdf)" : "a URDF (key xacro expands this)"));
+  }
+  if (!xacro && !params.arguments.texts.empty()) {
+    throw ConfigError(fmt::format("arguments: got '{}'; expected none: urdf takes no arguments",
+                                  params.arguments.texts.begin()->first));
+  }
+  return file;
 }
 
 const std::vector<Section>& Sections() {

@@ -27,9 +27,16 @@ struct AttachedParams {
   static void Describe(Fields<AttachedParams>& fields);
 };
 
-/// An entry of `models`.
+/// The values that a xacro file is given; in a diagram file a map of texts, numbers and booleans.
+struct XacroArguments {
+  robot::XacroArguments texts{};
+};
+
+/// An entry of `models`: of urdf and xacro one is given.
 struct ModelParams {
   std::string urdf{};
+  std::string xacro{};  ///< in place of urdf
+  XacroArguments arguments{};
   std::string srdf{};
   systems::CollisionMeshes collision{systems::CollisionMeshes::kHull};  ///< of its meshes
   robot::VisualAsCollision visual_as_collision{robot::VisualAsCollision::kNone};
@@ -39,6 +46,10 @@ struct ModelParams {
   std::vector<AttachedParams> attached{};
   static void Describe(Fields<ModelParams>& fields);
 };
+
+/// The file that a model is read from, urdf or xacro. throws ConfigError if it is not one of them, by
+/// the ending of its name
+const std::string& DescriptionOf(const ModelParams& params);
 
 /// A key with its meaning.
 struct Section {
@@ -53,3 +64,10 @@ inline constexpr const char* kDiagramSummary = "is a diagram file that this one 
 const std::vector<Section>& DiagramKeys();
 
 }  // namespace oca::files
+
+namespace oca {
+
+template <>
+const ParamType& ParamTypeOf<files::XacroArguments>();
+
+}  // namespace oca

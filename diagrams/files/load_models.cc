@@ -64,7 +64,8 @@ Read ReadModel(const std::string& where, const ModelParams& params, const Packag
     return found == packages.end() ? std::filesystem::path() : found->second;
   };
   options.package_directories = PackageFolders();
-  const robot::RobotModel robot = robot::LoadUrdf(params.urdf, options);
+  options.xacro_arguments = params.arguments.texts;
+  const robot::RobotModel robot = robot::LoadUrdf(DescriptionOf(params), options);
   read.model = std::make_shared<const robot::RobotModel>(
       robot::AttachObjects(robot, MakeAttached(params.attached, where, tell)));
   const std::string unseen = robot::DescribeUnseen(*read.model, "visual_as_collision: missing");
@@ -78,7 +79,7 @@ std::string BytesOf(const Numbers& numbers) {
           sizeof(double) * static_cast<std::size_t>(numbers.size())};
 }
 
-/// Tells what ReadModel makes from what else it makes of the same URDF.
+/// Tells what ReadModel makes from what else it makes of the same URDF or xacro.
 std::string FormOf(const std::string& where, const ModelParams& params,
                    const PackageMap& packages) {
   std::string form =
@@ -89,6 +90,9 @@ std::string FormOf(const std::string& where, const ModelParams& params,
   }
   for (const AttachedParams& object : params.attached) {
     form += "\n" + JsonOfFields(FieldsOf<AttachedParams>(), &object).dump();
+  }
+  for (const auto& [name, text] : params.arguments.texts) {
+    form += fmt::format("\n{} {}\n{}", name, text.size(), text);
   }
   return form + files::FormOf(packages);
 }
@@ -101,13 +105,14 @@ std::shared_ptr<const robot::RobotModel> LoadModel(const std::string& where,
   using ModelPtr = std::shared_ptr<const robot::RobotModel>;
   const Eigen::Isometry3d X_WB = params.base_pose.Pose(where + ".base_pose");
   const std::string form = FormOf(where, params, packages);
+  const std::string& file = DescriptionOf(params);
   const auto read =
-      models::MakeOnce<Read>(params.urdf, form, [&] { return ReadModel(where, params, packages); });
+      models::MakeOnce<Read>(file, form, [&] { return ReadModel(where, params, packages); });
   if (warn) {
     for (const std::string& line : read->lines) warn(line);
   }
   const std::string pose = "\nbase " + BytesOf(X_WB.matrix());
-  return *models::MakeOnce<ModelPtr>(params.urdf, form + pose, [&]() -> ModelPtr {
+  return *models::MakeOnce<ModelPtr>(file, form + pose, [&]() -> ModelPtr {
     return std::make_shared<const robot::RobotModel>(read->model->At(X_WB));
   });
 }
@@ -119,6 +124,7 @@ systems::ModelSet LoadModels(const std::vector<std::pair<std::string, ModelParam
     const std::string where = "models." + name;
     ModelParams placed = Validated(params);
     placed.urdf = FromHere(params.urdf);
+    placed.xacro = FromHere(params.xacro);
     placed.srdf = FromHere(params.srdf);
     for (AttachedParams& object : placed.attached) {
       if (object.shape.file) object.shape.file = FromHere(*object.shape.file);

@@ -97,8 +97,10 @@ void ModelSection::ReadEntry(const std::string& where, Read& read) const {
   read.problems.Add(own);
   if (!own.empty()) return;
   ModelParams& params = read.params;
+  DescriptionOf(params);
   params.srdf = Resolve(params.srdf, LocationOf(read.entry, "srdf")).string();
   params.urdf = Resolve(params.urdf, LocationOf(read.entry, "urdf")).string();
+  params.xacro = Resolve(params.xacro, LocationOf(read.entry, "xacro")).string();
   const Warn warn = [&](const std::string& line) { read.warnings.push_back(line); };
   read.model = LoadModel(where, params, packages_, warn);
 }
@@ -137,12 +139,8 @@ void ModelSection::Take(const Value::Entry& given, const Value* own, const Model
   }
   Source taken = source->second;
   if (own != nullptr && own->map() != nullptr) {
-    Value::Map map = *own->map();
-    std::erase_if(map, [](const Value::Entry& entry) { return entry.key == "urdf"; });
-    map.push_back({"urdf", given.location, Value(taken.params.urdf, given.location)});
     ModelParams params;
-    ReadFields(Value(std::move(map), own->location()), FieldsOf<ModelParams>(),
-               "models." + given.key, &params, problems_);
+    ReadFields(*own, FieldsOf<ModelParams>(), "models." + given.key, &params, problems_);
     const auto fill = [](auto& limits, const auto& from) {
       if (!limits) limits = from;
     };
@@ -180,6 +178,7 @@ Value ModelSection::ResolveFiles(const Value& value, Problems& problems) const {
   } else if (const Value::Map* const map = value.map()) {
     for (std::size_t i = 0; i < map->size(); ++i) {
       const Value::Entry& entry = (*map)[i];
+      if (entry.key == "arguments") continue;  // what they mean the xacro file knows
       if (entry.key == "file" && entry.value.string() != nullptr) {
         (*resolved.map())[i].value = ResolveName(entry.value, problems);
         continue;

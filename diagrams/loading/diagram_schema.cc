@@ -124,8 +124,9 @@ ordered_json WholeFileSchema(const files::Catalogue& catalogue) {
   }
   cases.push_back(IfType(files::kDiagramType, {{"required", UsedFileSchema()["required"]}}));
   const ordered_json systems = MapOf({{"required", {"type"}}, {"allOf", cases}});
+  const auto needs = [](const char* key) -> ordered_json { return {{"required", {key}}}; };
   const ordered_json models =
-      MapOf({{"required", SchemaOf(ParamTypeOf<files::ModelParams>())["required"]}});
+      MapOf({{"oneOf", ordered_json::array({needs("urdf"), needs("xacro")})}});
   return {{"properties", {{"systems", systems}, {"models", models}}}};
 }
 

@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
+#include "oca/diagrams/files/diagram_file.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/params.h"
 #include "oca/models/error.h"
 #include "oca/models/opened_files.h"
 #include "oca/models/robot/mesh_path.h"
@@ -24,7 +27,12 @@ fs::path FolderOf(const Location& location) {
   return location.file && location.line > 0 ? fs::path(*location.file).parent_path() : fs::path();
 }
 
-bool NamesFile(const std::string& key) { return key == "urdf" || key == "srdf" || key == "file"; }
+bool NamesFile(const std::string& key) {
+  return key == "urdf" || key == "xacro" || key == "srdf" || key == "file";
+}
+
+/// The key of a model whose entries are no files of the diagram, whatever their names.
+constexpr const char* kArguments = "arguments";
 
 /// Whether a tree has a file's name in it.
 bool HoldsFile(const Value& value) {
@@ -33,7 +41,7 @@ bool HoldsFile(const Value& value) {
   }
   return value.map() != nullptr &&
          std::any_of(value.map()->begin(), value.map()->end(), [](const Value::Entry& entry) {
-           return NamesFile(entry.key) || HoldsFile(entry.value);
+           return entry.key != kArguments && (NamesFile(entry.key) || HoldsFile(entry.value));
          });
 }
 
@@ -81,10 +89,14 @@ Value FileCollector::Rewrite(const Value& document, const Value* resolved) {
   Value::Map map;
   for (const Value::Entry& entry : *document.map()) {
     const Value* const own = resolved->Find(entry.key);
+    if (entry.key == kArguments) {
+      map.push_back(entry);
+      continue;
+    }
     const bool file = own != nullptr && NamesFile(entry.key) && own->string() != nullptr;
-    map.push_back({entry.key, entry.location,
-                   file ? Value(Attach(entry.key, *own->string(), FolderOf(own->location())), {})
-                        : Rewrite(entry.value, own)});
+    map.push_back(
+        {entry.key, entry.location,
+         file ? Value(Attach(entry.key, *own, *resolved), {}) : Rewrite(entry.value, own)});
   }
   return Value(std::move(map), document.location());
 }
@@ -111,18 +123,33 @@ Value FileCollector::Packages() const {
   return Value(std::move(map), {});
 }
 
-/// Attaches a file that the diagram names, if the run was made from it; returns its new name
-/// there.
-std::string FileCollector::Attach(const std::string& key, const std::string& name,
-                                  const fs::path& folder) {
+/// Attaches a file that an entry of the diagram names, if the run was made from it; returns its new
+/// name there.
+std::string FileCollector::Attach(const std::string& key, const Value& named, const Value& entry) {
+  const std::string& name = *named.string();
   if (name.empty()) return name;
-  const fs::path path = files::ResolvePath(name, folder, packages_);
+  const fs::path path = files::ResolvePath(name, FolderOf(named.location()), packages_);
   if (!Opened(path)) return name;
   const auto [as, new_name] = NamesOf(name, path);
   const bool fresh = !files_.contains(as.string());
-  if (fresh) files_[as.string()] = ReadBytes(path);
+  AttachAt(as, path);
   if (fresh && key == "urdf") AttachMeshes(as, path);
+  if (key == "xacro") AttachXacro(name, path, entry);  // each time, for its arguments choose files
   return new_name;
+}
+
+void FileCollector::AttachAt(const fs::path& as, const fs::path& path) {
+  if (!files_.contains(as.string())) files_[as.string()] = ReadBytes(path);
+}
+
+robot::LoadOptions FileCollector::OptionsOfRobot() const {
+  robot::LoadOptions options;
+  options.find_package = [this](const std::string& package) -> fs::path {
+    const auto found = packages_.find(package);
+    return found == packages_.end() ? fs::path() : found->second;
+  };
+  options.package_directories = files::PackageFolders();
+  return options;
 }
 
 bool FileCollector::Opened(const fs::path& path) const {
@@ -162,15 +189,9 @@ void FileCollector::AttachMeshes(const fs::path& urdf, const fs::path& path) {
 
 std::string FileCollector::AttachMesh(const std::string& name, const fs::path& urdf,
                                       const fs::path& path) {
-  robot::LoadOptions options;
-  options.find_package = [this](const std::string& package) -> fs::path {
-    const auto found = packages_.find(package);
-    return found == packages_.end() ? fs::path() : found->second;
-  };
-  options.package_directories = files::PackageFolders();
   fs::path mesh;
   try {
-    mesh = robot::FindMesh(name, path.parent_path(), options, path.string());
+    mesh = robot::FindMesh(name, path.parent_path(), OptionsOfRobot(), path.string());
   } catch (const models::ModelError&) {
     return name;  // the run did not need it
   }
@@ -183,8 +204,58 @@ std::string FileCollector::AttachMesh(const std::string& name, const fs::path& u
     if (stays) as = beside;
     new_name = stays ? name : as.lexically_relative(urdf.parent_path()).string();
   }
-  if (!files_.contains(as.string())) files_[as.string()] = ReadBytes(mesh);
+  AttachAt(as, mesh);
   return new_name;
+}
+
+/// What a xacro file includes, loads and names, once below `packages/` for each package that it was
+/// looked up in, and where it lies to the file itself, so that either way of naming it is right.
+void FileCollector::AttachXacro(const std::string& name, const fs::path& path, const Value& entry) {
+  std::map<std::string, fs::path> asked;
+  robot::LoadOptions options = OptionsOfRobot();
+  const auto find = options.find_package;
+  const std::vector<fs::path> folders = std::exchange(options.package_directories, {});
+  options.find_package = [&](const std::string& package) -> fs::path {
+    fs::path folder = find(package);
+    for (std::size_t i = 0; folder.empty() && i < folders.size(); ++i) {
+      std::error_code error;
+      if (fs::is_directory(folders[i] / package, error)) folder = folders[i] / package;
+    }
+    if (!folder.empty()) asked[package] = fs::absolute(folder).lexically_normal();
+    return folder;
+  };
+  files::ModelParams params;
+  Problems problems;
+  if (const Value* const arguments = entry.Find(kArguments)) {
+    ParamTypeOf<files::XacroArguments>().Read(*arguments, {}, kArguments, &params.arguments,
+                                              problems);
+  }
+  options.xacro_arguments = params.arguments.texts;
+  const models::OpenedFiles opened(models::OpenedFiles::Elder::kNotesNot);
+  robot::RenameMeshes(robot::ExpandXacro(path, robot::ForXacro(options)).urdf, path.string(),
+                      [&](const std::string& mesh) {
+                        try {
+                          robot::FindMesh(mesh, path.parent_path(), options, path.string());
+                        } catch (const models::ModelError&) {
+                          // the run did not need it
+                        }
+                        return mesh;
+                      });
+  const fs::path place = NamesOf(name, path).first.parent_path();
+  for (const fs::path& file : opened.files()) {
+    if (!Opened(file)) continue;
+    const fs::path absolute = fs::absolute(file).lexically_normal();
+    for (const auto& [package, folder] : asked) {
+      const fs::path rest = absolute.lexically_relative(folder);
+      if (Inside(rest)) AttachAt(fs::path("packages") / package / rest, file);
+    }
+    const fs::path beside =
+        (place / absolute.lexically_relative(fs::absolute(path).parent_path().lexically_normal()))
+            .lexically_normal();
+    const bool within =
+        Inside(beside) && (*beside.begin() == "files" || *beside.begin() == "packages");
+    if (within) AttachAt(beside, file);
+  }
 }
 
 }  // namespace oca::record

@@ -12,6 +12,7 @@
 #include "oca/diagrams/loading/loaded_diagram.h"
 #include "oca/diagrams/record/mcap_reader.h"
 #include "oca/framework/dataflow/value.h"
+#include "oca/models/robot/urdf.h"
 
 namespace oca::record {
 
@@ -40,8 +41,7 @@ class FileCollector {
   Value Packages() const;
 
  private:
-  std::string Attach(const std::string& key, const std::string& name,
-                     const std::filesystem::path& folder);
+  std::string Attach(const std::string& key, const Value& name, const Value& entry);
   bool Opened(const std::filesystem::path& path) const;
   std::pair<std::filesystem::path, std::string> NamesOf(const std::string& name,
                                                         const std::filesystem::path& path) const;
@@ -49,6 +49,9 @@ class FileCollector {
   void AttachMeshes(const std::filesystem::path& urdf, const std::filesystem::path& path);
   std::string AttachMesh(const std::string& name, const std::filesystem::path& urdf,
                          const std::filesystem::path& path);
+  void AttachXacro(const std::string& name, const std::filesystem::path& path, const Value& entry);
+  void AttachAt(const std::filesystem::path& as, const std::filesystem::path& path);
+  robot::LoadOptions OptionsOfRobot() const;
 
   const std::filesystem::path base_;
   const std::set<std::filesystem::path> opened_;

@@ -34,9 +34,10 @@ Eigen::Vector3d ToVector(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
 // One load: what the conversions share.
 class UrdfReader {
  public:
+  /// `expanded` is the xacro that the text comes from; nullptr: none.
   UrdfReader(const std::string& where, const LoadOptions& options,
-             const std::filesystem::path& directory)
-      : where_(where), options_(options), directory_(directory) {}
+             const std::filesystem::path& directory, const ExpandedXacro* expanded = nullptr)
+      : where_(where), options_(options), directory_(directory), expanded_(expanded) {}
 
   RobotModel Read(const std::string& text) {
     const XmlDocument document = ParseXml(text, where_);
@@ -169,7 +170,8 @@ class UrdfReader {
                                            const char* kind) const {
     std::vector<CollisionElement> solids;
     for (std::size_t i = 0; i < elements.size(); ++i) {
-      const std::string source = fmt::format("{}:{}", where_, lines[i]);
+      const std::string line = fmt::format("{}:{}", where_, lines[i]);
+      const std::string source = expanded_ == nullptr ? line : expanded_->WithPlaces(line, where_);
       const std::string where = fmt::format("{}: link '{}' {}", source, link, kind);
       solids.push_back({ToPose(elements[i]->origin),
                         ReadShape(*elements[i]->geometry, link, kind, where), source});
@@ -259,6 +261,7 @@ class UrdfReader {
   const std::string& where_;
   const LoadOptions& options_;
   const std::filesystem::path& directory_;
+  const ExpandedXacro* const expanded_;
   UrdfOutline outline_;
   std::shared_ptr<urdf::ModelInterface> parsed_;
   std::vector<std::size_t> link_order_, joint_order_;  // places in the outline
@@ -270,7 +273,29 @@ class UrdfReader {
 }  // namespace
 
 RobotModel LoadUrdf(const std::filesystem::path& file, const LoadOptions& options) {
-  return ParseUrdf(ReadXmlFile(file), file.string(), options, file.parent_path());
+  const std::string where = file.string();
+  if (!IsXacro(file)) {
+    if (!options.xacro_arguments.empty()) {
+      throw models::ModelError(
+          fmt::format("{}: arguments; got '{}'; expected none: it is no .xacro", where,
+                      options.xacro_arguments.begin()->first));
+    }
+    return ParseUrdf(ReadXmlFile(file), where, options, file.parent_path());
+  }
+  const ExpandedXacro expanded = ExpandXacro(file, ForXacro(options));
+  LoadOptions placed = options;
+  if (options.warn) {
+    placed.warn = [&](const std::string& line) { options.warn(expanded.WithPlaces(line, where)); };
+  }
+  try {
+    return UrdfReader(where, placed, file.parent_path(), &expanded).Read(expanded.urdf);
+  } catch (const models::ModelError& error) {
+    throw models::ModelError(expanded.WithPlaces(error.what(), where));
+  }
+}
+
+XacroOptions ForXacro(const LoadOptions& options) {
+  return {options.xacro_arguments, options.find_package, options.package_directories, options.warn};
 }
 
 RobotModel ParseUrdf(const std::string& text, const std::string& name, const LoadOptions& options,

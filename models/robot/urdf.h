@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "oca/models/robot/robot_model.h"
+#include "oca/models/robot/xacro.h"
 
 namespace oca::robot {
 
@@ -46,17 +47,23 @@ struct LoadOptions {
   std::string hull_advice{};
   /// false: meshes that are only drawn need not exist, and their elements name no file.
   bool load_visuals{true};
+  /// Of a xacro file.
+  XacroArguments xacro_arguments{};
 };
 
-/// Reads a robot, or a world of fixed links, from a URDF file. Relative mesh paths are relative to
-/// the file's folder. Links are numbered depth first, children in the order of the file's joints. A
+/// Reads a robot, or a world of fixed links, from a URDF file, or from a xacro file, by the ending
+/// .xacro, which it expands first. Relative mesh paths are relative to the file's folder. Links are numbered depth first, children in the order of the file's joints. A
 /// cylinder with a sphere of the same radius at either end becomes one Capsule.
 ///
 /// throws ModelError naming file, line and element, for all that a robot cannot be built from or
 /// that would be lost in silence: see ReadUrdfOutline and CheckUrdfTree; beyond these an unreadable
-/// or malformed file, a missing mesh, a wrong number of acceleration limits
+/// or malformed file, a missing mesh, a wrong number of acceleration limits, arguments of a file that
+/// is no xacro. What is wrong with an expanded file is told with the places in the xacro files
 /// source https://wiki.ros.org/urdf/XML
 RobotModel LoadUrdf(const std::filesystem::path& file, const LoadOptions& options = {});
+
+/// What LoadUrdf expands a xacro file with.
+XacroOptions ForXacro(const LoadOptions& options);
 
 /// The same from text. `name` stands for the file in messages; relative mesh paths are relative to
 /// `directory`.

@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::uintmax_t kMaxBytes = 50'000'000;
 constexpr std::size_t kMaxDepth = 64;
+constexpr int kMaxAttributes = 1000;  // TinyXML compares each with all before it
 constexpr std::string_view kSpace = " \t\r\n";
 
 // Walks over XML text and refuses what TinyXML would accept or crash on: it parses recursively,
@@ -95,7 +96,13 @@ class XmlScanner {
     rooted_ = true;
     ++at_;
     const std::string_view name = ScanName();
-    for (SkipSpace(); Here() != '>' && Here() != '/'; SkipSpace()) ScanAttribute();
+    int attributes = 0;
+    for (SkipSpace(); Here() != '>' && Here() != '/'; SkipSpace()) {
+      ScanAttribute();
+      if (++attributes > kMaxAttributes) {
+        Fail(fmt::format("more than {} attributes in <{}>", kMaxAttributes, name), "fewer");
+      }
+    }
     if (Here() == '/') {
       if (++at_; Here() != '>') Fail("'/' inside a tag", "'/>'");
     } else {

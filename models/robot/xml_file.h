@@ -20,8 +20,8 @@ using XmlDocument = std::unique_ptr<TiXmlDocument, XmlDeleter>;
 std::string ReadXmlFile(const std::filesystem::path& file);
 
 /// Parses `text`; `where` begins each message. The document has a root element.
-/// throws ModelError if the text is empty, binary, malformed, nested deeper than 64 elements or has
-/// a document type declaration
+/// throws ModelError if the text is empty, binary, malformed, nested deeper than 64 elements, has
+/// more than 1000 attributes in an element or a document type declaration
 XmlDocument ParseXml(const std::string& text, const std::string& where);
 
 }  // namespace oca::robot

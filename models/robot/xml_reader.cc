@@ -96,7 +96,8 @@ void XmlReader::CheckChildren(const TiXmlElement& element, const Names& once,
 }
 
 void XmlReader::CheckExpanded(const TiXmlElement& element) const {
-  constexpr const char* kExpected = "expanded URDF (run xacro first)";
+  constexpr const char* kExpected =
+      "expanded XML (run xacro first; a robot in a file named .xacro is expanded as it is read)";
   if (element.ValueStr().starts_with("xacro:")) {
     Fail(element, "element", element.ValueStr(), kExpected);
   }

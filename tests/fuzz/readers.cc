@@ -17,6 +17,7 @@
 #include "oca/models/geometry/point_cloud.h"
 #include "oca/models/robot/srdf.h"
 #include "oca/models/robot/urdf.h"
+#include "oca/models/robot/xacro.h"
 #include "oca/systems/signals/signals.h"
 #include "tests/temporary_folder.h"
 
@@ -52,6 +53,19 @@ bool ReadDocument(std::string_view bytes) {
 
 bool ReadUrdf(std::string_view bytes) {
   return Accepts([&] { robot::ParseUrdf(std::string(bytes), "fuzz.urdf"); });
+}
+
+bool ReadXacro(std::string_view bytes) {
+  return Accepts([&] { robot::ExpandXacro(FileOf("fuzz.xacro", bytes)); });
+}
+
+/// What xacro.load_yaml reads.
+bool ReadXacroYaml(std::string_view bytes) {
+  return Accepts([&] {
+    FileOf("fuzz_values.yaml", bytes);
+    robot::ExpandXacro(
+        FileOf("reader.xacro", "<robot name=\"${xacro.load_yaml('fuzz_values.yaml')}\"/>"));
+  });
 }
 
 bool ReadSrdf(std::string_view bytes) {
@@ -137,6 +151,8 @@ constexpr Reader kReaders[] = {
     {"srdf", ReadSrdf},
     {"stl", ReadStl},
     {"urdf", ReadUrdf},
+    {"xacro", ReadXacro},
+    {"xacro_yaml", ReadXacroYaml},
 };
 
 }  // namespace

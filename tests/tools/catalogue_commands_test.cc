@@ -84,7 +84,8 @@ TEST_F(CatalogueCommandsTest, TheSchemaRequiresOfMapsOnlyWhatNoOtherFileCanSay) 
   EXPECT_EQ(schema["if"], json::parse(R"({"required":["name"],"not":{"required":["include"]}})"));
   const json& whole = schema["then"]["properties"];
   EXPECT_EQ(whole["systems"]["additionalProperties"]["required"], json::parse(R"(["type"])"));
-  EXPECT_EQ(whole["models"]["additionalProperties"]["required"], json::parse(R"(["urdf"])"));
+  EXPECT_EQ(whole["models"]["additionalProperties"]["oneOf"],
+            json::parse(R"([{"required":["urdf"]},{"required":["xacro"]}])"));
 }
 
 TEST_F(CatalogueCommandsTest, TheSchemaBoundsNumbersBesideTheExpressionsThatMayStandForThem) {

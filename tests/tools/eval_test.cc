@@ -220,12 +220,29 @@ TEST_F(EvalTest, WrongParametersAndModelsEndWithTwo) {
         "RepulsiveField --params '{\"force_gain\":-1}'", "Gain --params '[1]'",
         "RobotKinematics --params '{\"model\":\"arm\"}'",
         "RobotKinematics --model arm=missing.urdf --params '{\"model\":\"arm\"}'",
-        "RobotKinematics --model nonsense --params '{\"model\":\"arm\"}'"}) {
+        "RobotKinematics --model nonsense --params '{\"model\":\"arm\"}'",
+        "RobotKinematics --model arm=package://planar2/planar2.urdf --argument arm.n=1",
+        "RobotKinematics --model arm=package://planar2/planar2.urdf --argument leg.n=1",
+        "RobotKinematics --model arm=package://planar2/planar2.urdf --argument n=1"}) {
     const Ran ran = run(std::string("$S eval ") + arguments, "{}\n");
     EXPECT_EQ(ran.status, 2) << arguments;
     EXPECT_EQ(ran.out, "") << arguments;
     EXPECT_THAT(ran.err, testing::Not(HasSubstr(": :"))) << arguments;
   }
+}
+
+TEST_F(EvalTest, TakesRobotsInXacroWithTheirArguments) {
+  const std::string arm = run.folder()
+                              .Write("arm.xacro", R"(<robot name="arm" xmlns:xacro="x">
+<xacro:arg name="length" default="1"/><link name="base"/><link name="tip"/>
+<joint name="turn" type="continuous"><parent link="base"/><child link="tip"/>
+<origin xyz="$(arg length) 0 0"/><axis xyz="0 0 1"/></joint></robot>)")
+                              .string();
+  const auto answers = Eval("RobotKinematics --model arm=" + arm +
+                                " --argument arm.length=0.25 --params '{\"model\":\"arm\"}'",
+                            "{\"position\":[0]}\n");
+  ASSERT_EQ(answers.size(), 1u);
+  EXPECT_THAT(answers[0].dump(), HasSubstr("0.25"));
 }
 
 }  // namespace eval_test

@@ -103,5 +103,44 @@ TEST_F(RobotCommandTest, RefusesWhatItCannotDo) {
   EXPECT_THAT(misspelt.err, HasSubstr("did you mean '--samples'?"));
 }
 
+TEST_F(RobotCommandTest, ExpandsXacroAndTakesItsArguments) {
+  const std::string arm =
+      run.folder()
+          .Write("arm.xacro", R"(<robot name="$(arg n)" xmlns
+                 : xacro = "x" > < xacro
+                 : arg name = "n" default = "a" / > < xacro
+                 : arg name = "r" default = "0.1" / > < xacro
+                 : macro name = "ball" params = "link" > <link name = "${link}"><collision>
+                                                <geometry><sphere radius = "${2 * $(arg r)}" />
+                                                </ geometry></ collision></ link> < / xacro
+                 : macro > < xacro
+                 : ball link = "base" / > < xacro
+                 : ball link = "tip" / > <joint name = "turn" type = "revolute">
+                               <parent link = "base" /><child link = "tip" /><axis xyz = "0 0 1" />
+                               <limit lower = "-1" upper = "1" effort = "1" velocity = "1" />
+                               </ joint></ robot>) ")
+          .string();
+  const Ran printed = run("$S robot expand " + arm + " --argument n=b --argument r=0.25");
+  EXPECT_EQ(printed.status, 0) << printed.err;
+  EXPECT_THAT(printed.out, HasSubstr("<robot name=\"b\">"));
+  EXPECT_THAT(printed.out, HasSubstr("<sphere radius=\"0.5\"/>"));
+  const std::string out = (run.folder().path() / "arm.urdf").string();
+  EXPECT_EQ(run("$S robot expand " + arm + " -o " + out).status, 0);
+  EXPECT_THAT(run.Read("arm.urdf"), HasSubstr("<robot name=\"a\">"));
+  EXPECT_EQ(run("$S robot check-collisions " + out).status, 0);
+  const Ran checked = run("$S robot check-collisions " + arm + " --argument n=c");
+  EXPECT_EQ(checked.status, 0) << checked.err;
+  EXPECT_THAT(checked.out, HasSubstr("c: 1 pairs"));
+  const Ran over = run("$S robot expand " + arm + " -o " + arm);
+  EXPECT_EQ(over.status, 2);
+  EXPECT_THAT(over.err, HasSubstr("is what is expanded"));
+  const Ran unknown = run("$S robot expand " + arm + " --argument m=1");
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("unknown argument; got 'm'"));
+  EXPECT_EQ(run("$S robot expand " + arm + " --argument m").status, 2);
+  EXPECT_EQ(run("$S robot expand " + arm + " --argument n=1 --argument n=2").status, 2);
+  EXPECT_EQ(run("$S robot expand missing.xacro").status, 2);
+}
+
 }  // namespace robot_command_test
 }  // namespace oca::tools

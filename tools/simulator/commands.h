@@ -64,8 +64,9 @@ struct GraphArguments {
 int GraphCommand(const GraphArguments& arguments, const files::Catalogue& catalogue);
 
 struct CheckCollisionsArguments {
-  std::string urdf;
-  std::string write_srdf;  ///< empty: print only
+  std::string urdf;                    ///< or xacro
+  std::vector<std::string> arguments;  ///< NAME=VALUE, of a xacro
+  std::string write_srdf;              ///< empty: print only
   int samples{10000};
   std::uint64_t seed{0};
   double margin{0.02};  ///< m
@@ -74,6 +75,14 @@ struct CheckCollisionsArguments {
 };
 /// Which pairs of links of a robot need no check for collision, for its SRDF.
 int CheckCollisionsCommand(const CheckCollisionsArguments& arguments);
+
+struct ExpandArguments {
+  std::string xacro;
+  std::vector<std::string> arguments;  ///< NAME=VALUE
+  std::string output;                  ///< empty: print it
+};
+/// The URDF that a xacro file stands for.
+int ExpandCommand(const ExpandArguments& arguments);
 
 int ListCommand(const files::Catalogue& catalogue);
 int DescribeCommand(const std::string& type, const files::Catalogue& catalogue);
@@ -84,7 +93,8 @@ int DocsCommand(const std::string& page, const files::Catalogue& catalogue);
 struct EvalArguments {
   std::string type;
   std::string params{"{}"};
-  std::vector<std::string> models;  ///< NAME=URDF
+  std::vector<std::string> models;     ///< NAME=URDF, or a xacro
+  std::vector<std::string> arguments;  ///< MODEL.NAME=VALUE, of a xacro
 };
 /// Serves one JSON object a line from `in` until it ends.
 int EvalCommand(const EvalArguments& arguments, const files::Catalogue& catalogue, std::istream& in,

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "oca/diagrams/files/catalogue.h"
 #include "oca/diagrams/files/diagram_file.h"
@@ -14,13 +15,15 @@
 #include "oca/models/robot/urdf.h"
 #include "tools/simulator/commands.h"
 #include "tools/simulator/terminal.h"
+#include "tools/simulator/xacro_arguments.h"
 
 namespace oca::tools {
 namespace {
 
-systems::ModelSet LoadModels(const std::vector<std::string>& arguments) {
+systems::ModelSet LoadModels(const EvalArguments& arguments) {
   systems::ModelSet models;
-  for (const std::string& argument : arguments) {
+  auto given = ParseArgumentsOfModels(arguments.arguments);
+  for (const std::string& argument : arguments.models) {
     const std::size_t equals = argument.find('=');
     if (equals == std::string::npos || equals == 0) {
       throw ConfigError(fmt::format("--model: got '{}'; expected NAME=URDF", argument));
@@ -28,11 +31,17 @@ systems::ModelSet LoadModels(const std::vector<std::string>& arguments) {
     robot::LoadOptions options;
     options.package_directories = files::PackageFolders();
     const std::string name = argument.substr(0, equals);
+    options.xacro_arguments = std::exchange(given[name], {});
     options.warn = [&name](const std::string& line) {
       Tell("warning: --model {}: {}\n", name, line);
     };
     models.Add(name, std::make_shared<const robot::RobotModel>(robot::LoadUrdf(
                          files::ResolvePath(argument.substr(equals + 1), {}, {}), options)));
+  }
+  for (const auto& [name, unused] : given) {
+    if (unused.empty()) continue;
+    throw ConfigError(fmt::format("--argument: got '{}.{}'; expected a model that --model names",
+                                  name, unused.begin()->first));
   }
   return models;
 }
@@ -46,7 +55,7 @@ int EvalCommand(const EvalArguments& arguments, const files::Catalogue& catalogu
   }
   const files::CatalogueRow& row = *catalogue.Find(arguments.type);
   runs::Evaluator evaluator(row, files::ReadJson(arguments.params, "--params"),
-                            LoadModels(arguments.models));
+                            LoadModels(arguments));
   for (std::string line; std::getline(in, line);) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     std::string answer;

@@ -17,6 +17,7 @@
 #include "oca/models/robot/urdf.h"
 #include "tools/simulator/commands.h"
 #include "tools/simulator/terminal.h"
+#include "tools/simulator/xacro_arguments.h"
 
 namespace oca::tools {
 namespace {
@@ -99,6 +100,7 @@ int CheckCollisionsCommand(const CheckCollisionsArguments& arguments) {
   options.package_directories = files::PackageFolders();
   options.load_visuals = false;
   options.visual_as_collision = VisualsFrom(arguments.visual_as_collision);
+  options.xacro_arguments = ParseXacroArguments(arguments.arguments);
   const auto warn = [&](const std::string& line) {
     Tell("{}: warning: {}\n", arguments.urdf, line);
   };

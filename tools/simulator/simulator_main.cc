@@ -190,7 +190,9 @@ class CommandLine {
         "eval", "feed one system JSON lines of inputs, get JSON lines of outputs");
     eval->add_option("TYPE", eval_.type, "system type")->required();
     eval->add_option("--params", eval_.params, "its parameters as JSON");
-    eval->add_option("--model", eval_.models, "NAME=URDF: a robot that parameters name")
+    eval->add_option("--model", eval_.models, "NAME=URDF, or xacro: a robot that parameters name")
+        ->allow_extra_args(false);
+    eval->add_option("--argument", eval_.arguments, "MODEL.NAME=VALUE: argument of a xacro")
         ->allow_extra_args(false);
     eval->callback([this] {
       command_ = [this] { return EvalCommand(eval_, catalogue_, std::cin, std::cout); };
@@ -202,7 +204,10 @@ class CommandLine {
     robot->require_subcommand(1);
     CLI::App* const check = robot->add_subcommand(
         "check-collisions", "find the pairs of links that need no check for collision");
-    check->add_option("URDF", collisions_.urdf, "path or package://NAME/PATH")->required();
+    check->add_option("URDF", collisions_.urdf, "or xacro: path or package://NAME/PATH")
+        ->required();
+    check->add_option("--argument", collisions_.arguments, "NAME=VALUE: argument of a xacro")
+        ->allow_extra_args(false);
     check
         ->add_option("--write-srdf", collisions_.write_srdf,
                      "file to write the pairs to; what else it holds is kept")
@@ -224,6 +229,13 @@ class CommandLine {
         ->capture_default_str();
     check->add_flag("--json", collisions_.json, "print one JSON object instead of the table");
     check->callback([this] { command_ = [this] { return CheckCollisionsCommand(collisions_); }; });
+    CLI::App* const expand =
+        robot->add_subcommand("expand", "print the URDF that a xacro file stands for");
+    expand->add_option("XACRO", expand_.xacro, "path or package://NAME/PATH")->required();
+    expand->add_option("--argument", expand_.arguments, "NAME=VALUE: an argument of the file")
+        ->allow_extra_args(false);
+    expand->add_option("-o,--output", expand_.output, "file to write it to")->check(FileName());
+    expand->callback([this] { command_ = [this] { return ExpandCommand(expand_); }; });
   }
 
   /// CLI11 says little of misspelt words; name the nearest ones.
@@ -249,14 +261,14 @@ class CommandLine {
   }
 
   std::string ExplainRobot(const std::string& what, int argc, char** argv) {
-    const std::string command = "check-collisions";
-    const std::vector<std::string> commands{command};
+    const std::vector<std::string> commands{"check-collisions", "expand"};
     const std::string second = argc > 2 ? argv[2] : "";
-    if (second == command) {
-      return ExplainOption(*app_.get_subcommand("robot")->get_subcommand(command), what, argc,
-                           argv);
+    if (std::find(commands.begin(), commands.end(), second) != commands.end()) {
+      return ExplainOption(*app_.get_subcommand("robot")->get_subcommand(second), what, argc, argv);
     }
-    if (second.empty() || second.starts_with("-")) return what + ": robot " + command;
+    if (second.empty() || second.starts_with("-")) {
+      return fmt::format("{}: robot {}", what, fmt::join(commands, " or "));
+    }
     return fmt::format("unknown command 'robot {}'{}", second, DidYouMean(second, commands));
   }
 
@@ -287,6 +299,7 @@ class CommandLine {
   std::string described_;
   std::string page_;
   CheckCollisionsArguments collisions_;
+  ExpandArguments expand_;
   EvalArguments eval_;
 };
 

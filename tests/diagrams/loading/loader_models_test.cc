@@ -27,7 +27,7 @@ TEST_F(LoaderModelsTest, ModelsThatDoNotExistAreRefused) {
   EXPECT_THAT(Refusal("models: {arm: {urdf: missing.urdf}}\n" + kinematics),
               AllOf(HasSubstr("d.yaml:1:10: error: models.arm: "), HasSubstr("missing.urdf")));
   EXPECT_THAT(Refusal("models: {arm: {srdf: x}}\n" + kinematics),
-              HasSubstr("models.arm.urdf: missing"));
+              HasSubstr("models.arm: got neither urdf nor xacro; expected one of"));
   EXPECT_THAT(Refusal("models: {arm: {urdf: ''}}\n" + kinematics), HasSubstr("models.arm"));
   EXPECT_THAT(Refusal("models: {arm: {urdf: package://none/a.urdf}}\n" + kinematics),
               HasSubstr("no package 'none'; looked in packages"));

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iostream>
+
+#include "oca/diagrams/files/package_paths.h"
+#include "oca/diagrams/runs/output_files.h"
+#include "oca/framework/dataflow/error.h"
+#include "oca/models/opened_files.h"
+#include "oca/models/robot/xacro.h"
+#include "tools/simulator/commands.h"
+#include "tools/simulator/terminal.h"
+#include "tools/simulator/xacro_arguments.h"
+
+namespace oca::tools {
+
+int ExpandCommand(const ExpandArguments& arguments) {
+  robot::XacroOptions options;
+  options.arguments = ParseXacroArguments(arguments.arguments);
+  options.package_directories = files::PackageFolders();
+  options.warn = [](const std::string& line) { Tell("warning: {}\n", line); };
+  models::OpenedFiles opened;
+  const robot::ExpandedXacro expanded =
+      robot::ExpandXacro(files::ResolvePath(arguments.xacro, {}, {}), options);
+  if (arguments.output.empty()) {
+    std::cout << expanded.urdf;
+    return kFine;
+  }
+  runs::CheckOutputs({{"--output", arguments.output}},
+                     runs::InputsOf(opened.files(), "what is expanded"));
+  std::ofstream stream(arguments.output, std::ios::binary | std::ios::trunc);
+  stream << expanded.urdf;
+  stream.close();
+  if (!stream) {
+    throw ConfigError(fmt::format("--output: {} cannot be written", arguments.output));
+  }
+  Tell("wrote {}\n", arguments.output);
+  return kFine;
+}
+
+}  // namespace oca::tools
