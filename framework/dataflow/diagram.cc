@@ -64,15 +64,17 @@ std::pair<const System*, std::string> Diagram::SplitPath(const std::string& path
 }
 
 InputHandle Diagram::FindInput(const std::string& path) const {
-  const auto [system, port] = SplitPath(path, "input");
-  if (system == this) return System::FindInput(port);
-  return InSystemOf(path, [&] { return system->FindInput(port); });
+  const auto found = SplitPath(path, "input");
+  if (found.first == this) return System::FindInput(found.second);
+  return InSystemOf(path, [&] { return found.first->FindInput(found.second); });
 }
 
 OutputHandle Diagram::FindOutput(const std::string& path) const {
-  const auto [system, port] = SplitPath(path, "output");
-  if (system != this) return InSystemOf(path, [&] { return system->FindOutput(port); });
-  return exported_outputs_[System::FindOutput(port).index].second;
+  const auto found = SplitPath(path, "output");
+  if (found.first != this) {
+    return InSystemOf(path, [&] { return found.first->FindOutput(found.second); });
+  }
+  return exported_outputs_[System::FindOutput(found.second).index].second;
 }
 
 const System* Diagram::FindSystem(const std::string& path) const {

@@ -11,7 +11,6 @@ namespace {
 // A pivot below this share of its diagonal entry is rounding: the share is sin^2 of the angle
 // between a column of J and the span of those before it.
 constexpr double kLeastPivot = 1e-12;
-constexpr double kRegularisation = 1e-9;
 
 bool Factorise(MappingWorkspace& workspace) {
   workspace.factor.compute(workspace.normal);

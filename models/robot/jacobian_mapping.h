@@ -29,6 +29,9 @@ enum class MappingMethod {
   kDamped          // delta = alpha (J^T J + damping^2 I)^-1 J^T w
 };
 
+/// By which diagonal entries grow, each by its own size, where J^T J cannot be factored.
+inline constexpr double kRegularisation = 1e-9;
+
 enum class MappingStatus {
   kOk,
   /// J^T J is singular to working precision (a column of J lies within about 1e-6 rad of the

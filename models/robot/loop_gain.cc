@@ -9,7 +9,6 @@
 namespace oca::robot {
 namespace {
 
-constexpr double kRegularisation = 1e-9;
 constexpr int kSquarings = 4;
 
 // L <- C^-1 L C^-T with J^T J = C C^T: as M L, it has the spectrum of the loop, and is symmetric if

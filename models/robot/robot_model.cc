@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -13,9 +12,6 @@
 
 namespace oca::robot {
 namespace {
-
-// Of the largest moment: what three digits in a file can take from the others.
-constexpr double kInertiaSlack = 2e-3;
 
 // Looks `name` up in the .name of every item.
 template <typename Item>
@@ -151,17 +147,6 @@ void RobotModel::CheckInertia(const Link& link) const {
     fail("inertia", "a number that is not finite", "finite numbers");
   }
   if (mass < 0.0) fail("mass", fmt::format("{} kg", mass), ">= 0");
-  if (mass == 0.0) return;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(I_C, Eigen::EigenvaluesOnly);
-  const Eigen::Vector3d& moments = axes.eigenvalues();  // ascending
-  // Files round to a few digits; a thin rod or plate lies on the bound itself.
-  const double slack = kInertiaSlack * moments[2];
-  const std::string got = fmt::format("principal moments {:.6g}, {:.6g}, {:.6g} kg m^2", moments[0],
-                                      moments[1], moments[2]);
-  if (moments[0] < -slack) fail("inertia", got, "none below 0");
-  if (moments[2] > moments[0] + moments[1] + slack) {
-    fail("inertia", got, "none above the sum of the other two, as in any body");
-  }
 }
 
 void RobotModel::NumberPositions() {

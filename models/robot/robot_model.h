@@ -110,8 +110,8 @@ class RobotModel {
   /// <= j; indices of parents and positions are filled in here). `X_WB` is the root link's pose in
   /// the world. `disabled_pairs` are pairs of link numbers that are never checked for collision.
   /// throws ModelError if the tree, an axis, a limit or a mimic rule is wrong, a mimic is fixed or
-  /// leaves the joint it follows no position, or if no body can have an inertia: numbers that are
-  /// not finite, a negative mass or moment, moments of which one exceeds the sum of the other two
+  /// leaves the joint it follows no position, or if an inertia has numbers that are not finite or a
+  /// negative mass; whether any body can have it says ImpossibleInertia
   RobotModel(models::Name name, std::vector<Link> links, std::vector<Joint> joints,
              const Eigen::Isometry3d& X_WB = Eigen::Isometry3d::Identity(),
              std::vector<std::pair<int, int>> disabled_pairs = {});

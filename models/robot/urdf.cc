@@ -11,10 +11,12 @@
 #include "oca/models/geometry/decomposition.h"
 #include "oca/models/geometry/mesh_surface.h"
 #include "oca/models/robot/fuse_capsules.h"
+#include "oca/models/robot/inertia.h"
 #include "oca/models/robot/joint_limits.h"
 #include "oca/models/robot/mesh_path.h"
 #include "oca/models/robot/srdf.h"
 #include "oca/models/robot/urdf_outline.h"
+#include "oca/models/robot/urdf_repair.h"
 #include "oca/models/robot/urdfdom.h"
 #include "oca/models/robot/xml_file.h"
 
@@ -41,9 +43,10 @@ class UrdfReader {
 
   RobotModel Read(const std::string& text) {
     const XmlDocument document = ParseXml(text, where_);
+    const std::vector<std::string> repairs = RepairUrdf(*document->RootElement());
     outline_ = ReadUrdfOutline(*document->RootElement(), where_);
     CheckUrdfTree(outline_, where_);
-    parsed_ = ParseWithUrdfdom(text, where_);
+    parsed_ = ParseWithUrdfdom(repairs.empty() ? text : TextOf(*document), where_);
     OrderTree();
     for (const std::size_t joint : joint_order_) joints_.push_back(ReadJoint(joint));
     for (const std::size_t link : link_order_) links_.push_back(ReadLink(outline_.links[link]));
@@ -60,6 +63,9 @@ class UrdfReader {
       RobotModel model(models::Name(outline_.robot_name), std::move(links_), std::move(joints_),
                        options_.X_WB, std::move(disabled));
       if (options_.warn) {
+        for (const std::string& line : repairs) options_.warn(line);
+        WarnOfMissingVisuals();
+        if (const std::string line = InertiaWarning(model); !line.empty()) options_.warn(line);
         for (const UrdfOutline::Joint& joint : outline_.joints) {
           if (!joint.fixed || joint.mimic.empty()) continue;
           options_.warn(fmt::format("joint '{}': fixed, so its <mimic> of '{}' does nothing",
@@ -132,7 +138,7 @@ class UrdfReader {
     return joint;
   }
 
-  Link ReadLink(const UrdfOutline::Link& entry) const {
+  Link ReadLink(const UrdfOutline::Link& entry) {
     const urdf::Link& from = *parsed_->getLink(entry.name);
     if (from.collision_array.size() != entry.collision_lines.size() ||
         from.visual_array.size() != entry.visual_lines.size()) {
@@ -145,9 +151,10 @@ class UrdfReader {
     link.name = models::Name(entry.name);
     link.collisions = FuseCapsules(ReadCollisions(entry, from));
     for (std::size_t i = 0; i < from.visual_array.size(); ++i) {
-      link.visuals.push_back(ReadVisual(
+      const auto visual = ReadVisual(
           *from.visual_array[i],
-          fmt::format("{}:{}: link '{}' visual", where_, entry.visual_lines[i], entry.name)));
+          fmt::format("{}:{}: link '{}' visual", where_, entry.visual_lines[i], entry.name));
+      if (visual) link.visuals.push_back(*visual);
     }
     if (from.inertial != nullptr) link.inertia = ReadInertia(*from.inertial);
     return link;
@@ -212,13 +219,19 @@ class UrdfReader {
     return geometry::Cylinder{cylinder.radius, cylinder.length};
   }
 
-  VisualElement ReadVisual(const urdf::Visual& from, const std::string& where) const {
+  /// Nothing if its mesh is missing: a picture may lack a part.
+  std::optional<VisualElement> ReadVisual(const urdf::Visual& from, const std::string& where) {
     VisualElement visual;
     visual.X_LV = ToPose(from.origin);
     if (from.geometry->type == urdf::Geometry::MESH) {
       const auto& mesh = static_cast<const urdf::Mesh&>(*from.geometry);
       if (options_.load_visuals) {
-        visual.mesh_file = FindMesh(mesh.filename, directory_, options_, where).string();
+        try {
+          visual.mesh_file = FindMesh(mesh.filename, directory_, options_, where).string();
+        } catch (const models::ModelError& error) {
+          missing_visuals_.emplace_back(error.what());
+          return std::nullopt;
+        }
       }
       visual.mesh_scale = ToVector(mesh.scale);
     } else {
@@ -229,6 +242,19 @@ class UrdfReader {
       visual.colour = Eigen::Vector4d(colour.r, colour.g, colour.b, colour.a);
     }
     return visual;
+  }
+
+  void WarnOfMissingVisuals() const {
+    if (missing_visuals_.empty()) return;
+    const std::size_t more = missing_visuals_.size() - 1;
+    options_.warn(fmt::format("not drawn: {}{}", missing_visuals_.front(),
+                              more == 0 ? "" : fmt::format("; and {} more visuals", more)));
+  }
+
+  static std::string TextOf(const TiXmlDocument& document) {
+    TiXmlPrinter printer;
+    document.Accept(&printer);
+    return printer.Str();
   }
 
   static Inertia ReadInertia(const urdf::Inertial& from) {
@@ -268,6 +294,7 @@ class UrdfReader {
   std::unordered_map<std::string, int> number_of_link_, number_of_joint_;
   std::vector<Link> links_;
   std::vector<Joint> joints_;
+  std::vector<std::string> missing_visuals_;  // why each one is not drawn
 };
 
 }  // namespace

@@ -27,7 +27,6 @@ class OutlineReader {
     for (auto* e = root.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
       if (e->ValueStr() == "link") outline.links.push_back(ReadLink(*e));
       if (e->ValueStr() == "joint") outline.joints.push_back(ReadJoint(*e));
-      if (e->ValueStr() == "material") CheckColour(*e);
     }
     if (outline.links.empty()) xml_.Fail(root, "links", "none", "at least one <link>");
     return outline;
@@ -45,7 +44,6 @@ class OutlineReader {
   UrdfOutline::Link ReadLink(const TiXmlElement& element) {
     UrdfOutline::Link link{ReadName(element, link_names_), element.Row(), {}, {}};
     xml_.CheckChildren(element, {"inertial"}, {"visual", "collision", "contact", "sensor"});
-    CheckInertial(element);
     for (auto* e = element.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
       const bool collision = e->ValueStr() == "collision";
       if (!collision && e->ValueStr() != "visual") continue;
@@ -53,7 +51,6 @@ class OutlineReader {
                          {"contact_coefficients", "verbose"});
       CheckOrigin(*e);
       CheckGeometry(*e);
-      if (const auto* material = e->FirstChildElement("material")) CheckColour(*material);
       (collision ? link.collision_lines : link.visual_lines).push_back(e->Row());
     }
     return link;
@@ -65,27 +62,6 @@ class OutlineReader {
     xml_.CheckAttributes(*origin, {"xyz", "rpy"});
     xml_.Numbers(*origin, "xyz", 3);
     xml_.Numbers(*origin, "rpy", 3);
-  }
-
-  void CheckColour(const TiXmlElement& material) const {
-    const auto* colour = material.FirstChildElement("color");
-    if (colour != nullptr) xml_.Numbers(*colour, "rgba", 4, true);
-  }
-
-  void CheckInertial(const TiXmlElement& link) const {
-    const auto* inertial = link.FirstChildElement("inertial");
-    if (inertial == nullptr) return;
-    xml_.CheckChildren(*inertial, {"origin", "mass", "inertia"}, {});
-    CheckOrigin(*inertial);
-    const auto* mass = inertial->FirstChildElement("mass");
-    const auto* inertia = inertial->FirstChildElement("inertia");
-    if (mass == nullptr || inertia == nullptr) {
-      xml_.Fail(*inertial, "content", "no <mass> or no <inertia>", "both");
-    }
-    CheckNotNegative(*mass, "value", true);
-    for (const char* entry : {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}) {
-      xml_.Numbers(*inertia, entry, 1, true);
-    }
   }
 
   void CheckNotNegative(const TiXmlElement& element, const char* attribute, bool required) const {

@@ -30,7 +30,7 @@ struct UrdfOutline {
   std::vector<Joint> joints;
 };
 
-/// Reads the outline below `root` and refuses what urdfdom would drop, misread or accept in
+/// Reads the outline below `root`, of a document that is repaired (RepairUrdf), and refuses what urdfdom would drop, misread or accept in
 /// silence: unexpanded xacro, unknown or repeated elements, unknown geometry, numbers that are
 /// missing or not finite, sizes that are not positive, a zero axis, limits that are missing or
 /// reversed, repeated names. `where` names the file in messages.

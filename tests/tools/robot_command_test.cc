@@ -104,22 +104,24 @@ TEST_F(RobotCommandTest, RefusesWhatItCannotDo) {
 }
 
 TEST_F(RobotCommandTest, ExpandsXacroAndTakesItsArguments) {
-  const std::string arm =
-      run.folder()
-          .Write("arm.xacro", R"(<robot name="$(arg n)" xmlns
-                 : xacro = "x" > < xacro
-                 : arg name = "n" default = "a" / > < xacro
-                 : arg name = "r" default = "0.1" / > < xacro
-                 : macro name = "ball" params = "link" > <link name = "${link}"><collision>
-                                                <geometry><sphere radius = "${2 * $(arg r)}" />
-                                                </ geometry></ collision></ link> < / xacro
-                 : macro > < xacro
-                 : ball link = "base" / > < xacro
-                 : ball link = "tip" / > <joint name = "turn" type = "revolute">
-                               <parent link = "base" /><child link = "tip" /><axis xyz = "0 0 1" />
-                               <limit lower = "-1" upper = "1" effort = "1" velocity = "1" />
-                               </ joint></ robot>) ")
-          .string();
+  const std::string arm = run.folder()
+                              .Write("arm.xacro", R"xml(
+<robot name="$(arg n)" xmlns:xacro="x">
+  <xacro:arg name="n" default="a"/>
+  <xacro:arg name="r" default="0.1"/>
+  <xacro:macro name="ball" params="link">
+    <link name="${link}"><collision>
+      <geometry><sphere radius="${2 * $(arg r)}"/></geometry>
+    </collision></link>
+  </xacro:macro>
+  <xacro:ball link="base"/>
+  <xacro:ball link="tip"/>
+  <joint name="turn" type="revolute">
+    <parent link="base"/><child link="tip"/><axis xyz="0 0 1"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/>
+  </joint>
+</robot>)xml")
+                              .string();
   const Ran printed = run("$S robot expand " + arm + " --argument n=b --argument r=0.25");
   EXPECT_EQ(printed.status, 0) << printed.err;
   EXPECT_THAT(printed.out, HasSubstr("<robot name=\"b\">"));

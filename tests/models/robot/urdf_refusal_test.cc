@@ -120,24 +120,7 @@ TEST(UrdfRefusalTest, NumbersThatAreNotFinite) {
     ExpectRefused(
         Joint("revolute", "<limit lower='0' upper='1' effort='1' velocity='" + bad + "'/>"),
         "finite", "'elbow'");
-    ExpectRefused(Link("<inertial><mass value='" + bad + "'/><inertia/></inertial>"), "finite",
-                  "'arm'");
-    ExpectRefused(Link("<inertial><mass value='1'/><inertia ixx='" + bad + "'/></inertial>"),
-                  "finite", "'arm'");
   }
-}
-
-TEST(UrdfRefusalTest, InertiaThatIsIncompleteOrNegative) {
-  const std::string inertia = "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/>";
-  ExpectRefused(Link("<inertial><mass value='-1'/>" + inertia + "</inertial>"), "0 or more");
-  EXPECT_NO_THROW(
-      ParseUrdf(Link("<inertial><mass value='0'/>" + inertia + "</inertial>"), "good.urdf"));
-  ExpectRefused(Link("<inertial><mass value='1'/></inertial>"), "no <inertia>");
-  // No body has one moment above the sum of the other two.
-  const std::string spindle = "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='2.1'/>";
-  ExpectRefused(Link("<inertial><mass value='1'/>" + spindle + "</inertial>"),
-                "above the sum of the other two", "link 'arm'");
-  ExpectRefused(Link("<inertial><mass value='1'/><inertia ixx='1'/></inertial>"), "ixy");
 }
 
 TEST(UrdfRefusalTest, ZeroAxis) {
@@ -164,7 +147,7 @@ TEST(UrdfRefusalTest, LimitsThatAreMissingOrReversed) {
 }
 
 TEST(UrdfRefusalTest, JointTypesThatAreNotSupported) {
-  for (const char* type : {"floating", "planar", "ball", ""}) {
+  for (const char* type : {"ball", ""}) {
     ExpectRefused(Joint(type, ""), "unsupported joint type", "'elbow'");
   }
 }

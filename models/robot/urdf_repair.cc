@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/models/robot/urdf_repair.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tinyxml.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "oca/models/nearest_name.h"
+#include "oca/models/robot/xml_numbers.h"
+
+namespace oca::robot {
+namespace {
+
+using Names = std::vector<std::string>;
+
+/// Of the elements whose attributes mean something here.
+const std::map<std::string, Names>& KnownAttributes() {
+  static const std::map<std::string, Names> known{
+      {"origin", {"xyz", "rpy"}},
+      {"sphere", {"radius"}},
+      {"cylinder", {"radius", "length"}},
+      {"box", {"size"}},
+      {"mesh", {"filename", "scale"}},
+      {"axis", {"xyz"}},
+      {"mimic", {"joint", "multiplier", "offset"}},
+      {"limit", {"lower", "upper", "effort", "velocity", "acceleration", "jerk"}}};
+  return known;
+}
+
+/// `count` finite numbers; nothing if the text is something else.
+std::optional<std::vector<double>> NumbersOf(const TiXmlElement* element, const char* attribute,
+                                             std::size_t count) {
+  const char* const text = element == nullptr ? nullptr : element->Attribute(attribute);
+  if (text == nullptr) return std::nullopt;
+  auto numbers = ParseFiniteNumbers(text);
+  if (numbers && numbers->size() != count) return std::nullopt;
+  return numbers;
+}
+
+class Repair {
+ public:
+  Names Run(TiXmlElement& root) {
+    DropAttributes(root);
+    std::set<std::string> materials;
+    Names children;
+    for (auto* e = root.FirstChildElement("joint"); e != nullptr;
+         e = e->NextSiblingElement("joint")) {
+      const auto* const child = e->FirstChildElement("child");
+      if (child != nullptr && child->Attribute("link") != nullptr) {
+        children.emplace_back(child->Attribute("link"));
+      }
+    }
+    for (auto* e = root.FirstChildElement(); e != nullptr;) {
+      auto* const next = e->NextSiblingElement();
+      if (e->ValueStr() == "link") ReadLink(*e);
+      if (e->ValueStr() == "joint") HoldRoot(*e, children);
+      if (e->ValueStr() == "material") {
+        DropColour(*e);
+        const char* const name = e->Attribute("name");
+        if (name != nullptr && !materials.insert(name).second) {
+          Drop(root, *e, "materials that are there already, left out", fmt::format("'{}'", name));
+        }
+      }
+      e = next;
+    }
+    return Lines();
+  }
+
+ private:
+  void Note(const char* what, const TiXmlElement& element, const std::string& which) {
+    places_[what].push_back(fmt::format("{} (line {})", which, element.Row()));
+  }
+  void Drop(TiXmlNode& parent, TiXmlElement& element, const char* what, const std::string& which) {
+    Note(what, element, which);
+    parent.RemoveChild(&element);
+  }
+
+  void DropAttributes(TiXmlElement& element) {
+    const auto known = KnownAttributes().find(element.ValueStr());
+    Names unknown;
+    for (auto* a = element.FirstAttribute(); a != nullptr; a = a->Next()) {
+      const std::string name = a->Name();
+      if (name.find(':') != std::string::npos) {
+        if (!name.starts_with("xmlns")) unknown.push_back(name);
+      } else if (known != KnownAttributes().end() &&
+                 std::count(known->second.begin(), known->second.end(), name) == 0 &&
+                 models::EditDistance(name, models::NearestName(name, known->second)) > 2) {
+        unknown.push_back(name);
+      }
+    }
+    for (const std::string& name : unknown) {
+      Note("attributes that URDF does not have, left out", element,
+           fmt::format("'{}' of <{}>", name, element.ValueStr()));
+      element.RemoveAttribute(name);
+    }
+    for (auto* e = element.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+      DropAttributes(*e);
+    }
+  }
+
+  void ReadLink(TiXmlElement& link) {
+    const std::string name = NameOf(link);
+    for (auto* e = link.FirstChildElement(); e != nullptr;) {
+      auto* const next = e->NextSiblingElement();
+      if (e->ValueStr() == "visual" && !HasSize(*e)) {
+        Drop(link, *e, "visuals of no size, not drawn", "of link " + name);
+      } else if (e->ValueStr() == "visual" || e->ValueStr() == "collision") {
+        DropMaterials(*e, name);
+      } else if (e->ValueStr() == "inertial" && !SaysInertia(*e)) {
+        Drop(link, *e, "inertias that are incomplete, no numbers or of negative mass, left out",
+             "of link " + name);
+      }
+      e = next;
+    }
+  }
+
+  /// The first one counts.
+  void DropMaterials(TiXmlElement& element, const std::string& link) {
+    auto* const first = element.FirstChildElement("material");
+    if (first == nullptr) return;
+    DropColour(*first);
+    while (auto* const more = first->NextSiblingElement("material")) {
+      Drop(element, *more, "materials beside another one, left out", "of link " + link);
+    }
+  }
+
+  void DropColour(TiXmlElement& material) {
+    auto* const colour = material.FirstChildElement("color");
+    if (colour == nullptr) return;
+    const auto rgba = NumbersOf(colour, "rgba", 4);
+    if (rgba && std::all_of(rgba->begin(), rgba->end(),
+                            [](double part) { return part >= 0.0 && part <= 1.0; })) {
+      return;
+    }
+    const char* const text = colour->Attribute("rgba");
+    Drop(material, *colour, "colours that are not four numbers from 0 to 1, left out",
+         fmt::format("'{}'", text == nullptr ? "" : text));
+  }
+
+  /// A shape whose sizes are numbers that are all above 0; what is no such shape is read elsewhere.
+  static bool HasSize(const TiXmlElement& visual) {
+    const auto* const geometry = visual.FirstChildElement("geometry");
+    const auto* const shape = geometry == nullptr ? nullptr : geometry->FirstChildElement();
+    if (shape == nullptr) return true;
+    const std::string& kind = shape->ValueStr();
+    const auto above = [&](const char* attribute, std::size_t count) {
+      const auto sizes = NumbersOf(shape, attribute, count);
+      return !sizes ||
+             std::all_of(sizes->begin(), sizes->end(), [](double size) { return size != 0.0; });
+    };
+    if (kind == "sphere") return above("radius", 1);
+    if (kind == "cylinder") return above("radius", 1) && above("length", 1);
+    if (kind == "box") return above("size", 3);
+    return kind != "mesh" || above("scale", 3);
+  }
+
+  static bool SaysInertia(const TiXmlElement& inertial) {
+    const auto* const mass = inertial.FirstChildElement("mass");
+    const auto* const inertia = inertial.FirstChildElement("inertia");
+    if (const auto* const origin = inertial.FirstChildElement("origin")) {
+      for (const char* part : {"xyz", "rpy"}) {
+        if (origin->Attribute(part) != nullptr && !NumbersOf(origin, part, 3)) return false;
+      }
+    }
+    const auto kilograms = NumbersOf(mass, "value", 1);
+    if (!kilograms || kilograms->front() < 0.0) return false;
+    for (const char* entry : {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}) {
+      if (!NumbersOf(inertia, entry, 1)) return false;
+    }
+    return true;
+  }
+
+  void HoldRoot(TiXmlElement& joint, const Names& children) {
+    const char* const type = joint.Attribute("type");
+    if (type == nullptr || (std::string(type) != "floating" && std::string(type) != "planar"))
+      return;
+    const auto* const parent = joint.FirstChildElement("parent");
+    const char* const link = parent == nullptr ? nullptr : parent->Attribute("link");
+    if (link == nullptr || std::count(children.begin(), children.end(), link) > 0) return;
+    Note("joints of the root, held where base_pose puts it", joint,
+         fmt::format("{} {}", type, NameOf(joint)));
+    joint.SetAttribute("type", "fixed");
+  }
+
+  static std::string NameOf(const TiXmlElement& element) {
+    const char* const name = element.Attribute("name");
+    return fmt::format("'{}'", name == nullptr ? "" : name);
+  }
+
+  Names Lines() const {
+    constexpr std::size_t kShown = 3;
+    Names lines;
+    for (const auto& [what, places] : places_) {
+      const std::size_t shown = std::min(kShown, places.size());
+      std::string line = fmt::format(
+          "{}: {}", what,
+          fmt::join(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(shown), ", "));
+      if (shown < places.size()) line += fmt::format(" and {} more", places.size() - shown);
+      lines.push_back(std::move(line));
+    }
+    return lines;
+  }
+
+  std::map<std::string, Names> places_;  // by what was done
+};
+
+}  // namespace
+
+std::vector<std::string> RepairUrdf(TiXmlElement& root) { return Repair().Run(root); }
+
+}  // namespace oca::robot

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+class TiXmlElement;
+
+namespace oca::robot {
+
+/// Takes out of a URDF document, below `root`, what is wrong in it and that nothing here reads, so
+/// that a robot is not refused for it: attributes that URDF does not have, visuals of no size,
+/// materials that are said twice and colours that are none, inertias that are incomplete, no
+/// numbers or of negative mass. A floating or planar joint below the root link becomes a fixed one:
+/// where the robot stands is said elsewhere. An attribute within two letters of one of URDF's stays,
+/// to be refused as a slip of the pen.
+///
+/// Returns what was done, a line a kind: `attributes that URDF does not have, left out: 'a:b' of
+/// <origin> of link 'upper' (line 12), ... and 20 more`.
+std::vector<std::string> RepairUrdf(TiXmlElement& root);
+
+}  // namespace oca::robot

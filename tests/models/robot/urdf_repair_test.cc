@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What nothing here reads is taken out of a description with a word about it, instead of a refusal.
+#include <gmock/gmock.h>
+
+#include "oca/models/error.h"
+#include "oca/models/robot/urdf.h"
+
+namespace oca::robot::test {
+namespace urdf_repair_test {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::ThrowsMessage;
+
+struct Loaded {
+  RobotModel model;
+  std::vector<std::string> warnings;
+};
+
+Loaded Load(const std::string& content) {
+  std::vector<std::string> warnings;
+  LoadOptions options;
+  options.warn = [&](const std::string& line) { warnings.push_back(line); };
+  RobotModel model = ParseUrdf("<robot name='r'>\n" + content + "\n</robot>", "r.urdf", options);
+  return {std::move(model), std::move(warnings)};
+}
+
+Loaded LoadLink(const std::string& content) {
+  return Load("<link name='arm'>" + content + "</link>");
+}
+
+const std::string kShape = "<geometry><sphere radius='1'/></geometry>";
+
+TEST(UrdfRepairTest, NothingIsSaidOfWhatIsRight) {
+  EXPECT_THAT(LoadLink("<visual>" + kShape + "<material name='a'><color rgba='1 0 0 1'/>" +
+                       "</material></visual><inertial><mass value='1'/><inertia ixx='1' ixy='0' "
+                       "ixz='0' iyy='1' iyz='0' izz='1'/></inertial>")
+                  .warnings,
+              IsEmpty());
+}
+
+TEST(UrdfRepairTest, InertiasThatAreNoneAreLeftOut) {
+  const std::string inertia = "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/>";
+  for (const std::string& content :
+       {"<mass value='-1'/>" + inertia, "<mass value='nan'/>" + inertia, inertia,
+        std::string("<mass value='1'/>"), std::string("<mass value='1'/><inertia ixx='1'/>"),
+        "<mass value='1'/><origin xyz='a b c'/>" + inertia}) {
+    const Loaded loaded = LoadLink("<inertial>" + content + "</inertial>");
+    EXPECT_EQ(loaded.model.links()[0].inertia.mass, 0.0) << content;
+    EXPECT_THAT(loaded.warnings, ElementsAre(AllOf(HasSubstr("inertias that are incomplete"),
+                                                   HasSubstr("of link 'arm' (line 2)"))))
+        << content;
+  }
+}
+
+TEST(UrdfRepairTest, InertiasThatNoBodyCanHaveAreKeptAndToldOnce) {
+  const std::string spindle =
+      "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='2.1'/>"
+      "</inertial>";
+  const Loaded loaded = Load("<link name='a'>" + spindle + "</link><link name='b'>" + spindle +
+                             "</link><joint name='j' type='fixed'><parent link='a'/>"
+                             "<child link='b'/></joint>");
+  EXPECT_EQ(loaded.model.links()[1].inertia.mass, 1.0);
+  EXPECT_THAT(loaded.warnings,
+              ElementsAre(AllOf(HasSubstr("inertias that no body can have"),
+                                HasSubstr("link 'a' has principal moments 1, 1, 2.1"),
+                                HasSubstr("and 1 more links"))));
+}
+
+TEST(UrdfRepairTest, TheFirstMaterialCountsAndColoursAreFourNumbers) {
+  const Loaded loaded = Load(
+      "<material name='grey'><color rgba='0.5 0.5 0.5 1'/></material>\n"
+      "<material name='grey'><color rgba='0.5 0.5 0.5 1'/></material>\n"
+      "<material name='loud'><color rgba='128 0 0 255'/></material>\n"
+      "<link name='arm'><visual>" +
+      kShape + "<material name='red'><color rgba='1 0 0 1'/>" +
+      "</material><material name='grey'/></visual></link>");
+  EXPECT_EQ(loaded.model.links()[0].visuals[0].colour, Eigen::Vector4d(1, 0, 0, 1));
+  EXPECT_THAT(loaded.warnings,
+              ElementsAre(AllOf(HasSubstr("colours that are not"), HasSubstr("'128 0 0 255'")),
+                          HasSubstr("beside another one, left out: of link 'arm' (line 5)"),
+                          HasSubstr("there already, left out: 'grey' (line 3)")));
+}
+
+TEST(UrdfRepairTest, VisualsOfNoSizeAreNotDrawn) {
+  const Loaded loaded = LoadLink(
+      "<visual><geometry><box size='0 1 1'/></geometry></visual>"
+      "<visual>" +
+      kShape + "</visual>");
+  EXPECT_EQ(loaded.model.links()[0].visuals.size(), 1u);
+  EXPECT_THAT(loaded.warnings, ElementsAre(HasSubstr("visuals of no size, not drawn")));
+  EXPECT_THROW(LoadLink("<collision><geometry><box size='0 1 1'/></geometry></collision>"),
+               models::ModelError);
+}
+
+TEST(UrdfRepairTest, AVisualWhoseMeshIsMissingIsNotDrawnAndACollisionMustBeThere) {
+  const std::string mesh = "<geometry><mesh filename='package://lost/pretty.dae'/></geometry>";
+  const Loaded loaded = LoadLink("<visual>" + mesh + "</visual><visual>" + mesh +
+                                 "</visual><collision>" + kShape + "</collision>");
+  EXPECT_THAT(loaded.model.links()[0].visuals, IsEmpty());
+  EXPECT_THAT(loaded.warnings,
+              ElementsAre(AllOf(HasSubstr("not drawn: r.urdf:2: link 'arm' visual: missing mesh"),
+                                HasSubstr("and 1 more visuals"))));
+  EXPECT_THROW(LoadLink("<collision>" + mesh + "</collision>"), models::ModelError);
+}
+
+TEST(UrdfRepairTest, AttributesThatUrdfDoesNotHaveAreLeftOutButSlipsAreRefused) {
+  const Loaded loaded = LoadLink(
+      "<collision a:b='1'><origin xyz='0 0 1' comment='x'/><geometry>"
+      "<sphere radius='1' segments='20'/></geometry></collision>");
+  EXPECT_EQ(loaded.model.links()[0].collisions[0].X_LC.translation().z(), 1.0);
+  EXPECT_THAT(loaded.warnings,
+              ElementsAre(AllOf(HasSubstr("attributes that URDF does not have, left out"),
+                                HasSubstr("'a:b' of <collision>"), HasSubstr("'comment'"),
+                                HasSubstr("'segments' of <sphere> (line 2)"))));
+  EXPECT_THAT([] { LoadLink("<collision><origin xzy='0 0 1'/>" + kShape + "</collision>"); },
+              ThrowsMessage<models::ModelError>(HasSubstr("unknown attribute; got 'xzy'")));
+}
+
+TEST(UrdfRepairTest, AFreeRootIsHeldAndAnyOtherFreeJointIsRefused) {
+  const auto joint = [](const char* type, const char* parent, const char* child) {
+    return std::string("<joint name='") + child + "_joint' type='" + type + "'><parent link='" +
+           parent + "'/><child link='" + child + "'/></joint>\n";
+  };
+  const std::string links = "<link name='world'/><link name='base'/><link name='arm'/>\n";
+  for (const char* type : {"floating", "planar"}) {
+    const Loaded loaded =
+        Load(links + joint(type, "world", "base") + joint("fixed", "base", "arm"));
+    EXPECT_EQ(loaded.model.num_positions(), 0);
+    EXPECT_THAT(loaded.warnings,
+                ElementsAre(AllOf(HasSubstr("held where base_pose puts it"),
+                                  HasSubstr(std::string(type) + " 'base_joint' (line 3)"))));
+    EXPECT_THAT([&] { Load(links + joint("fixed", "world", "base") + joint(type, "base", "arm")); },
+                ThrowsMessage<models::ModelError>(HasSubstr("unsupported joint type")));
+  }
+}
+
+}  // namespace urdf_repair_test
+}  // namespace oca::robot::test
