@@ -47,8 +47,8 @@ struct ModelParams {
   static void Describe(Fields<ModelParams>& fields);
 };
 
-/// The file that a model is read from, urdf or xacro. throws ConfigError if it is not one of them, by
-/// the ending of its name
+/// The file that a model is read from, urdf or xacro. throws ConfigError if it is not one of them,
+/// by the ending of its name
 const std::string& DescriptionOf(const ModelParams& params);
 
 /// A key with its meaning.

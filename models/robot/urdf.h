@@ -52,13 +52,14 @@ struct LoadOptions {
 };
 
 /// Reads a robot, or a world of fixed links, from a URDF file, or from a xacro file, by the ending
-/// .xacro, which it expands first. Relative mesh paths are relative to the file's folder. Links are numbered depth first, children in the order of the file's joints. A
-/// cylinder with a sphere of the same radius at either end becomes one Capsule.
+/// .xacro, which it expands first. Relative mesh paths are relative to the file's folder. Links are
+/// numbered depth first, children in the order of the file's joints. A cylinder with a sphere of the
+/// same radius at either end becomes one Capsule.
 ///
 /// throws ModelError naming file, line and element, for all that a robot cannot be built from or
 /// that would be lost in silence: see ReadUrdfOutline and CheckUrdfTree; beyond these an unreadable
-/// or malformed file, a missing mesh, a wrong number of acceleration limits, arguments of a file that
-/// is no xacro. What is wrong with an expanded file is told with the places in the xacro files
+/// or malformed file, a missing mesh, a wrong number of acceleration limits, arguments of a file
+/// that is no xacro. What is wrong with an expanded file is told with the places in the xacro files
 /// source https://wiki.ros.org/urdf/XML
 RobotModel LoadUrdf(const std::filesystem::path& file, const LoadOptions& options = {});
 

@@ -14,8 +14,8 @@ using XacroArguments = std::map<std::string, std::string>;
 
 struct XacroOptions {
   XacroArguments arguments{};
-  /// $(find NAME) is find_package(NAME) if that is set and not empty, else DIR/NAME of the first DIR
-  /// that has it.
+  /// $(find NAME) is find_package(NAME) if that is set and not empty, else DIR/NAME of the first
+  /// DIR that has it.
   std::function<std::filesystem::path(const std::string& package)> find_package{};
   std::vector<std::filesystem::path> package_directories{};
   /// Takes what xacro.warning and its like say, with their place; or unset.
@@ -40,8 +40,8 @@ bool IsXacro(const std::filesystem::path& file);
 /// Numbers, texts and scopes are those of xacro 2; what it leaves to Python beyond that page is
 /// refused.
 ///
-/// throws ModelError naming file, line and calls, for whatever xacro refuses; for unknown arguments;
-/// and for files that take more than 500 levels, 200 000 elements or 400 MB of values
+/// throws ModelError naming file, line and calls, for whatever xacro refuses; for unknown
+/// arguments; and for files that take more than 500 levels, 200 000 elements or 400 MB of values
 /// source https://wiki.ros.org/xacro
 ExpandedXacro ExpandXacro(const std::filesystem::path& file, const XacroOptions& options = {});
 

@@ -18,7 +18,7 @@ const Value::Items& ItemsOf(std::string_view what, const Value& value) {
   return value.list()->items;
 }
 
-/// What list(), sorted() and their like go through: of a dictionary the keys, of a text the letters.
+/// What list(), sorted() and their like go through: keys of a dictionary, letters of a text.
 Value::Items Elements(std::string_view what, const Value& value) {
   Value::Items items;
   if (const auto* dict = value.dict()) {
