@@ -116,7 +116,7 @@ void Scene::AddRobots(const loading::LoadedDiagram& loaded, const runs::SignalFa
     robot.X_WL = robot::LinkPoses(*model, Eigen::VectorXd::Zero(model->num_positions()));
     const auto of_robot = [&](const InputHandle& input) {
       const auto driver = RolePort(input).In(*loaded.diagram);
-      return driver && facts.RobotOf(*driver) == name;
+      return driver && facts.RobotOf(*driver) == robot.name;
     };
     for (const auto& [path, system, role] : loaded.diagram->FindRoles<systems::Kinematics>()) {
       if (!robot.links && of_robot(role->position)) robot.links = AddSources({role->links})[0];

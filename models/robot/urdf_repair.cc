@@ -43,6 +43,9 @@ std::optional<std::vector<double>> NumbersOf(const TiXmlElement* element, const 
   return numbers;
 }
 
+constexpr const char* kNoColour =
+    "materials whose colour is not four numbers from 0 to 1, left out";
+
 class Repair {
  public:
   Names Run(TiXmlElement& root) {
@@ -61,10 +64,10 @@ class Repair {
       if (e->ValueStr() == "link") ReadLink(*e);
       if (e->ValueStr() == "joint") HoldRoot(*e, children);
       if (e->ValueStr() == "material") {
-        DropColour(*e);
-        const char* const name = e->Attribute("name");
-        if (name != nullptr && !materials.insert(name).second) {
-          Drop(root, *e, "materials that are there already, left out", fmt::format("'{}'", name));
+        if (!HasColour(*e)) {
+          Drop(root, *e, kNoColour, NameOf(*e));
+        } else if (!materials.insert(NameOf(*e)).second) {
+          Drop(root, *e, "materials that are there already, left out", NameOf(*e));
         }
       }
       e = next;
@@ -120,27 +123,27 @@ class Repair {
     }
   }
 
-  /// The first one counts.
+  /// The first one with a colour that is one counts.
   void DropMaterials(TiXmlElement& element, const std::string& link) {
-    auto* const first = element.FirstChildElement("material");
-    if (first == nullptr) return;
-    DropColour(*first);
-    while (auto* const more = first->NextSiblingElement("material")) {
-      Drop(element, *more, "materials beside another one, left out", "of link " + link);
+    bool found = false;
+    for (auto* e = element.FirstChildElement("material"); e != nullptr;) {
+      auto* const next = e->NextSiblingElement("material");
+      if (!HasColour(*e)) {
+        Drop(element, *e, kNoColour, "of link " + link);
+      } else if (std::exchange(found, true)) {
+        Drop(element, *e, "materials beside another one, left out", "of link " + link);
+      }
+      e = next;
     }
   }
 
-  void DropColour(TiXmlElement& material) {
-    auto* const colour = material.FirstChildElement("color");
-    if (colour == nullptr) return;
+  /// False if it says a colour that is none.
+  static bool HasColour(const TiXmlElement& material) {
+    const auto* const colour = material.FirstChildElement("color");
+    if (colour == nullptr) return true;
     const auto rgba = NumbersOf(colour, "rgba", 4);
-    if (rgba && std::all_of(rgba->begin(), rgba->end(),
-                            [](double part) { return part >= 0.0 && part <= 1.0; })) {
-      return;
-    }
-    const char* const text = colour->Attribute("rgba");
-    Drop(material, *colour, "colours that are not four numbers from 0 to 1, left out",
-         fmt::format("'{}'", text == nullptr ? "" : text));
+    return rgba && std::all_of(rgba->begin(), rgba->end(),
+                               [](double part) { return part >= 0.0 && part <= 1.0; });
   }
 
   /// A shape whose sizes are numbers that are all above 0; what is no such shape is read elsewhere.

@@ -10,7 +10,7 @@ namespace oca::robot {
 
 /// Takes out of a URDF document, below `root`, what is wrong in it and that nothing here reads, so
 /// that a robot is not refused for it: attributes that URDF does not have, visuals of no size,
-/// materials that are said twice and colours that are none, inertias that are incomplete, no
+/// materials that are said twice and materials whose colour is none, inertias that are incomplete, no
 /// numbers or of negative mass. A floating or planar joint below the root link becomes a fixed one:
 /// where the robot stands is said elsewhere. An attribute within two letters of one of URDF's stays,
 /// to be refused as a slip of the pen.

@@ -79,9 +79,9 @@ TEST(UrdfRepairTest, TheFirstMaterialCountsAndColoursAreFourNumbers) {
       "</material><material name='grey'/></visual></link>");
   EXPECT_EQ(loaded.model.links()[0].visuals[0].colour, Eigen::Vector4d(1, 0, 0, 1));
   EXPECT_THAT(loaded.warnings,
-              ElementsAre(AllOf(HasSubstr("colours that are not"), HasSubstr("'128 0 0 255'")),
-                          HasSubstr("beside another one, left out: of link 'arm' (line 5)"),
-                          HasSubstr("there already, left out: 'grey' (line 3)")));
+              ElementsAre(HasSubstr("beside another one, left out: of link 'arm' (line 5)"),
+                          HasSubstr("there already, left out: 'grey' (line 3)"),
+                          HasSubstr("four numbers from 0 to 1, left out: 'loud' (line 4)")));
 }
 
 TEST(UrdfRepairTest, VisualsOfNoSizeAreNotDrawn) {
