@@ -236,7 +236,7 @@ TEST_F(EvalTest, TakesRobotsInXacroWithTheirArguments) {
                               .Write("arm.xacro", R"(<robot name="arm" xmlns:xacro="x">
 <xacro:arg name="length" default="1"/><link name="base"/><link name="tip"/>
 <joint name="turn" type="continuous"><parent link="base"/><child link="tip"/>
-<origin xyz="$(arg length) 0 0"/><axis xyz="0 0 1"/></joint></robot>)")
+<origin xyz="$(arg length) 0 0"/><axis xyz="0 0 1"/><limit effort="1" velocity="1"/></joint></robot>)")
                               .string();
   const auto answers = Eval("RobotKinematics --model arm=" + arm +
                                 " --argument arm.length=0.25 --params '{\"model\":\"arm\"}'",

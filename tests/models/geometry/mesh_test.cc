@@ -210,7 +210,7 @@ TEST(MeshTest, TakesAFlatMeshAndRefusesAPoint) {
   const test::TemporaryFolder folder;
   EXPECT_EQ(RefusalOf(folder.Write("one.stl", BinaryStl({Tetrahedron()[0]}))), "accepted");
   EXPECT_THAT(RefusalOf(folder.Write("point.obj", "v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n")),
-              HasSubstr("size out of range; got 0 m"));
+              HasSubstr("point.obj: too few points for a convex hull"));
 }
 
 TEST(MeshTest, RefusesVerticesThatAreNotFinite) {
