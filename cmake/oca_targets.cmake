@@ -20,8 +20,8 @@ endforeach()
 
 # oca_library(NAME [FOLDERS...] [PUBLIC_HEADERS...|INTERNAL_HEADERS...] LINK... PRIVATE_LINK...) makes
 # oca::NAME of the sources and headers in this folder, and in its FOLDERS. Its headers are public, and
-# so installed: PUBLIC_HEADERS, or all but INTERNAL_HEADERS. PRIVATE_LINK are the third-party libraries
-# that no public header shows.
+# so installed: PUBLIC_HEADERS, or all but INTERNAL_HEADERS and those of a namespace `internal`.
+# PRIVATE_LINK are the third-party libraries that no public header shows.
 function(oca_library name)
   cmake_parse_arguments(arg "" "" "FOLDERS;PUBLIC_HEADERS;INTERNAL_HEADERS;LINK;PRIVATE_LINK" ${ARGN})
   set(sources)
@@ -36,6 +36,13 @@ function(oca_library name)
     set(headers ${arg_PUBLIC_HEADERS})
   endif()
   list(REMOVE_ITEM headers "" ${arg_INTERNAL_HEADERS})
+  foreach(header ${headers})
+    file(STRINGS ${header} internal REGEX "^namespace oca(::[a-z]+)*::internal {")
+    file(STRINGS ${header} public REGEX "^namespace oca(::[a-z]+)* {")
+    if(internal AND "${public}" STREQUAL "${internal}")
+      list(REMOVE_ITEM headers ${header})
+    endif()
+  endforeach()
   file(RELATIVE_PATH room ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
   list(TRANSFORM headers PREPEND ${OCA_INCLUDE_DIR}/oca/${room}/)
   add_library(oca_${name} STATIC ${sources})

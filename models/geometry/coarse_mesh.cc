@@ -9,6 +9,8 @@
 #include <numeric>
 #include <utility>
 
+#include "oca/models/geometry/grid_cells.h"
+
 namespace oca::geometry::internal {
 namespace {
 
@@ -18,38 +20,14 @@ using Triangle = std::array<int, 3>;
 constexpr double kFinestCell = 1e-3;  // cell, of the diagonal
 constexpr double kLeast = 1.2;        // by which cells grow
 
-struct Span {
-  Vector3d low;
-  double diagonal;
-};
-
-Span SpanOf(const std::vector<Vector3d>& points) {
-  Vector3d low = points.front(), high = low;
-  for (const Vector3d& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  return {low, (high - low).norm()};
-}
-
 /// For each vertex the number of its cell, of those that hold any, in the order of the grid.
-std::vector<int> CellsOf(const std::vector<Vector3d>& points, const Span& span, double cell) {
-  struct Placed {
-    std::array<long, 3> cell;
-    std::size_t index;
-    auto operator<=>(const Placed&) const = default;
-  };
-  std::vector<Placed> placed;
-  placed.reserve(points.size());
-  for (const Vector3d& p : points) {
-    const Vector3d at = (p - span.low) / cell;
-    placed.push_back({{std::lround(std::floor(at.x())), std::lround(std::floor(at.y())),
-                       std::lround(std::floor(at.z()))},
-                      placed.size()});
-  }
-  std::sort(placed.begin(), placed.end());
+std::vector<int> CellsOf(const std::vector<Vector3d>& points, const Extent& extent, double cell) {
+  const std::vector<InCell> sorted = SortedByCell(points, extent.low, cell, std::floor);
   std::vector<int> cells(points.size());
   int number = 0;
-  for (std::size_t i = 0; i < placed.size(); ++i) {
-    if (i > 0 && placed[i].cell != placed[i - 1].cell) ++number;
-    cells[placed[i].index] = number;
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    if (i > 0 && sorted[i].cell != sorted[i - 1].cell) ++number;
+    cells[sorted[i].index] = number;
   }
   return cells;
 }
@@ -126,15 +104,16 @@ CoarseMesh Coarsen(const TriangleMesh& mesh, std::size_t most) {
     std::iota(result.nearest.begin(), result.nearest.end(), 0);
     return result;
   }
-  const Span span = SpanOf(mesh.vertices);
-  double cell = kFinestCell * std::max(span.diagonal, std::numeric_limits<double>::min());
-  std::vector<int> cells = CellsOf(mesh.vertices, span, cell);
+  const Extent extent(mesh.vertices);
+  const double diagonal = (extent.high - extent.low).norm();
+  double cell = kFinestCell * std::max(diagonal, std::numeric_limits<double>::min());
+  std::vector<int> cells = CellsOf(mesh.vertices, extent, cell);
   std::vector<Between> between = Spanning(mesh, cells);
   for (std::size_t count = CountDistinct(between); count > most; count = CountDistinct(between)) {
     // Triangles of a surface become fewer with the square of the edge.
     cell *=
         std::max(kLeast, 0.8 * std::sqrt(static_cast<double>(count) / static_cast<double>(most)));
-    cells = CellsOf(mesh.vertices, span, cell);
+    cells = CellsOf(mesh.vertices, extent, cell);
     between = Spanning(mesh, cells);
   }
   result.mesh = {Means(mesh.vertices, cells), {}};

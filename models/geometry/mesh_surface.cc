@@ -12,6 +12,7 @@
 
 #include "oca/models/file_cache.h"
 #include "oca/models/geometry/flat_points.h"
+#include "oca/models/geometry/grid_cells.h"
 
 namespace oca::geometry {
 namespace {
@@ -48,27 +49,14 @@ bool IsClosed(const TriangleMesh& mesh) {
 
 // For each point the first one that lies in the same cell.
 std::vector<std::size_t> FirstInCell(const std::vector<Vector3d>& points) {
-  Vector3d low = points.front(), high = low;
-  for (const Vector3d& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  const double cell = kWeld * std::max((high - low).maxCoeff(), 1e-300);
-  struct Placed {
-    std::array<long, 3> cell;
-    std::size_t index;
-    auto operator<=>(const Placed&) const = default;
-  };
-  std::vector<Placed> placed;
-  placed.reserve(points.size());
-  for (const Vector3d& p : points) {
-    const Vector3d at = (p - low) / cell;
-    placed.push_back(
-        {{std::lround(at.x()), std::lround(at.y()), std::lround(at.z())}, placed.size()});
-  }
-  std::sort(placed.begin(), placed.end());
+  const internal::Extent extent(points);
+  const double cell = kWeld * std::max((extent.high - extent.low).maxCoeff(), 1e-300);
+  const auto sorted = internal::SortedByCell(points, extent.low, cell, std::round);
   std::vector<std::size_t> first(points.size());
   std::size_t group = 0;
-  for (std::size_t i = 0; i < placed.size(); ++i) {
-    if (placed[i].cell != placed[group].cell) group = i;
-    first[placed[i].index] = placed[group].index;
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    if (sorted[i].cell != sorted[group].cell) group = i;
+    first[sorted[i].index] = sorted[group].index;
   }
   return first;
 }

@@ -3,9 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <random>
 
 #include "oca/framework/dataflow/error.h"
@@ -24,10 +25,11 @@ std::string Repeat(const std::string& text, int times) {
   return result;
 }
 
+/// Of the processor, so that what else runs does not count.
 double SecondsOf(const std::function<void()>& action) {
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   action();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
 std::string Refusal(const fs::path& file) {
@@ -39,13 +41,12 @@ std::string Refusal(const fs::path& file) {
   }
 }
 
-TEST(YamlHostileTest, AFileOfAHundredMegabytesIsRefusedUnread) {
+TEST(YamlHostileTest, AFileLargerThanTheMemoryIsRefusedUnread) {
   const test::TemporaryFolder folder;
   const fs::path file = folder.Write("large.yaml", "a: 1\n");
-  fs::resize_file(file, 100'000'000);
-  std::string refusal;
-  EXPECT_LT(SecondsOf([&] { refusal = Refusal(file); }), 2.0);
-  EXPECT_THAT(refusal, HasSubstr("large.yaml: error: got 100000000 bytes; expected at most"));
+  fs::resize_file(file, 1'000'000'000'000);  // a hole
+  EXPECT_THAT(Refusal(file),
+              HasSubstr("large.yaml: error: got 1000000000000 bytes; expected at most"));
 }
 
 TEST(YamlHostileTest, TheLargestFileIsReadAndAByteMoreIsNot) {
@@ -105,13 +106,19 @@ TEST(YamlHostileTest, AStrayBracketEndsTheReading) {
   }
 }
 
-TEST(YamlHostileTest, LargeFlatFilesAreReadOrRefusedQuickly) {
-  std::string keys, list = "a: [";
+TEST(YamlHostileTest, AMapOfTooManyKeysIsRefused) {
+  std::string keys;
   for (int i = 0; i < 500000; ++i) keys += "k" + std::to_string(i) + ": 1\n";
-  for (int i = 0; i < 100000; ++i) list += "1.5, ";
-  EXPECT_LT(SecondsOf([&] { EXPECT_THAT(YamlText(keys).problems, HasSubstr("keys in one map")); }),
-            120.0);
-  EXPECT_LT(SecondsOf([&] { EXPECT_EQ(YamlText(list + "1]").problems, ""); }), 120.0);
+  EXPECT_THAT(YamlText(keys).problems, HasSubstr("keys in one map"));
+}
+
+TEST(YamlHostileTest, FourTimesTheListTakesLittleMoreThanFourTimesTheTime) {
+  const auto seconds = [](int numbers) {
+    const std::string list = "a: [" + Repeat("1.5, ", numbers) + "1]";
+    return SecondsOf([&] { EXPECT_EQ(YamlText(list).problems, ""); });
+  };
+  const double few = seconds(50000);
+  EXPECT_LT(seconds(200000), 10.0 * few);  // of the square it would be 16
 }
 
 TEST(YamlHostileTest, AFileFullOfErrorsGivesAReportThatAPersonCanRead) {
