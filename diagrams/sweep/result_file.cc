@@ -11,8 +11,10 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <set>
 #include <string_view>
+#include <tuple>
 
 #include "oca/framework/dataflow/error.h"
 
@@ -99,11 +101,18 @@ int OpenToAppend(const fs::path& file) {
 Results ReadResults(const fs::path& file, std::size_t* end) {
   const std::string text = ReadText(file);
   Results results;
+  std::map<std::tuple<std::int64_t, int>, std::string> known;
   const std::size_t stop = ForEachLine(text, file, [&](int number, const std::string& line) {
     if (number == 1) {
       results.campaign = Campaign::FromHeader(line);
-    } else {
-      results.rows.push_back(SampleRow::FromLine(line));
+      return;
+    }
+    SampleRow row = SampleRow::FromLine(line);
+    const auto [first, fresh] = known.emplace(row.key(), line);
+    if (fresh) {
+      results.rows.push_back(std::move(row));
+    } else if (first->second != line) {
+      throw ConfigError(fmt::format("sample {}; got two results of it; expected one", row.sample));
     }
   });
   if (end != nullptr) *end = stop;

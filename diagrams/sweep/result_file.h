@@ -20,7 +20,9 @@ struct Results {
 
 /// Reads a results file and, if it is there, the timings file beside it. What follows the last
 /// good line was cut off in the middle of a write and is left out; `end` tells where it begins.
-/// throws ConfigError if it cannot be read, or a line before the last one is none.
+/// A row that is there twice counts once.
+/// throws ConfigError if it cannot be read, or a line before the last one is none or gives a sample
+///        another result than the line before that has it.
 Results ReadResults(const std::filesystem::path& file, std::size_t* end = nullptr);
 
 /// Writes the campaign and its rows, a line each, under another name first.

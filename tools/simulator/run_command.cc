@@ -81,7 +81,10 @@ int RunCommand(const RunArguments& arguments, const files::Catalogue& catalogue)
   const std::vector<files::Override> overrides = OverridesOf(arguments);
   StderrLog log(arguments.log_level);
   if (arguments.live) return RunLiveCommand(arguments, overrides, catalogue, &log);
+  // What a record brings along is put into a folder, which must go whenever the program ends.
+  if (record::IsRecord(arguments.file)) CatchInterrupts();
   const record::RunSource source(arguments.file, overrides, catalogue);
+  if (Interrupted()) return kInterrupted;
   const loading::LoadedDiagram& loaded = source.loaded();
   RunFiles files(arguments.files, overrides);
   std::optional<ProgressBar> bar;
