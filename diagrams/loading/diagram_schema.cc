@@ -21,6 +21,11 @@ ordered_json MapOf(const ordered_json& items) {
   return {{"type", "object"}, {"additionalProperties", items}};
 }
 
+bool TakesText(const ordered_json& type) {
+  return type == "string" ||
+         (type.is_array() && std::find(type.begin(), type.end(), "string") != type.end());
+}
+
 /// What is no text may also be given as "${...}". Said beside the type, not as an alternative, so
 /// that an editor says of a wrong number what is wrong with it.
 void AllowExpressions(ordered_json& schema) {
@@ -36,7 +41,7 @@ void AllowExpressions(ordered_json& schema) {
     schema.erase("enum");
     schema["anyOf"] =
         ordered_json::array({std::move(names), {{"type", "string"}, {"pattern", expression}}});
-  } else if (schema.contains("type") && schema["type"] != "object" && schema["type"] != "string") {
+  } else if (schema.contains("type") && schema["type"] != "object" && !TakesText(schema["type"])) {
     if (!schema["type"].is_array()) schema["type"] = ordered_json::array({schema["type"]});
     schema["type"].push_back("string");
     schema["pattern"] = expression;
