@@ -45,9 +45,10 @@ struct Read {
   std::vector<std::string> lines;
 };
 
-/// All of `params` but the pose of its base, which is the world's frame.
-Read ReadModel(const std::string& where, const ModelParams& params, const PackageMap& packages) {
-  Read read;
+/// All of `params` but the pose of its base, which is the world's frame. Fills the lines also if it
+/// throws.
+void ReadModel(const std::string& where, const ModelParams& params, const PackageMap& packages,
+               Read& read) {
   const Warn tell = [&read](const std::string& line) { read.lines.push_back(line); };
   robot::LoadOptions options;
   options.warn = [&](const std::string& line) { tell(fmt::format("{}: {}", where, line)); };
@@ -70,7 +71,6 @@ Read ReadModel(const std::string& where, const ModelParams& params, const Packag
       robot::AttachObjects(robot, MakeAttached(params.attached, where, tell)));
   const std::string unseen = robot::DescribeUnseen(*read.model, "visual_as_collision: missing");
   if (!unseen.empty()) tell(fmt::format("{}: {}", where, unseen));
-  return read;
 }
 
 template <class Numbers>
@@ -106,11 +106,21 @@ std::shared_ptr<const robot::RobotModel> LoadModel(const std::string& where,
   const Eigen::Isometry3d X_WB = params.base_pose.Pose(where + ".base_pose");
   const std::string form = FormOf(where, params, packages);
   const std::string& file = DescriptionOf(params);
-  const auto read =
-      models::MakeOnce<Read>(file, form, [&] { return ReadModel(where, params, packages); });
-  if (warn) {
-    for (const std::string& line : read->lines) warn(line);
-  }
+  const auto tell = [&warn](const Read& read) {
+    if (!warn) return;
+    for (const std::string& line : read.lines) warn(line);
+  };
+  const auto read = models::MakeOnce<Read>(file, form, [&] {
+    Read fresh;
+    try {
+      ReadModel(where, params, packages, fresh);
+    } catch (const std::runtime_error&) {
+      tell(fresh);
+      throw;
+    }
+    return fresh;
+  });
+  tell(*read);
   const std::string pose = "\nbase " + BytesOf(X_WB.matrix());
   return *models::MakeOnce<ModelPtr>(file, form + pose, [&]() -> ModelPtr {
     return std::make_shared<const robot::RobotModel>(read->model->At(X_WB));

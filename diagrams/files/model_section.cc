@@ -31,6 +31,14 @@ Location LocationOf(const Value& map, const char* key) {
   return value == nullptr ? map.location() : value->location();
 }
 
+/// Where a model's description is named: an entry may be begun in a file that its user did not write.
+Location PlaceOf(const Value::Entry& entry) {
+  for (const char* key : {"urdf", "xacro"}) {
+    if (const Value* const file = entry.value.Find(key)) return file->location();
+  }
+  return entry.location;
+}
+
 /// Of a list or map: whether something in it was made anew.
 bool IsOther(const Value& made, const Value& from) {
   return (from.list() != nullptr || from.map() != nullptr) && !made.Shares(from);
@@ -120,14 +128,18 @@ void ModelSection::ReadModel(const Value::Entry& entry, const std::string& full_
       sources_[entry.key] = {where, read->params, packages_};
     }
   } catch (const std::runtime_error& error) {
-    thrown.Add(entry.location, fmt::format("{}: {}", where, error.what()));
+    const std::string text = error.what();
+    for (std::size_t from = 0, end = 0; end != std::string::npos; from = end + 1) {
+      end = text.find('\n', from);
+      thrown.Add(PlaceOf(entry), fmt::format("{}: {}", where, text.substr(from, end - from)));
+    }
   }
   const Read& found = read == nullptr ? fresh : *read;
   failed_ = failed_ || found.model == nullptr || !thrown.empty();
   problems_.Add(found.problems);
   problems_.Add(thrown);
   for (const std::string& line : found.warnings) {
-    warnings_.push_back({entry.location, line, Diagnostic::Kind::kWarning});
+    warnings_.push_back({PlaceOf(entry), line, Diagnostic::Kind::kWarning});
   }
 }
 

@@ -188,7 +188,7 @@ std::vector<std::string> LimitWarnings(const RobotModel& model) {
       },
       lines);
   WarnOfAll(
-      model, "effort limit 0; counts as not given, and no method of avoidance reads it",
+      model, "no effort limit, or 0; counts as not given, and no method of avoidance reads it",
       [](const Joint& joint) { return joint.effort_limit == 0.0; }, lines);
   WarnOfRanges(model, lines);
   WarnOfMimics(model, lines);

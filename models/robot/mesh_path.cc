@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <string_view>
 #include <vector>
 
@@ -14,24 +15,37 @@
 namespace oca::robot {
 namespace {
 
+constexpr std::string_view kPackage = "package://";
+
+/// NAME of package://NAME/rest; empty for another one.
+std::string PackageOf(const std::string& mesh) {
+  if (!mesh.starts_with(kPackage)) return {};
+  return mesh.substr(kPackage.size(), mesh.find('/', kPackage.size()) - kPackage.size());
+}
+
+/// Where a package may lie.
+std::vector<std::filesystem::path> FoldersOf(const std::string& package,
+                                             const LoadOptions& options) {
+  std::vector<std::filesystem::path> folders;
+  if (options.find_package) {
+    const std::filesystem::path found = options.find_package(package);
+    if (!found.empty()) folders.push_back(found);
+  }
+  for (const auto& folder : options.package_directories) folders.push_back(folder / package);
+  return folders;
+}
+
 std::vector<std::filesystem::path> Candidates(const std::string& name,
                                               const std::filesystem::path& directory,
                                               const LoadOptions& options) {
-  constexpr std::string_view kPackage = "package://";
   constexpr std::string_view kFile = "file://";
   if (name.starts_with(kFile)) return {directory / name.substr(kFile.size())};
   if (!name.starts_with(kPackage)) return {directory / name};
-  const std::size_t slash = std::min(name.find('/', kPackage.size()), name.size());
-  const std::string package = name.substr(kPackage.size(), slash - kPackage.size());
+  const std::string package = PackageOf(name);
+  const std::size_t slash = kPackage.size() + package.size();
   const std::string rest = slash < name.size() ? name.substr(slash + 1) : "";
-  std::vector<std::filesystem::path> candidates;
-  if (options.find_package) {
-    const std::filesystem::path found = options.find_package(package);
-    if (!found.empty()) candidates.push_back(found / rest);
-  }
-  for (const auto& folder : options.package_directories) {
-    candidates.push_back(folder / package / rest);
-  }
+  std::vector<std::filesystem::path> candidates = FoldersOf(package, options);
+  for (std::filesystem::path& folder : candidates) folder /= rest;
   return candidates;
 }
 
@@ -51,6 +65,23 @@ std::filesystem::path FirstFile(const std::vector<std::filesystem::path>& candid
                                        where, name, tried.empty() ? "a known package" : tried));
 }
 
+/// A message for meshes of a package that lies at none of `folders`.
+std::string LostPackage(const std::string& package, const std::vector<NeededMesh>& meshes,
+                        const std::vector<std::filesystem::path>& folders) {
+  constexpr std::size_t kShown = 3;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(kShown, meshes.size()); ++i) {
+    names += (i == 0 ? "" : ", ") + fmt::format("'{}'", meshes[i].name);
+    if (i > 0) names += fmt::format(" ({})", meshes[i].where);
+  }
+  if (meshes.size() > kShown) names += fmt::format(" and {} more", meshes.size() - kShown);
+  std::string places;
+  for (const auto& folder : folders) places += (places.empty() ? "" : " or ") + folder.string();
+  return fmt::format("{}: missing mesh file, for there is no package '{}'; got {}; expected {}",
+                     meshes.front().where, package, names,
+                     places.empty() ? "a known package" : "its folder at " + places);
+}
+
 }  // namespace
 
 std::filesystem::path FindMesh(const std::string& name, const std::filesystem::path& directory,
@@ -60,6 +91,27 @@ std::filesystem::path FindMesh(const std::string& name, const std::filesystem::p
   for (const std::filesystem::path& candidate : candidates) places += candidate.native() + '\n';
   return *models::ReadOnce<std::filesystem::path>(
       name, places, [&] { return FirstFile(candidates, name, where); });
+}
+
+void CheckMeshes(const std::vector<NeededMesh>& meshes, const std::filesystem::path& directory,
+                 const LoadOptions& options, models::ModelErrors& errors) {
+  std::map<std::string, std::vector<NeededMesh>> lost;  // by the package that is nowhere
+  for (const NeededMesh& mesh : meshes) {
+    const std::string package = PackageOf(mesh.name);
+    const auto is_folder = [](const std::filesystem::path& folder) {
+      std::error_code error;
+      return std::filesystem::is_directory(folder, error);
+    };
+    const auto folders = FoldersOf(package, options);
+    if (!package.empty() && std::none_of(folders.begin(), folders.end(), is_folder)) {
+      lost[package].push_back(mesh);
+    } else {
+      errors.Try([&] { FindMesh(mesh.name, directory, options, mesh.where); });
+    }
+  }
+  for (const auto& entry : lost) {
+    errors.Add(LostPackage(entry.first, entry.second, FoldersOf(entry.first, options)));
+  }
 }
 
 }  // namespace oca::robot

@@ -3,7 +3,9 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "oca/models/error.h"
 #include "oca/models/robot/urdf.h"
 
 namespace oca::robot {
@@ -13,5 +15,15 @@ namespace oca::robot {
 /// throws ModelError if there is no such file, with the places looked at
 std::filesystem::path FindMesh(const std::string& name, const std::filesystem::path& directory,
                                const LoadOptions& options, const std::string& where);
+
+/// A mesh that a robot cannot be without; `where` begins the message.
+struct NeededMesh {
+  std::string name, where;
+};
+
+/// Adds an error for each that FindMesh does not find, but one for all those of a package that is
+/// nowhere.
+void CheckMeshes(const std::vector<NeededMesh>& meshes, const std::filesystem::path& directory,
+                 const LoadOptions& options, models::ModelErrors& errors);
 
 }  // namespace oca::robot

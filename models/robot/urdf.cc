@@ -5,7 +5,6 @@
 #include <tinyxml.h>
 
 #include <algorithm>
-#include <unordered_map>
 
 #include "oca/models/error.h"
 #include "oca/models/geometry/decomposition.h"
@@ -43,13 +42,18 @@ class UrdfReader {
 
   RobotModel Read(const std::string& text) {
     const XmlDocument document = ParseXml(text, where_);
-    const std::vector<std::string> repairs = RepairUrdf(*document->RootElement());
-    outline_ = ReadUrdfOutline(*document->RootElement(), where_);
-    CheckUrdfTree(outline_, where_);
-    parsed_ = ParseWithUrdfdom(repairs.empty() ? text : TextOf(*document), where_);
-    OrderTree();
-    for (const std::size_t joint : joint_order_) joints_.push_back(ReadJoint(joint));
-    for (const std::size_t link : link_order_) links_.push_back(ReadLink(outline_.links[link]));
+    for (const std::string& line : RepairUrdf(*document->RootElement())) {
+      if (options_.warn) options_.warn(line);
+    }
+    outline_ = ReadUrdfOutline(*document->RootElement(), where_, errors_);
+    if (errors_.empty()) CheckUrdfTree(outline_, where_, errors_);
+    CheckMeshes(NeededMeshes(), directory_, options_, errors_);
+    errors_.Throw();
+    parsed_ = ParseWithUrdfdom(TextOf(*document), where_);
+    order_ = OrderUrdf(outline_);
+    for (const std::size_t joint : order_.joints) joints_.push_back(ReadJoint(joint));
+    for (const std::size_t link : order_.links) links_.push_back(ReadLink(outline_.links[link]));
+    errors_.Throw();
     ApplyLimits(options_.acceleration_limits, "acceleration_limits", &Joint::acceleration_limit);
     ApplyLimits(options_.jerk_limits, "jerk_limits", &Joint::jerk_limit);
     std::vector<std::pair<int, int>> disabled;
@@ -63,7 +67,6 @@ class UrdfReader {
       RobotModel model(models::Name(outline_.robot_name), std::move(links_), std::move(joints_),
                        options_.X_WB, std::move(disabled));
       if (options_.warn) {
-        for (const std::string& line : repairs) options_.warn(line);
         WarnOfMissingVisuals();
         if (const std::string line = InertiaWarning(model); !line.empty()) options_.warn(line);
         for (const UrdfOutline::Joint& joint : outline_.joints) {
@@ -80,40 +83,13 @@ class UrdfReader {
   }
 
  private:
-  // Depth first, children in the order of the file's joints, without recursion.
-  void OrderTree() {
-    std::unordered_map<std::string, std::size_t> link_of_name;
-    for (std::size_t i = 0; i < outline_.links.size(); ++i)
-      link_of_name[outline_.links[i].name] = i;
-    std::vector<std::vector<std::size_t>> joints_below(outline_.links.size());
-    std::vector<bool> root(outline_.links.size(), true);
-    for (std::size_t j = 0; j < outline_.joints.size(); ++j) {
-      joints_below[link_of_name[outline_.joints[j].parent]].push_back(j);
-      root[link_of_name[outline_.joints[j].child]] = false;
-    }
-    const auto visit = [&](std::size_t link, std::vector<std::size_t>& pending) {
-      number_of_link_[outline_.links[link].name] = static_cast<int>(link_order_.size());
-      link_order_.push_back(link);
-      pending.insert(pending.end(), joints_below[link].rbegin(), joints_below[link].rend());
-    };
-    std::vector<std::size_t> pending;
-    visit(std::find(root.begin(), root.end(), true) - root.begin(), pending);
-    while (!pending.empty()) {
-      const std::size_t joint = pending.back();
-      pending.pop_back();
-      number_of_joint_[outline_.joints[joint].name] = static_cast<int>(joint_order_.size());
-      joint_order_.push_back(joint);
-      visit(link_of_name[outline_.joints[joint].child], pending);
-    }
-  }
-
   Joint ReadJoint(std::size_t index) const {
     const UrdfOutline::Joint& entry = outline_.joints[index];
     const urdf::Joint& from = *parsed_->getJoint(entry.name);
     Joint joint;
     joint.name = models::Name(entry.name);
-    joint.parent_link = number_of_link_.at(entry.parent);
-    joint.child_link = number_of_link_.at(entry.child);
+    joint.parent_link = order_.number_of_link.at(entry.parent);
+    joint.child_link = order_.number_of_link.at(entry.child);
     joint.X_PJ = ToPose(from.parent_to_joint_origin_transform);
     joint.type = from.type == urdf::Joint::REVOLUTE     ? JointType::kRevolute
                  : from.type == urdf::Joint::CONTINUOUS ? JointType::kContinuous
@@ -133,19 +109,19 @@ class UrdfReader {
     joint.jerk_limit = entry.jerk.value_or(kUnlimited);
     if (!entry.mimic.empty()) {
       joint.mimic =
-          Mimic{number_of_joint_.at(entry.mimic), from.mimic->multiplier, from.mimic->offset};
+          Mimic{order_.number_of_joint.at(entry.mimic), from.mimic->multiplier, from.mimic->offset};
     }
     return joint;
   }
 
   Link ReadLink(const UrdfOutline::Link& entry) {
     const urdf::Link& from = *parsed_->getLink(entry.name);
-    if (from.collision_array.size() != entry.collision_lines.size() ||
-        from.visual_array.size() != entry.visual_lines.size()) {
+    if (from.collision_array.size() != entry.collisions.size() ||
+        from.visual_array.size() != entry.visuals.size()) {
       throw models::ModelError(fmt::format(
           "{}:{}: link '{}': urdfdom; got {} collision and {} visual elements; expected {} and {}",
           where_, entry.line, entry.name, from.collision_array.size(), from.visual_array.size(),
-          entry.collision_lines.size(), entry.visual_lines.size()));
+          entry.collisions.size(), entry.visuals.size()));
     }
     Link link;
     link.name = models::Name(entry.name);
@@ -153,35 +129,57 @@ class UrdfReader {
     for (std::size_t i = 0; i < from.visual_array.size(); ++i) {
       const auto visual = ReadVisual(
           *from.visual_array[i],
-          fmt::format("{}:{}: link '{}' visual", where_, entry.visual_lines[i], entry.name));
+          fmt::format("{}:{}: link '{}' visual", where_, entry.visuals[i].line, entry.name));
       if (visual) link.visuals.push_back(*visual);
     }
     if (from.inertial != nullptr) link.inertia = ReadInertia(*from.inertial);
     return link;
   }
 
-  // Those of its own, or what is drawn of it.
+  /// Whether what is drawn of the link stands for its collision shapes.
+  bool Drawn(const UrdfOutline::Link& link) const {
+    if (options_.visual_as_collision == VisualAsCollision::kAll) return !link.visuals.empty();
+    return options_.visual_as_collision == VisualAsCollision::kMissing && link.collisions.empty();
+  }
+
+  std::string WhereIs(const UrdfOutline::Link& link, const UrdfOutline::Element& element,
+                      const char* kind) const {
+    return fmt::format("{}: link '{}' {}", Source(element), link.name, kind);
+  }
+  std::string Source(const UrdfOutline::Element& element) const {
+    const std::string line = fmt::format("{}:{}", where_, element.line);
+    return expanded_ == nullptr ? line : expanded_->WithPlaces(line, where_);
+  }
+
+  std::vector<NeededMesh> NeededMeshes() const {
+    std::vector<NeededMesh> meshes;
+    for (const UrdfOutline::Link& link : outline_.links) {
+      const bool drawn = Drawn(link);
+      for (const UrdfOutline::Element& element : drawn ? link.visuals : link.collisions) {
+        if (element.mesh.empty()) continue;
+        meshes.push_back({element.mesh, WhereIs(link, element, drawn ? "visual" : "collision")});
+      }
+    }
+    return meshes;
+  }
+
   std::vector<CollisionElement> ReadCollisions(const UrdfOutline::Link& entry,
-                                               const urdf::Link& from) const {
-    const bool drawn = options_.visual_as_collision == VisualAsCollision::kAll
-                           ? !from.visual_array.empty()
-                           : options_.visual_as_collision == VisualAsCollision::kMissing &&
-                                 from.collision_array.empty();
-    return drawn ? ReadSolids(entry.name, entry.visual_lines, from.visual_array, "visual")
-                 : ReadSolids(entry.name, entry.collision_lines, from.collision_array, "collision");
+                                               const urdf::Link& from) {
+    return Drawn(entry) ? ReadSolids(entry, entry.visuals, from.visual_array, "visual")
+                        : ReadSolids(entry, entry.collisions, from.collision_array, "collision");
   }
 
   template <class Element>
-  std::vector<CollisionElement> ReadSolids(const std::string& link, const std::vector<int>& lines,
-                                           const std::vector<Element>& elements,
-                                           const char* kind) const {
+  std::vector<CollisionElement> ReadSolids(const UrdfOutline::Link& link,
+                                           const std::vector<UrdfOutline::Element>& outlines,
+                                           const std::vector<Element>& elements, const char* kind) {
     std::vector<CollisionElement> solids;
     for (std::size_t i = 0; i < elements.size(); ++i) {
-      const std::string line = fmt::format("{}:{}", where_, lines[i]);
-      const std::string source = expanded_ == nullptr ? line : expanded_->WithPlaces(line, where_);
-      const std::string where = fmt::format("{}: link '{}' {}", source, link, kind);
-      solids.push_back({ToPose(elements[i]->origin),
-                        ReadShape(*elements[i]->geometry, link, kind, where), source});
+      errors_.Try([&] {
+        geometry::Shape shape =
+            ReadShape(*elements[i]->geometry, link.name, kind, WhereIs(link, outlines[i], kind));
+        solids.push_back({ToPose(elements[i]->origin), std::move(shape), Source(outlines[i])});
+      });
     }
     return solids;
   }
@@ -288,10 +286,10 @@ class UrdfReader {
   const LoadOptions& options_;
   const std::filesystem::path& directory_;
   const ExpandedXacro* const expanded_;
+  models::ModelErrors errors_;
   UrdfOutline outline_;
   std::shared_ptr<urdf::ModelInterface> parsed_;
-  std::vector<std::size_t> link_order_, joint_order_;  // places in the outline
-  std::unordered_map<std::string, int> number_of_link_, number_of_joint_;
+  UrdfOrder order_;
   std::vector<Link> links_;
   std::vector<Joint> joints_;
   std::vector<std::string> missing_visuals_;  // why each one is not drawn

@@ -16,23 +16,34 @@ namespace {
 
 class OutlineReader {
  public:
-  explicit OutlineReader(const std::string& where) : xml_(where) {}
+  OutlineReader(const std::string& where, models::ModelErrors& errors)
+      : xml_(where), errors_(errors) {}
 
   UrdfOutline Read(const TiXmlElement& root) {
     if (root.ValueStr() != "robot") xml_.Fail(root, "root element", root.ValueStr(), "robot");
     xml_.CheckExpanded(root);
-    xml_.CheckChildren(root, {}, {"link", "joint", "material", "transmission", "gazebo", "sensor"});
+    Try([&] {
+      xml_.CheckChildren(root, {},
+                         {"link", "joint", "material", "transmission", "gazebo", "sensor"});
+    });
     UrdfOutline outline;
-    outline.robot_name = xml_.Text(root, "name");
+    Try([&] { outline.robot_name = xml_.Text(root, "name"); });
     for (auto* e = root.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
       if (e->ValueStr() == "link") outline.links.push_back(ReadLink(*e));
       if (e->ValueStr() == "joint") outline.joints.push_back(ReadJoint(*e));
     }
-    if (outline.links.empty()) xml_.Fail(root, "links", "none", "at least one <link>");
+    Try([&] {
+      if (outline.links.empty()) xml_.Fail(root, "links", "none", "at least one <link>");
+    });
     return outline;
   }
 
  private:
+  template <class Part>
+  void Try(const Part& part) const {
+    errors_.Try(part);
+  }
+
   std::string ReadName(const TiXmlElement& element, std::set<std::string>& taken) const {
     std::string name = xml_.Text(element, "name");
     if (!taken.insert(name).second) {
@@ -42,16 +53,23 @@ class OutlineReader {
   }
 
   UrdfOutline::Link ReadLink(const TiXmlElement& element) {
-    UrdfOutline::Link link{ReadName(element, link_names_), element.Row(), {}, {}};
-    xml_.CheckChildren(element, {"inertial"}, {"visual", "collision", "contact", "sensor"});
+    UrdfOutline::Link link;
+    link.line = element.Row();
+    Try([&] { link.name = ReadName(element, link_names_); });
+    Try([&] {
+      xml_.CheckChildren(element, {"inertial"}, {"visual", "collision", "contact", "sensor"});
+    });
     for (auto* e = element.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
       const bool collision = e->ValueStr() == "collision";
       if (!collision && e->ValueStr() != "visual") continue;
-      xml_.CheckChildren(*e, {"origin", "geometry", "material"},
-                         {"contact_coefficients", "verbose"});
-      CheckOrigin(*e);
-      CheckGeometry(*e);
-      (collision ? link.collision_lines : link.visual_lines).push_back(e->Row());
+      Try([&] {
+        xml_.CheckChildren(*e, {"origin", "geometry", "material"},
+                           {"contact_coefficients", "verbose"});
+      });
+      Try([&] { CheckOrigin(*e); });
+      UrdfOutline::Element body{e->Row()};
+      Try([&] { body.mesh = CheckGeometry(*e); });
+      (collision ? link.collisions : link.visuals).push_back(std::move(body));
     }
     return link;
   }
@@ -71,7 +89,8 @@ class OutlineReader {
     }
   }
 
-  void CheckGeometry(const TiXmlElement& element) const {
+  /// Returns the file of a mesh.
+  std::string CheckGeometry(const TiXmlElement& element) const {
     const auto* geometry = element.FirstChildElement("geometry");
     if (geometry == nullptr) xml_.Fail(element, "geometry", "none", "a <geometry>");
     const auto* shape = geometry->FirstChildElement();
@@ -90,30 +109,46 @@ class OutlineReader {
       xml_.CheckAttributes(*shape, {"size"});
       xml_.Positive(*shape, "size", 3);
     } else if (kind == "mesh") {
-      CheckMesh(*shape);
+      return CheckMesh(*shape);
     } else {
       xml_.Fail(*shape, "unknown geometry", kind,
                 "sphere, box, cylinder or mesh (a capsule is a cylinder and two spheres)");
     }
+    return {};
   }
 
-  void CheckMesh(const TiXmlElement& mesh) const {
+  std::string CheckMesh(const TiXmlElement& mesh) const {
     xml_.CheckAttributes(mesh, {"filename", "scale"});
-    xml_.Text(mesh, "filename");
+    std::string file = xml_.Text(mesh, "filename");
     const auto scale = xml_.Numbers(mesh, "scale", 3);
     if (std::find(scale.begin(), scale.end(), 0.0) != scale.end()) {
       xml_.Fail(mesh, "scale", fmt::format("'{}'", mesh.Attribute("scale")), "no zero");
     }
+    return file;
   }
 
   UrdfOutline::Joint ReadJoint(const TiXmlElement& element) {
     UrdfOutline::Joint joint;
-    joint.name = ReadName(element, joint_names_);
     joint.line = element.Row();
-    xml_.CheckChildren(element,
-                       {"origin", "parent", "child", "axis", "limit", "mimic", "dynamics",
-                        "safety_controller", "calibration"},
-                       {});
+    Try([&] { joint.name = ReadName(element, joint_names_); });
+    Try([&] {
+      xml_.CheckChildren(element,
+                         {"origin", "parent", "child", "axis", "limit", "mimic", "dynamics",
+                          "safety_controller", "calibration"},
+                         {});
+    });
+    Try([&] { joint.parent = ReadReference(element, "parent", "link"); });
+    Try([&] { joint.child = ReadReference(element, "child", "link"); });
+    Try([&] { CheckOrigin(element); });
+    Try([&] { ReadMotion(element, joint); });
+    if (const auto* mimic = element.FirstChildElement("mimic"); mimic != nullptr) {
+      Try([&] { joint.mimic = ReadMimic(*mimic); });
+    }
+    return joint;
+  }
+
+  /// What depends on the joint's type.
+  void ReadMotion(const TiXmlElement& element, UrdfOutline::Joint& joint) const {
     const char* text = element.Attribute("type");
     const std::string type = text == nullptr ? "" : text;
     if (type != "fixed" && type != "revolute" && type != "continuous" && type != "prismatic") {
@@ -121,18 +156,15 @@ class OutlineReader {
                 "fixed, revolute, continuous or prismatic");
     }
     joint.fixed = type == "fixed";
-    joint.parent = ReadReference(element, "parent", "link");
-    joint.child = ReadReference(element, "child", "link");
-    CheckOrigin(element);
-    CheckAxis(element, joint.fixed);
-    ReadLimit(element, type, joint);
-    if (const auto* mimic = element.FirstChildElement("mimic"); mimic != nullptr) {
-      xml_.CheckAttributes(*mimic, {"joint", "multiplier", "offset"});
-      joint.mimic = xml_.Text(*mimic, "joint");
-      xml_.Numbers(*mimic, "multiplier", 1);
-      xml_.Numbers(*mimic, "offset", 1);
-    }
-    return joint;
+    Try([&] { CheckAxis(element, joint.fixed); });
+    Try([&] { ReadLimit(element, type, joint); });
+  }
+
+  std::string ReadMimic(const TiXmlElement& mimic) const {
+    xml_.CheckAttributes(mimic, {"joint", "multiplier", "offset"});
+    xml_.Numbers(mimic, "multiplier", 1);
+    xml_.Numbers(mimic, "offset", 1);
+    return xml_.Text(mimic, "joint");
   }
 
   std::string ReadReference(const TiXmlElement& joint, const char* kind,
@@ -168,7 +200,6 @@ class OutlineReader {
       xml_.Fail(*limit, "range", fmt::format("lower {} and upper {}", lower[0], upper[0]),
                 "lower <= upper");
     }
-    CheckNotNegative(*limit, "effort", !joint.fixed);
     CheckNotNegative(*limit, "velocity", !joint.fixed);
     if (limit->Attribute("acceleration") != nullptr) {
       joint.acceleration = xml_.Positive(*limit, "acceleration", 1).front();
@@ -179,13 +210,15 @@ class OutlineReader {
   static constexpr double kLeastAxis = 1e-6;
 
   XmlReader xml_;
+  models::ModelErrors& errors_;
   std::set<std::string> link_names_, joint_names_;
 };
 
 }  // namespace
 
-UrdfOutline ReadUrdfOutline(const TiXmlElement& root, const std::string& where) {
-  return OutlineReader(where).Read(root);
+UrdfOutline ReadUrdfOutline(const TiXmlElement& root, const std::string& where,
+                            models::ModelErrors& errors) {
+  return OutlineReader(where, errors).Read(root);
 }
 
 }  // namespace oca::robot

@@ -62,7 +62,10 @@ class Repair {
     for (auto* e = root.FirstChildElement(); e != nullptr;) {
       auto* const next = e->NextSiblingElement();
       if (e->ValueStr() == "link") ReadLink(*e);
-      if (e->ValueStr() == "joint") HoldRoot(*e, children);
+      if (e->ValueStr() == "joint") {
+        HoldRoot(*e, children);
+        FillEffort(*e);
+      }
       if (e->ValueStr() == "material") {
         if (!HasColour(*e)) {
           Drop(root, *e, kNoColour, NameOf(*e));
@@ -189,6 +192,19 @@ class Repair {
     Note("joints of the root, held where base_pose puts it", joint,
          fmt::format("{} {}", type, NameOf(joint)));
     joint.SetAttribute("type", "fixed");
+  }
+
+  /// No effort, which urdfdom wants, is one of 0: not given (LimitWarnings).
+  void FillEffort(TiXmlElement& joint) {
+    auto* const limit = joint.FirstChildElement("limit");
+    if (limit == nullptr) return;
+    const auto effort = NumbersOf(limit, "effort", 1);
+    if (effort && effort->front() >= 0.0) return;
+    if (const char* const text = limit->Attribute("effort")) {
+      Note("efforts that are no number or below 0, left out", *limit,
+           fmt::format("'{}' of joint {}", text, NameOf(joint)));
+    }
+    limit->SetAttribute("effort", "0");
   }
 
   static std::string NameOf(const TiXmlElement& element) {

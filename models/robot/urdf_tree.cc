@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <unordered_map>
 
 #include "oca/models/error.h"
@@ -27,9 +28,10 @@ std::string Nearest(const std::string& name, const Index& index) {
 
 class TreeChecker {
  public:
-  TreeChecker(const UrdfOutline& outline, const std::string& where)
+  TreeChecker(const UrdfOutline& outline, const std::string& where, models::ModelErrors& errors)
       : outline_(outline),
         where_(where),
+        errors_(errors),
         links_(IndexByName(outline.links)),
         joints_(IndexByName(outline.joints)) {}
 
@@ -37,22 +39,30 @@ class TreeChecker {
     // Follow each link's parent joint; -1 marks a root.
     std::vector<int> parent_joint(outline_.links.size(), -1);
     for (std::size_t j = 0; j < outline_.joints.size(); ++j) {
-      const UrdfOutline::Joint& joint = outline_.joints[j];
-      FindLink(joint, joint.parent, "parent");
-      int& parent = parent_joint[FindLink(joint, joint.child, "child")];
-      if (parent >= 0) {
-        Fail(joint, fmt::format("child link '{}'", joint.child),
-             fmt::format("a loop: joint '{}' leads there too", outline_.joints[parent].name),
-             "one parent a link");
-      }
-      parent = static_cast<int>(j);
+      errors_.Try([&] { Attach(j, parent_joint); });
     }
-    CheckRoots(parent_joint);
-    CheckLoops(parent_joint);
-    for (const UrdfOutline::Joint& joint : outline_.joints) CheckMimic(joint);
+    if (errors_.empty()) {  // else every link that a wrong joint would carry is a root
+      errors_.Try([&] { CheckRoots(parent_joint); });
+      errors_.Try([&] { CheckLoops(parent_joint); });
+    }
+    for (const UrdfOutline::Joint& joint : outline_.joints) {
+      errors_.Try([&] { CheckMimic(joint); });
+    }
   }
 
  private:
+  void Attach(std::size_t index, std::vector<int>& parent_joint) const {
+    const UrdfOutline::Joint& joint = outline_.joints[index];
+    FindLink(joint, joint.parent, "parent");
+    int& parent = parent_joint[FindLink(joint, joint.child, "child")];
+    if (parent >= 0) {
+      Fail(joint, fmt::format("child link '{}'", joint.child),
+           fmt::format("a loop: joint '{}' leads there too", outline_.joints[parent].name),
+           "one parent a link");
+    }
+    parent = static_cast<int>(index);
+  }
+
   [[noreturn]] void Fail(const UrdfOutline::Joint& joint, const std::string& what,
                          const std::string& got, const std::string& expected) const {
     throw models::ModelError(fmt::format("{}:{}: joint '{}': {}; got {}; expected {}", where_,
@@ -122,13 +132,41 @@ class TreeChecker {
 
   const UrdfOutline& outline_;
   const std::string& where_;
+  models::ModelErrors& errors_;
   Index links_, joints_;
 };
 
 }  // namespace
 
-void CheckUrdfTree(const UrdfOutline& outline, const std::string& where) {
-  TreeChecker(outline, where).Check();
+void CheckUrdfTree(const UrdfOutline& outline, const std::string& where,
+                   models::ModelErrors& errors) {
+  TreeChecker(outline, where, errors).Check();
+}
+
+UrdfOrder OrderUrdf(const UrdfOutline& outline) {
+  const Index link_of_name = IndexByName(outline.links);
+  std::vector<std::vector<std::size_t>> joints_below(outline.links.size());
+  std::vector<bool> root(outline.links.size(), true);
+  for (std::size_t j = 0; j < outline.joints.size(); ++j) {
+    joints_below[link_of_name.at(outline.joints[j].parent)].push_back(j);
+    root[link_of_name.at(outline.joints[j].child)] = false;
+  }
+  UrdfOrder order;
+  std::vector<std::size_t> pending;  // joints, without recursion
+  const auto visit = [&](std::size_t link) {
+    order.number_of_link[outline.links[link].name] = static_cast<int>(order.links.size());
+    order.links.push_back(link);
+    pending.insert(pending.end(), joints_below[link].rbegin(), joints_below[link].rend());
+  };
+  visit(static_cast<std::size_t>(std::find(root.begin(), root.end(), true) - root.begin()));
+  while (!pending.empty()) {
+    const std::size_t joint = pending.back();
+    pending.pop_back();
+    order.number_of_joint[outline.joints[joint].name] = static_cast<int>(order.joints.size());
+    order.joints.push_back(joint);
+    visit(link_of_name.at(outline.joints[joint].child));
+  }
+  return order;
 }
 
 }  // namespace oca::robot

@@ -125,7 +125,7 @@ TEST(JointLimitsTest, ZeroMeansNotGiven) {
   EXPECT_EQ(model.effort_limits()[1], kUnlimited);
   EXPECT_THAT(LimitWarnings(model), ElementsAre(StartsWith("joint 'a': velocity limit 0"),
                                                 StartsWith("joint 'c': no velocity limit"),
-                                                StartsWith("joint 'b': effort limit 0")));
+                                                StartsWith("joint 'b': no effort limit, or 0")));
   EXPECT_THAT(LimitWarnings(Chain(3).Model()), IsEmpty());
 }
 

@@ -4,6 +4,9 @@
 
 #include <fstream>
 #include <iterator>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "oca/models/error.h"
 #include "oca/models/robot/urdf.h"
@@ -13,6 +16,7 @@ namespace oca::robot::test {
 namespace urdf_refusal_test {
 
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
@@ -236,6 +240,80 @@ TEST(UrdfRefusalTest, DamagedTextIsReadOrRefusedButNeverCrashes) {
     }
   }
   EXPECT_GT(refused, 1000);
+}
+
+/// What is said of a file, a line each.
+std::vector<std::string> Refusals(const std::string& content, const LoadOptions& options = {}) {
+  std::vector<std::string> lines;
+  try {
+    ParseUrdf(Robot(content), "bad.urdf", options, "/nowhere");
+  } catch (const models::ModelError& error) {
+    std::istringstream text(error.what());
+    for (std::string line; std::getline(text, line);) lines.push_back(line);
+  }
+  return lines;
+}
+
+TEST(UrdfRefusalTest, AllErrorsOfAFileAtOnceEachAtItsLine) {
+  const std::string two_links = R"(<link name='a'><collision><origin xyz='0 0 nan'/>
+<geometry><sphere radius='0'/></geometry></collision></link>
+<link name='b'/><link name='b'/>
+<joint name='j' type='revolute'><parent link='a'/><child link='b'/><axis xyz='0 0 0'/>
+<limit lower='1' upper='0' velocity='1'/></joint>
+<joint name='k' type='screw'><child link='b'/></joint>)";
+  EXPECT_THAT(Refusals(two_links),
+              ElementsAre(AllOf(HasSubstr("bad.urdf:2: link 'a' <origin>: xyz")),
+                          AllOf(HasSubstr("bad.urdf:3: link 'a' <sphere>: radius")),
+                          AllOf(HasSubstr("bad.urdf:4: link 'b' <link>: name")),
+                          AllOf(HasSubstr("bad.urdf:5: joint 'j' <axis>: xyz")),
+                          AllOf(HasSubstr("bad.urdf:6: joint 'j' <limit>: range")),
+                          AllOf(HasSubstr("bad.urdf:7: joint 'k' <joint>: parent")),
+                          AllOf(HasSubstr("bad.urdf:7: joint 'k' <joint>: unsupported joint"))));
+}
+
+TEST(UrdfRefusalTest, AllUnknownNamesOfATreeAtOnce) {
+  EXPECT_THAT(Refusals(R"(<link name='a'/><link name='b'/>
+<joint name='j' type='fixed'><parent link='x'/><child link='b'/></joint>
+<joint name='k' type='continuous'><parent link='a'/><child link='y'/><mimic joint='z'/></joint>)"),
+              ElementsAre(HasSubstr("bad.urdf:3: joint 'j': unknown parent link; got 'x'"),
+                          HasSubstr("bad.urdf:4: joint 'k': unknown child link; got 'y'"),
+                          HasSubstr("bad.urdf:4: joint 'k': mimic of an unknown joint; got 'z'")));
+}
+
+TEST(UrdfRefusalTest, AllMissingMeshesAtOnceThoseOfALostPackageTogether) {
+  const auto mesh = [](const std::string& link, const std::string& file) {
+    return "<link name='" + link + "'><collision><geometry><mesh filename='" + file +
+           "'/></geometry></collision></link>\n";
+  };
+  const auto fixed = [](const std::string& child) {
+    return "<joint name='to_" + child + "' type='fixed'><parent link='a'/><child link='" + child +
+           "'/></joint>\n";
+  };
+  LoadOptions options;
+  options.package_directories = {"/nowhere/packages"};
+  const std::string meshes = mesh("a", "package://lost/a.stl") + mesh("b", "here.stl") +
+                             mesh("c", "package://lost/c.stl") + mesh("d", "package://gone/d.stl");
+  const auto lines = Refusals(meshes + fixed("b") + fixed("c") + fixed("d"), options);
+  EXPECT_THAT(
+      lines,
+      ElementsAre(AllOf(HasSubstr("bad.urdf:3: link 'b' collision: missing mesh file"),
+                        HasSubstr("/nowhere/here.stl")),
+                  AllOf(HasSubstr("bad.urdf:5: link 'd' collision"), HasSubstr("package 'gone'")),
+                  AllOf(HasSubstr("bad.urdf:2: link 'a' collision"), HasSubstr("package 'lost'"),
+                        HasSubstr("'package://lost/a.stl', 'package://lost/c.stl' "
+                                  "(bad.urdf:4: link 'c' collision)"),
+                        HasSubstr("/nowhere/packages/lost"))));
+  // Beside other errors too, but not what is only drawn.
+  EXPECT_THAT(Refusals(mesh("a", "package://lost/a.stl") + "<link/>"),
+              ElementsAre(HasSubstr("bad.urdf:3: <link>: name"), HasSubstr("package 'lost'")));
+}
+
+TEST(UrdfRefusalTest, ErrorsWithoutEndAreCounted) {
+  std::string content;
+  for (int i = 0; i < 60; ++i) content += "<link/>";
+  const auto lines = Refusals(content);
+  ASSERT_EQ(lines.size(), 51);
+  EXPECT_EQ(lines.back(), "and 10 more errors");
 }
 
 }  // namespace urdf_refusal_test

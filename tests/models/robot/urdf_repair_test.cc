@@ -41,6 +41,18 @@ TEST(UrdfRepairTest, NothingIsSaidOfWhatIsRight) {
               IsEmpty());
 }
 
+TEST(UrdfRepairTest, AnEffortThatIsMissingOrNoneCountsAsNotGiven) {
+  for (const char* effort : {"", "effort='abc'", "effort='-1'", "effort='nan'"}) {
+    const Loaded loaded = Load(
+        "<link name='a'/><link name='b'/><joint name='j' type='revolute'><parent link='a'/>"
+        "<child link='b'/><limit lower='-1' upper='1' velocity='2' " +
+        std::string(effort) + "/></joint>");
+    EXPECT_EQ(loaded.model.effort_limits()[0], kUnlimited) << effort;
+    EXPECT_EQ(loaded.model.velocity_limits()[0], 2.0) << effort;
+    EXPECT_THAT(loaded.warnings, testing::Contains(HasSubstr("no effort limit"))) << effort;
+  }
+}
+
 TEST(UrdfRepairTest, InertiasThatAreNoneAreLeftOut) {
   const std::string inertia = "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/>";
   for (const std::string& content :
