@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "oca/diagrams/files/diagram_file.h"
+#include "oca/diagrams/files/package_paths.h"
 #include "oca/diagrams/files/yaml_reader.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/nearest.h"
@@ -209,6 +210,16 @@ class Includer {
     return name;
   }
 
+  /// Empty, with a problem, if it is of a package that is nowhere.
+  fs::path PathOf(const std::string& name, const fs::path& folder, const Location& location) {
+    try {
+      return ResolvePath(name, folder, {});
+    } catch (const ConfigError& error) {
+      problems_.Add(location, fmt::format("include: {}", error.what()));
+      return {};
+    }
+  }
+
   Value Expand(Value value, const fs::path& folder) {
     if (value.map() == nullptr) return value;
     AddTexts(value.Find("parameters"), texts_);
@@ -232,12 +243,14 @@ class Includer {
         }
         const std::string name = FileName(*item.string(), item.location());
         if (name.empty()) continue;
+        const fs::path file = PathOf(name, folder, item.location());
+        if (file.empty()) continue;
         const bool choice = name != *item.string();
         choices_ += choice ? 1 : 0;
-        Value included = Load(folder / name, item.location());
+        Value included = Load(file, item.location());
         choices_ -= choice ? 1 : 0;
         if (choice) {
-          AddCandidates((folder / name).parent_path(), fs::path(*item.string()).filename());
+          AddCandidates(file.parent_path(), fs::path(*item.string()).filename());
         }
         if (included.map() != nullptr) {
           Merge(base, std::move(included));

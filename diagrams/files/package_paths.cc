@@ -45,8 +45,17 @@ std::vector<fs::path> PackageFolders() {
 
 namespace {
 
+/// The package that is the diagrams which come with OCA.
+constexpr std::string_view kDiagrams = "oca";
+
 /// The folder of a package that a file does not say. `name` is what is looked for in it.
 fs::path FindPackage(const std::string& package, const std::string& name) {
+  if (package == kDiagrams) {
+    for (const fs::path& data : DataFolders()) {
+      std::error_code error;
+      if (fs::is_directory(data / "diagrams", error)) return data / "diagrams";
+    }
+  }
   std::string places;
   for (const fs::path& place : PackageFolders()) {
     std::error_code error;

@@ -70,6 +70,20 @@ TEST_F(DocumentTest, AParameterMayChooseTheFileToInclude) {
   EXPECT_EQ(problems, "");
 }
 
+TEST_F(DocumentTest, WhatComesWithOcaIsIncludedFromAnywhere) {
+  folder.Write("main.yaml",
+               "include: ['package://oca/parts/avoidance_${method}.yaml']\n"
+               "parameters: {method: safety_filter}\n");
+  const Value value = Load();
+  EXPECT_EQ(problems, "");
+  EXPECT_EQ(*At(value, "systems", "filter", "type").string(), "SafetyFilter");
+  EXPECT_EQ(*At(value, "systems", "overlay", "type").string(), "DeltaOverlay");
+  folder.Write("main.yaml", "include: [package://nowhere/loop.yaml]\n");
+  Load();
+  EXPECT_THAT(problems, HasSubstr("main.yaml:1:11: error: include: package://nowhere/loop.yaml: no "
+                                  "package 'nowhere'"));
+}
+
 TEST_F(DocumentTest, AFileNameRefusesAParameterThatIsNoText) {
   folder.Write("main.yaml", "include: ['part_${metod}.yaml']\nparameters: {method: one, n: 2}\n");
   Load();
