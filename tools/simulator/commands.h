@@ -84,6 +84,19 @@ struct ExpandArguments {
 /// The URDF that a xacro file stands for.
 int ExpandCommand(const ExpandArguments& arguments);
 
+struct NewArguments {
+  std::string robot;                   ///< URDF or xacro
+  std::vector<std::string> arguments;  ///< NAME=VALUE, of a xacro
+  std::string srdf;                    ///< empty: one is written
+  std::string group;                   ///< of the SRDF, that is the arm
+  std::string avoidance{"recommended"};
+  std::string folder;  ///< empty: the name of the robot's file
+  std::uint64_t seed{0};
+};
+/// Writes a first diagram for a robot, runs it and makes a report of the run. kExpectationNotMet if
+/// the arm does not evade.
+int NewCommand(const NewArguments& arguments);
+
 int ListCommand(const files::Catalogue& catalogue);
 int DescribeCommand(const std::string& type, const files::Catalogue& catalogue);
 int SchemaCommand(const files::Catalogue& catalogue);

@@ -43,6 +43,7 @@ class CommandLine {
   explicit CommandLine(const files::Catalogue& catalogue) : catalogue_(catalogue) {
     app_.require_subcommand(1);
     app_.set_version_flag("--version", std::string("simulator (OCA) ") + Version());
+    AddNew();
     AddRun();
     AddView();
     AddFileCommands();
@@ -89,6 +90,27 @@ class CommandLine {
     std::replace(words.begin(), words.end(), std::string("--live"), std::string("--live=8765"));
     std::reverse(words.begin(), words.end());
     return words;
+  }
+
+  void AddNew() {
+    CLI::App* const command = app_.add_subcommand(
+        "new", "write a first diagram for a robot, run it and make a report of the run");
+    command->add_option("ROBOT", new_.robot, "URDF or xacro: path or package://NAME/PATH")
+        ->required();
+    command->add_option("--argument", new_.arguments, "NAME=VALUE: argument of a xacro")
+        ->allow_extra_args(false);
+    command->add_option("--srdf", new_.srdf, "its SRDF; without it one is written by sampling")
+        ->check(FileName());
+    command->add_option("--group", new_.group,
+                        "group of the SRDF that is the arm; or it is guessed");
+    command->add_option("--avoidance", new_.avoidance, "method of avoidance")
+        ->capture_default_str();
+    command->add_option("-o,--output", new_.folder, "folder for the files, instead of ./ROBOT")
+        ->check(FileName());
+    command->add_option("--seed", new_.seed, "of the postures that are looked at")
+        ->check(WholeNumber(19))
+        ->capture_default_str();
+    command->callback([this] { command_ = [this] { return NewCommand(new_); }; });
   }
 
   void AddRun() {
@@ -291,6 +313,7 @@ class CommandLine {
   const files::Catalogue& catalogue_;
   CLI::App app_{"OCA: online collision avoidance of robot arms, from a diagram file", "simulator"};
   std::function<int()> command_;
+  NewArguments new_;
   RunArguments run_;
   ViewArguments view_;
   std::vector<std::string> check_files_, check_overrides_;

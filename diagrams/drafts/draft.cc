@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/diagrams/drafts/draft.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <utility>
+
+#include "oca/diagrams/drafts/draft_text.h"
+#include "oca/diagrams/files/package_paths.h"
+#include "oca/diagrams/loading/blueprint.h"
+#include "oca/diagrams/runs/output_files.h"
+#include "oca/diagrams/runs/run.h"
+#include "oca/framework/dataflow/error.h"
+#include "oca/models/error.h"
+#include "oca/models/robot/collision_check.h"
+#include "oca/models/robot/srdf.h"
+#include "oca/models/robot/unseen_links.h"
+
+namespace oca::drafts {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostProposals = 60;
+
+/// The folder of a package that the robot's file is in, or that lies beside it or a folder above.
+fs::path PackageNear(const fs::path& file, const std::string& package) {
+  std::error_code error;
+  for (fs::path folder = fs::absolute(file, error).lexically_normal().parent_path();
+       folder.has_relative_path(); folder = folder.parent_path()) {
+    if (folder.filename() == package) return folder;
+    if (fs::is_directory(folder / package, error)) return folder / package;
+  }
+  return {};
+}
+
+/// Loads the robot of a draft in several ways.
+class RobotReader {
+ public:
+  explicit RobotReader(const DraftOptions& options) : options_(options) {}
+
+  robot::RobotModel Read(robot::LoadOptions how, bool tell) {
+    how.srdf = options_.srdf;
+    how.xacro_arguments = options_.arguments;
+    how.package_directories = files::PackageFolders();
+    how.find_package = [this, known = how.package_directories](const std::string& package) {
+      return Find(package, known);
+    };
+    if (tell) how.warn = options_.warn;
+    return robot::LoadUrdf(options_.robot, how);
+  }
+  std::map<std::string, fs::path> packages() const { return packages_; }
+
+ private:
+  /// What OCA knows goes first, as it does when the diagram is loaded.
+  fs::path Find(const std::string& package, const std::vector<fs::path>& known) {
+    std::error_code error;
+    for (const fs::path& folder : known) {
+      if (fs::is_directory(folder / package, error)) return folder / package;
+    }
+    fs::path found = PackageNear(options_.robot, package);
+    if (!found.empty()) packages_[package] = found;
+    return found;
+  }
+
+  const DraftOptions& options_;
+  std::map<std::string, fs::path> packages_;
+};
+
+/// The link at the end of an arm of which all other joints are held.
+int TipOf(const robot::RobotModel& model) { return planning::GuessArm(model).tip; }
+
+void Write(const fs::path& file, const std::string& text) {
+  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
+  stream << text;
+  stream.close();
+  if (!stream) throw ConfigError(fmt::format("{} cannot be written", file.string()));
+}
+
+/// One call of MakeDraft.
+class DraftMaker {
+ public:
+  explicit DraftMaker(const DraftOptions& options)
+      : options_(options), draft_{.robot = ReadDraftRobot(options)} {
+    const std::string name = internal::PlainName(draft_.robot.model->name().text());
+    draft_.diagram = options.folder / (name + ".yaml");
+    if (options.srdf.empty()) srdf_ = options.folder / (name + ".srdf");
+    limits_text_ = internal::LimitsText(*draft_.robot.model);
+    if (!limits_text_.empty()) limits_ = options.folder / (name + "_limits.yaml");
+  }
+
+  Draft Make() {
+    PrepareFolder();
+    const auto motions = planning::ProposeMotions(draft_.robot.model, draft_.robot.tip,
+                                                  kMostProposals, options_.seed);
+    if (motions.empty()) {
+      throw ConfigError(fmt::format(
+          "{}: a first motion; got no posture of '{}' from which its tip goes half its reach, "
+          "{:.3g} "
+          "m, own links apart and none below its base; expected a robot that can",
+          options_.robot.string(), draft_.robot.model->name().text(), draft_.robot.reach));
+    }
+    WriteSrdf();
+    if (!limits_.empty()) Keep(limits_, limits_text_);
+    WriteDiagram(motions.front());
+    const loading::Blueprint blueprint(draft_.diagram);
+    for (const planning::FirstMotion& motion : motions) {
+      if (draft_.tries == options_.tries || Interrupted()) break;
+      Attempt attempt = Try(blueprint, motion);
+      const bool good = attempt.contact() && attempt.evaded();
+      if (good || ++draft_.tries == 1 || Better(attempt, draft_.attempt)) {
+        draft_.attempt = std::move(attempt);
+      }
+      if (good) break;
+    }
+    WriteDiagram(draft_.attempt.motion);
+    return std::move(draft_);
+  }
+
+ private:
+  bool Interrupted() const { return options_.interrupted && options_.interrupted(); }
+
+  void PrepareFolder() const {
+    std::error_code error;
+    fs::create_directories(options_.folder, error);
+    if (error) {
+      throw ConfigError(fmt::format("{}: {}; expected a folder to write to",
+                                    options_.folder.string(), error.message()));
+    }
+    for (const fs::path& file : {draft_.diagram, srdf_, limits_}) {
+      if (file.empty() || !fs::exists(file, error)) continue;
+      throw ConfigError(
+          fmt::format("{} is there already; expected a folder without it", file.string()));
+    }
+  }
+
+  void Keep(const fs::path& file, const std::string& text) {
+    Write(file, text);
+    draft_.files.push_back(file);
+  }
+
+  /// Of the arm, with all else where it is held.
+  void WriteSrdf() {
+    if (srdf_.empty()) return;
+    const robot::RobotModel& model = *draft_.robot.model;
+    robot::SaveDisabledPairs(srdf_, model.name().text(),
+                             robot::DisabledPairs(model, robot::CheckCollisions(model, {})));
+    draft_.files.push_back(srdf_);
+  }
+
+  void WriteDiagram(const planning::FirstMotion& motion) {
+    std::error_code error;
+    const fs::path srdf =
+        srdf_.empty() ? fs::proximate(options_.srdf, options_.folder, error) : srdf_.filename();
+    Write(draft_.diagram,
+          internal::DiagramText(options_, draft_.robot, internal::TextOf(motion, draft_.robot),
+                                (error ? options_.srdf : srdf).string(),
+                                limits_.filename().string()));
+    if (draft_.files.empty() || draft_.files.front() != draft_.diagram) {
+      draft_.files.insert(draft_.files.begin(), draft_.diagram);
+    }
+  }
+
+  Attempt Try(const loading::Blueprint& blueprint, const planning::FirstMotion& motion) const {
+    Attempt attempt{motion};
+    const auto run = [&](bool avoid) {
+      auto overrides = internal::OverridesOf(internal::TextOf(motion, draft_.robot));
+      overrides.push_back({"parameters.avoid", avoid ? "true" : "false"});
+      runs::RunOptions options;
+      options.progress = [this](double) { return !Interrupted(); };
+      return runs::Run(blueprint.Build(overrides), options);
+    };
+    attempt.without = run(false);
+    if (attempt.contact()) attempt.with = run(true);
+    return attempt;
+  }
+
+  static bool Better(const Attempt& a, const Attempt& b) {
+    const auto distance = [](const Attempt& attempt) {
+      return attempt.with.metrics ? attempt.with.metrics->min_distance.value_or(-1.0) : -1.0;
+    };
+    return distance(a) > distance(b);
+  }
+
+  const DraftOptions& options_;
+  Draft draft_;
+  fs::path srdf_, limits_;  // that are written; empty: not
+  std::string limits_text_;
+};
+
+}  // namespace
+
+bool Attempt::contact() const {
+  return !without.failure && without.metrics && without.metrics->min_distance.value_or(1.0) <= 0.0;
+}
+
+bool Attempt::evaded() const { return with.metrics && !with.failure && with.ExpectationsMet(); }
+
+DraftRobot ReadDraftRobot(const DraftOptions& options) {
+  RobotReader reader(options);
+  DraftRobot robot;
+  robot::LoadOptions how;
+  const robot::RobotModel whole = reader.Read(how, true);
+  robot.visuals = !robot::DescribeUnseen(whole, "").empty();
+  if (robot.visuals) how.visual_as_collision = robot::VisualAsCollision::kMissing;
+  if (options.group.empty()) {
+    for (const int joint : planning::GuessArm(whole).others) {
+      const robot::Joint& other = whole.joints()[static_cast<std::size_t>(joint)];
+      const Eigen::Index at = other.position_index;
+      robot.held[other.name.text()] =
+          std::clamp(0.0, whole.lower_limits()[at], whole.upper_limits()[at]);
+    }
+    how.held.positions = robot.held;
+  } else {
+    how.held.group = options.group;
+  }
+  robot.model = std::make_shared<const robot::RobotModel>(reader.Read(how, false));
+  robot.packages = reader.packages();
+  robot.tip = TipOf(*robot.model);
+  robot.reach = planning::ReachOf(*robot.model, robot.tip);
+  return robot;
+}
+
+Draft MakeDraft(const DraftOptions& options) { return DraftMaker(options).Make(); }
+
+}  // namespace oca::drafts

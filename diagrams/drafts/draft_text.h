@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "oca/diagrams/drafts/draft.h"
+#include "oca/diagrams/files/override.h"
+
+namespace oca::drafts::internal {
+
+/// The name of a file made for a robot: its letters and digits.
+std::string PlainName(const std::string& robot);
+
+/// A first motion as a diagram file has it.
+struct MotionText {
+  std::string first, second;  ///< key points
+  std::string ball;           ///< an obstacle
+  std::string start, duration;
+};
+MotionText TextOf(const planning::FirstMotion& motion, const DraftRobot& robot);
+/// The same as overrides of another one.
+std::vector<files::Override> OverridesOf(const MotionText& motion);
+
+/// The diagram file; `srdf` and `limits` (empty: none) are named as it finds them.
+std::string DiagramText(const DraftOptions& options, const DraftRobot& robot,
+                        const MotionText& motion, const std::string& srdf,
+                        const std::string& limits);
+
+/// A joint_limits.yaml for the joints whose speed nothing bounds; empty if there is none.
+std::string LimitsText(const robot::RobotModel& model);
+
+}  // namespace oca::drafts::internal

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/models/planning/arm_guess.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "oca/models/error.h"
+
+namespace oca::planning {
+namespace {
+
+using robot::Joint;
+using robot::RobotModel;
+
+constexpr std::size_t kLeastBeforeHand = 4;  // joints of an arm that may end in a hand
+constexpr int kLongestFinger = 5;            // joints
+constexpr double kWidestJaw = 0.15;          // m
+
+bool HasPosition(const Joint& joint) { return joint.position_index >= 0; }
+
+/// One call of GuessArm.
+class ArmSearch {
+ public:
+  explicit ArmSearch(const RobotModel& model)
+      : model_(model), below_(model.links().size()), length_(model.links().size(), 0) {
+    for (int j = 0; j < model.num_joints(); ++j) {
+      below_[model.joints()[j].parent_link].push_back(j);
+    }
+    for (int j = model.num_joints() - 1; j >= 0; --j) {  // children before parents
+      const Joint& joint = model.joints()[j];
+      int& length = length_[joint.parent_link];
+      length = std::max(length, LengthFrom(j));
+    }
+  }
+
+  ArmGuess Run() {
+    ArmGuess guess;
+    int at = 0;
+    while (true) {
+      const std::vector<int> next = Next(at);
+      if (next.empty() || IsHand(next, guess.joints.size())) break;
+      const auto longest = std::max_element(
+          next.begin(), next.end(), [this](int a, int b) { return LengthFrom(a) < LengthFrom(b); });
+      guess.joints.push_back(*longest);
+      at = model_.joints()[*longest].child_link;
+    }
+    if (guess.joints.size() < 2) {
+      throw models::ModelError(fmt::format(
+          "robot '{}': its arm; got {} joint{} that move one after the other; expected two or more",
+          model_.name().text(), guess.joints.size(), guess.joints.size() == 1 ? "" : "s"));
+    }
+    if (guess.joints.size() > kMostArmJoints) {
+      guess.joints.erase(guess.joints.begin(), guess.joints.end() - kMostArmJoints);
+    }
+    for (int j = 0; j < model_.num_joints(); ++j) {
+      if (!HasPosition(model_.joints()[j])) continue;
+      if (std::count(guess.joints.begin(), guess.joints.end(), j) == 0) guess.others.push_back(j);
+    }
+    guess.tip = TipOf(at);
+    return guess;
+  }
+
+ private:
+  /// Of the longest chain that begins with joint j, in joints that have a position.
+  int LengthFrom(int j) const {
+    const Joint& joint = model_.joints()[j];
+    return length_[joint.child_link] + (HasPosition(joint) ? 1 : 0);
+  }
+
+  /// The next joints with a position below a link: beyond fixed ones and mimics.
+  std::vector<int> Next(int link) const {
+    std::vector<int> next;
+    std::vector<int> pending{link};
+    while (!pending.empty()) {
+      const int at = pending.back();
+      pending.pop_back();
+      for (const int j : below_[at]) {
+        if (HasPosition(model_.joints()[j])) {
+          next.push_back(j);
+        } else {
+          pending.push_back(model_.joints()[j].child_link);
+        }
+      }
+    }
+    std::sort(next.begin(), next.end());
+    return next;
+  }
+
+  bool IsHand(const std::vector<int>& next, std::size_t before) const {
+    if (before < kLeastBeforeHand) return false;
+    const int longest = LengthFrom(*std::max_element(
+        next.begin(), next.end(), [this](int a, int b) { return LengthFrom(a) < LengthFrom(b); }));
+    if (next.size() > 1) return longest <= kLongestFinger;
+    return longest <= 2 && IsJaw(next.front());
+  }
+
+  bool IsJaw(int j) const {
+    const Joint& joint = model_.joints()[j];
+    if (joint.type == robot::JointType::kPrismatic) {
+      return joint.upper_limit - joint.lower_limit <= kWidestJaw;
+    }
+    return std::any_of(model_.joints().begin(), model_.joints().end(), [j](const Joint& other) {
+      return other.mimic.has_value() && other.mimic->joint == j;
+    });
+  }
+
+  /// Of what is fixed to a link.
+  int TipOf(int link) const {
+    int tip = link;
+    double farthest = 0.0;
+    std::vector<std::pair<int, Eigen::Isometry3d>> pending{{link, Eigen::Isometry3d::Identity()}};
+    while (!pending.empty()) {
+      const auto [at, X_LA] = pending.back();
+      pending.pop_back();
+      for (const int j : below_[at]) {
+        const Joint& joint = model_.joints()[j];
+        if (joint.movable()) continue;
+        const Eigen::Isometry3d X_LC = X_LA * joint.X_PJ;
+        pending.emplace_back(joint.child_link, X_LC);
+        if (X_LC.translation().norm() <= farthest) continue;
+        farthest = X_LC.translation().norm();
+        tip = joint.child_link;
+      }
+    }
+    return tip;
+  }
+
+  const RobotModel& model_;
+  std::vector<std::vector<int>> below_;  // joints below each link
+  std::vector<int> length_;              // of the longest chain below each link
+};
+
+}  // namespace
+
+ArmGuess GuessArm(const RobotModel& model) { return ArmSearch(model).Run(); }
+
+}  // namespace oca::planning

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "oca/models/robot/robot_model.h"
+
+namespace oca::planning {
+
+/// Which joints of a robot are its arm, and where its hand is.
+struct ArmGuess {
+  std::vector<int> joints;  ///< numbers of the arm's joints, from the base on; they mimic none
+  std::vector<int> others;  ///< of all others that have a position of their own
+  int tip{0};               ///< number of the link
+};
+
+inline constexpr int kMostArmJoints = 7;
+
+/// Guessed from the tree alone: the longest chain of joints that move, up to where it branches into
+/// fingers or ends in a jaw, of which the last seven are the arm. A hand begins where, after four
+/// joints or more, several joints go on with at most five each, or one does that others mimic or
+/// that slides by at most 0.15 m. Mimics within the chain belong to it. Of chains of one length the
+/// first is taken. The tip is what the last joint carries, at its fixed frame that lies farthest
+/// from the joint.
+/// throws ModelError if fewer than two joints of a chain move
+ArmGuess GuessArm(const robot::RobotModel& model);
+
+}  // namespace oca::planning

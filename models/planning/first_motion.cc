@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/models/planning/first_motion.h"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "oca/models/error.h"
+#include "oca/models/random.h"
+#include "oca/models/robot/clearance.h"
+#include "oca/models/robot/joint_limits.h"
+#include "oca/models/robot/kinematics.h"
+
+namespace oca::planning {
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr int kPostures = 400;
+constexpr int kPathSteps = 16;
+constexpr Index kTurningJoints = 3;  // of the arm, from its base, that may make the motion
+constexpr double kMiddle = 0.7;      // share of a range that postures are drawn from
+// Shares of the reach.
+constexpr double kRadius = 1.0 / 12.0;
+constexpr double kRoom = 1.0 / 8.0;                  // from the ball, at the ends
+constexpr double kApart = 0.02;                      // own links
+constexpr double kNearest = 0.35, kFarthest = 0.85;  // the tip, from the first joint
+constexpr double kLeastWay = 0.45;                   // of the tip, end to end
+constexpr double kHandShare = 0.3;  // of the way from the tip back to the last joint
+
+/// One call of ProposeMotions.
+class MotionSearch {
+ public:
+  MotionSearch(const std::shared_ptr<const robot::RobotModel>& model, int tip, std::uint64_t seed)
+      : model_(*model),
+        tip_(tip),
+        reach_(ReachOf(*model, tip)),
+        ball_(geometry::MakeCollider(geometry::Sphere{kRadius * reach_}, "ball")),
+        clearance_(model, true),
+        random_(seed) {
+    for (Index i = 0; i < model_.num_positions(); ++i) {
+      if (const auto range = robot::DrawnRange(model_, i)) {
+        ranges_.push_back(*range);
+        continue;
+      }
+      throw models::ModelError("joint '" +
+                               model_.position_names()[static_cast<std::size_t>(i)].text() +
+                               "': has no range to draw postures from; got none; expected limits");
+    }
+  }
+
+  std::vector<FirstMotion> Run(std::size_t count) {
+    for (int i = 0; i < kPostures; ++i) TryPosture(Posture());
+    std::stable_sort(found_.begin(), found_.end(),
+                     [](const Scored& a, const Scored& b) { return a.score > b.score; });
+    std::vector<FirstMotion> motions;
+    for (Scored& one : found_) {
+      if (motions.size() < count) motions.push_back(std::move(one.motion));
+    }
+    return motions;
+  }
+
+ private:
+  struct Scored {
+    FirstMotion motion;
+    double score;
+  };
+
+  VectorXd Posture() {
+    VectorXd q(model_.num_positions());
+    for (Index i = 0; i < q.size(); ++i) {
+      const auto [lower, upper] = ranges_[static_cast<std::size_t>(i)];
+      const double half = 0.5 * kMiddle * (upper - lower);
+      const double middle = 0.5 * (lower + upper);
+      q[i] = random_.Uniform(middle - half, middle + half);
+    }
+    return q;
+  }
+
+  Vector3d Tip() const { return clearance_.X_WL()[tip_].translation(); }
+  /// Where the tip's own joint is, or the foot of the first joint.
+  Vector3d OriginOf(int body) const { return clearance_.X_WL()[body].translation(); }
+
+  void TryPosture(const VectorXd& q) {
+    clearance_.MoveTo(q);
+    const double stretch = (Tip() - OriginOf(model_.bodies().front())).norm() / reach_;
+    if (stretch < kNearest || stretch > kFarthest) return;
+    for (Index j = 0; j < std::min(kTurningJoints, q.size()); ++j) {
+      const auto [lower, upper] = ranges_[static_cast<std::size_t>(j)];
+      const double range = upper - lower;
+      const bool turns =
+          model_.joints()[model_.FindJoint(Name(j))].type != robot::JointType::kPrismatic;
+      const double widest =
+          turns ? std::min(0.9 * range, 5.0 * std::numbers::pi / 9.0) : 0.8 * range;
+      FirstMotion motion{q, q};
+      const double middle = std::clamp(q[j], lower + 0.025 * range + 0.5 * widest,
+                                       upper - 0.025 * range - 0.5 * widest);
+      motion.from[j] = middle - 0.5 * widest;
+      motion.to[j] = middle + 0.5 * widest;
+      if (random_.Unit() < 0.5) motion.from.swap(motion.to);
+      TryMotion(motion);
+    }
+  }
+
+  const std::string& Name(Index position) const {
+    return model_.position_names()[static_cast<std::size_t>(position)].text();
+  }
+
+  void TryMotion(FirstMotion& motion) {
+    clearance_.SetBodies({});
+    clearance_.MoveTo(motion.from);
+    const Vector3d start = Tip();
+    clearance_.MoveTo(motion.to);
+    if ((Tip() - start).norm() < kLeastWay * reach_) return;
+    double lowest = robot::kUnlimited;
+    for (int step = 0; step <= kPathSteps; ++step) {
+      const double s = static_cast<double>(step) / kPathSteps;
+      clearance_.MoveTo(motion.from + s * (motion.to - motion.from));
+      if (clearance_.NearerThan(kApart * reach_)) return;
+      lowest = std::min(lowest, Lowest());
+    }
+    if (lowest < 0.0) return;
+    PlaceBall(motion, lowest);
+  }
+
+  /// Of the links beyond the first two that move, m above the base's foot.
+  double Lowest() const {
+    double lowest = robot::kUnlimited;
+    const Eigen::Isometry3d X_BW = model_.X_WB().inverse();
+    for (std::size_t i = 2; i < model_.bodies().size(); ++i) {
+      lowest = std::min(lowest, (X_BW * OriginOf(model_.bodies()[i])).z());
+    }
+    return std::min(lowest, (X_BW * Tip()).z());
+  }
+
+  void PlaceBall(FirstMotion& motion, double lowest) {
+    clearance_.MoveTo(0.5 * (motion.from + motion.to));
+    const int hand = model_.body(tip_);
+    motion.ball = Tip() + kHandShare * (OriginOf(hand) - Tip());
+    motion.radius = kRadius * reach_;
+    Eigen::Matrix3Xd J(3, model_.num_positions());
+    robot::PointJacobian(model_, clearance_.X_WL(), tip_, Tip(), J);
+    const double least_move = J.jacobiSvd().singularValues().minCoeff();
+    Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
+    X_WO.translation() = motion.ball;
+    clearance_.SetBodies({{ball_, X_WO}});
+    motion.depth = -clearance_.Nearest(reach_).distance;
+    if (motion.depth < 0.3 * motion.radius) return;
+    motion.room = robot::kUnlimited;
+    for (const VectorXd& end : {motion.from, motion.to}) {
+      clearance_.MoveTo(end);
+      for (const double distance : Distances()) motion.room = std::min(motion.room, distance);
+    }
+    if (motion.room < kRoom * reach_) return;
+    const double score = std::min(least_move / reach_, 0.3) + std::min(lowest / reach_, 0.2) +
+                         std::min(motion.room / reach_, 0.3);
+    found_.push_back({motion, score});
+  }
+
+  /// Of each link to the ball.
+  std::vector<double> Distances() const {
+    std::vector<double> least(model_.links().size());
+    clearance_.LinkDistances(reach_, least);
+    return least;
+  }
+
+  const robot::RobotModel& model_;
+  const int tip_;
+  const double reach_;
+  const std::shared_ptr<const geometry::Collider> ball_;
+  robot::Clearance clearance_;
+  models::Random random_;
+  std::vector<std::pair<double, double>> ranges_;
+  std::vector<Scored> found_;
+};
+
+}  // namespace
+
+double ReachOf(const robot::RobotModel& model, int link) {
+  double reach = 0.0;
+  double offset = 0.0;  // fixed frames between the last joint that moves and the one at hand
+  for (int at = link; at > 0;) {
+    const robot::Joint& joint = model.joints()[at - 1];
+    if (joint.movable()) {
+      reach += offset;
+      offset = 0.0;
+    }
+    if (joint.type == robot::JointType::kPrismatic) {
+      const double range = joint.upper_limit - joint.lower_limit;
+      if (!std::isfinite(range)) {
+        throw models::ModelError("joint '" + joint.name.text() +
+                                 "': slides without end; got no limits; expected a range");
+      }
+      reach += range;
+    }
+    offset += joint.X_PJ.translation().norm();
+    at = joint.parent_link;
+  }
+  return reach;
+}
+
+std::vector<FirstMotion> ProposeMotions(const std::shared_ptr<const robot::RobotModel>& model,
+                                        int tip, std::size_t count, std::uint64_t seed) {
+  return MotionSearch(model, tip, seed).Run(count);
+}
+
+}  // namespace oca::planning

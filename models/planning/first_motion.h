@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "oca/models/robot/robot_model.h"
+
+namespace oca::planning {
+
+/// A motion straight in the joints, and a ball in its way.
+struct FirstMotion {
+  Eigen::VectorXd from, to;                       ///< n; rad or m
+  Eigen::Vector3d ball{Eigen::Vector3d::Zero()};  ///< its centre, world, m
+  double radius{0.0};                             ///< m
+  double depth{0.0};                              ///< m; how deep the arm would go into it
+  double room{0.0};                               ///< m; from the ball, where it starts and ends
+};
+
+/// A bound on how far a link's origin gets from that of the first joint that moves it, m: the
+/// lengths between the joints, and the ranges of sliding ones.
+/// throws ModelError if a sliding joint has no range
+double ReachOf(const robot::RobotModel& model, int link);
+
+/// Motions to try a robot with, best first, at most `count`: one joint turns, or slides, the tip
+/// goes half of its reach or more, and a ball of a twelfth of the reach lies across its way, clear
+/// of where it starts and ends. Postures are drawn from the middle of the ranges: the arm bent, no
+/// link below the base's foot, own links apart. All distances scale with the reach.
+///
+/// Whether an arm can evade is not known here. The same seed gives the same motions; none if nothing
+/// of the kind is found.
+/// throws ModelError for a robot whose solids Clearance refuses, or whose postures cannot be drawn
+std::vector<FirstMotion> ProposeMotions(const std::shared_ptr<const robot::RobotModel>& model,
+                                        int tip, std::size_t count, std::uint64_t seed = 0);
+
+}  // namespace oca::planning

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/models/planning/first_motion.h"
+
+#include <gtest/gtest.h>
+
+#include "oca/models/geometry/collider.h"
+#include "oca/models/planning/arm_guess.h"
+#include "oca/models/robot/clearance.h"
+#include "oca/models/robot/urdf.h"
+
+namespace oca::planning {
+namespace first_motion_test {
+
+std::shared_ptr<const robot::RobotModel> Load(const std::string& name) {
+  const std::string path = OCA_SOURCE_DIR "/models/robots/" + name + "/" + name;
+  robot::LoadOptions options;
+  if (name != "planar2") options.srdf = path + ".srdf";
+  options.package_directories = {OCA_SOURCE_DIR "/models/robots"};
+  return std::make_shared<const robot::RobotModel>(robot::LoadUrdf(path + ".urdf", options));
+}
+
+TEST(ReachTest, IsTheLengthBetweenTheJoints) {
+  const auto arm = Load("planar2");  // links of 0.5 and 0.4 m
+  EXPECT_DOUBLE_EQ(ReachOf(*arm, arm->FindLink("planar2_tip")), 0.9);
+}
+
+class FirstMotionTest : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Arms, FirstMotionTest, testing::Values("lwr4", "iiwa14", "ur5e"));
+
+TEST_P(FirstMotionTest, GoesThroughABallFromWhereItIsClearToWhereItIsClear) {
+  const auto arm = Load(GetParam());
+  const int tip = GuessArm(*arm).tip;
+  const double reach = ReachOf(*arm, tip);
+  const auto motions = ProposeMotions(arm, tip, 10);
+  ASSERT_EQ(motions.size(), 10);
+  for (const FirstMotion& motion : motions) {
+    EXPECT_TRUE(((motion.from - motion.to).array() != 0.0).count() == 1);
+    robot::Clearance clearance(arm, true);
+    Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
+    X_WO.translation() = motion.ball;
+    clearance.SetBodies({{geometry::MakeCollider(geometry::Sphere{motion.radius}, "ball"), X_WO}});
+    double way = 0.0;
+    double deepest = 1.0;
+    Eigen::Vector3d last = Eigen::Vector3d::Zero();
+    for (int i = 0; i <= 100; ++i) {
+      const Eigen::VectorXd q = motion.from + i / 100.0 * (motion.to - motion.from);
+      EXPECT_TRUE((q.array() > arm->lower_limits().array()).all());
+      EXPECT_TRUE((q.array() < arm->upper_limits().array()).all());
+      clearance.MoveTo(q);
+      const robot::NearPair nearest = clearance.Nearest();
+      deepest = std::min(deepest, nearest.distance);
+      if (nearest.distance <= 0.0) {
+        EXPECT_EQ(nearest.body, 0) << "own links touch";
+      }
+      const Eigen::Vector3d now = clearance.X_WL()[static_cast<std::size_t>(tip)].translation();
+      way += i == 0 ? 0.0 : (now - last).norm();
+      last = now;
+      if (i == 0 || i == 100) {
+        EXPECT_GT(nearest.distance, 0.0);
+      }
+    }
+    EXPECT_LT(deepest, -0.2 * motion.radius);
+    EXPECT_GT(way, 0.45 * reach);
+  }
+}
+
+TEST(FirstMotionsTest, AreTheSameForTheSameSeed) {
+  const auto arm = Load("ur5e");
+  const int tip = GuessArm(*arm).tip;
+  const auto one = ProposeMotions(arm, tip, 3, 7);
+  const auto two = ProposeMotions(arm, tip, 3, 7);
+  const auto other = ProposeMotions(arm, tip, 3, 8);
+  ASSERT_EQ(one.size(), 3);
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].from, two[i].from);
+    EXPECT_EQ(one[i].ball, two[i].ball);
+    EXPECT_NE(one[i].from, other[i].from);
+  }
+}
+
+}  // namespace first_motion_test
+}  // namespace oca::planning
