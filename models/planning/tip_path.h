@@ -31,9 +31,11 @@ struct TipTiming {
 /// Key points of joints whose link's origin goes along a path, every 0.02 s or less: from `posture`
 /// (n; rad or m) to its first point, straight in the joints, then along it, both from rest to rest,
 /// s = 10 x^3 - 15 x^4 + 6 x^5. The link's orientation is free. Positions of the joints are found
-/// by damped least squares on the kinematics, each from the one before, to 1e-9 m.
-/// throws ModelError `path: ...` if the path leaves the reach of the robot or takes a joint beyond
-///        its limits, `posture: ...` if that is of another length
+/// by damped least squares on the kinematics, each from the one before, to 1e-9 m; where that leads
+/// nowhere, as from a stretched arm, or beyond a limit, from postures around it, of whose solutions
+/// the nearest is taken. The same arguments give the same key points.
+/// throws ModelError `path: ...` if the path leaves the reach of the robot, takes a joint beyond its
+///        limits or makes one jump, `posture: ...` if that is of another length
 /// source Siciliano, Sciavicco, Villani, Oriolo, Robotics, section 3.5
 std::vector<motion::KeyPoint> KeyPointsAlong(const robot::RobotModel& model, int link,
                                              const TipPath& path, const Eigen::VectorXd& posture,

@@ -69,6 +69,50 @@ TEST(TipPathTest, IsFollowedByTheTipAfterAnApproachFromThePosture) {
   }
 }
 
+/// Largest distance of the tip from the path, m, and largest change of a joint between two points.
+std::pair<double, double> Followed(const robot::RobotModel& arm, const std::string& link,
+                                   const TipPath& path, const Eigen::VectorXd& posture) {
+  const int tip = arm.FindLink(link);
+  const auto points =
+      KeyPointsAlong(arm, tip, path, posture, {.start = 0, .approach = 1, .duration = 2});
+  double off = 0.0;
+  double change = 0.0;
+  for (std::size_t i = 50; i < points.size(); ++i) {
+    const double x = static_cast<double>(i - 50) / 100.0;
+    const double s = x * x * x * (10.0 + x * (-15.0 + 6.0 * x));
+    const auto X_WL = robot::LinkPoses(arm, points[i].position);
+    const Vector3d p = arm.X_WB().inverse() * X_WL[static_cast<std::size_t>(tip)].translation();
+    off = std::max(off, (p - path(s)).norm());
+    if (i > 50) {
+      change =
+          std::max(change, (points[i].position - points[i - 1].position).cwiseAbs().maxCoeff());
+    }
+    EXPECT_TRUE((points[i].position.array() >= arm.lower_limits().array()).all());
+    EXPECT_TRUE((points[i].position.array() <= arm.upper_limits().array()).all());
+  }
+  return {off, change};
+}
+
+TEST(TipPathTest, IsFollowedFromAStretchedArm) {
+  // Straight back along the arm, where no joint moves the tip that way at first.
+  const auto [off, change] =
+      Followed(Arm(), "planar2_tip", LinePath({0.7, 0, 0}, {0.5, 0, 0}), Eigen::Vector2d(0, 0));
+  EXPECT_LT(off, 1e-8);
+  EXPECT_LT(change, 0.1);
+  const auto upright = robot::LoadUrdf(OCA_SOURCE_DIR "/models/robots/lwr4/lwr4.urdf");
+  EXPECT_LT(Followed(upright, "lwr4_flange", LinePath({0, 0, 0.98}, {0, 0, 0.78}),
+                     Eigen::VectorXd::Zero(7))
+                .first,
+            1e-8);
+}
+
+TEST(TipPathTest, IsFollowedFromTheEndOfReachItself) {
+  const auto [off, change] =
+      Followed(Arm(), "planar2_tip", LinePath({0.9, 0, 0}, {0.5, 0, 0}), Eigen::Vector2d(0, 0));
+  EXPECT_LT(off, 1e-8);
+  EXPECT_LT(change, 0.1);
+}
+
 TEST(TipPathTest, IsRefusedBeyondReachAndLimitsAndFromAnotherPosture) {
   EXPECT_EQ(RefusalOf(LinePath({0.7, 0.3, 0.0}, {0.4, 0.6, 0.0}), kPosture), "accepted");
   EXPECT_THAT(RefusalOf(LinePath({0.7, 0.3, 0.0}, {0.95, 0.0, 0.0}), kPosture),
