@@ -5,6 +5,7 @@
 
 #include "oca/diagrams/loading/loader.h"
 #include "oca/diagrams/runs/chatter_check.h"
+#include "oca/diagrams/runs/request_check.h"
 #include "oca/systems/signals/roles.h"
 #include "tools/simulator/commands.h"
 #include "tools/simulator/terminal.h"
@@ -42,6 +43,7 @@ int CheckCommand(const std::vector<std::string>& files, const std::vector<std::s
       auto loaded = loading::LoadDiagram(file, overrides, catalogue);
       runs::AddChatterWarnings(loaded);
       for (const std::string& warning : loaded.warnings) std::cerr << warning << '\n';
+      for (const std::string& warning : runs::RequestWarnings(loaded)) std::cerr << warning << '\n';
       std::cout << file << ": fine, " << loaded.systems.size() << " systems, "
                 << CountConnections(*loaded.diagram) << " connections\n"
                 << std::flush;

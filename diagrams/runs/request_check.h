@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "oca/diagrams/loading/loader.h"
+
+namespace oca::runs {
+
+/// Warnings about motions that nobody can make as the file asks for them, a line each with its
+/// place, found without a run: of each robot that is judged and whose request is known ahead
+///
+/// - a start or a request beyond the limits of a position
+/// - a request faster than a limit of a speed, or that needs more than one of an acceleration
+/// - contact at the start, and at the end of the request with what is there then
+///
+/// Of what depends on the run, as what a sensor sees, nothing is said.
+std::vector<std::string> RequestWarnings(const loading::LoadedDiagram& loaded);
+
+}  // namespace oca::runs

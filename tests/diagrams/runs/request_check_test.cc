@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/diagrams/runs/request_check.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/temporary_folder.h"
+
+namespace oca::runs {
+namespace request_check_test {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const std::string kDiagrams = OCA_SOURCE_DIR "/diagrams/";
+
+std::vector<std::string> Warnings(const std::vector<files::Override>& overrides,
+                                  const std::string& file = "planar_arm.yaml") {
+  return RequestWarnings(loading::LoadDiagram(kDiagrams + file, overrides));
+}
+
+TEST(RequestCheckTest, SaysNothingOfWhatCanBeDone) {
+  for (const char* file : {"static_test.yaml", "dynamic_test.yaml", "ur5e_arm.yaml",
+                           "planar_arm.yaml", "dual_arm.yaml", "cartesian_goal.yaml"}) {
+    EXPECT_THAT(Warnings({}, file), IsEmpty()) << file;
+  }
+}
+
+// Two joints, limits +-2.9 rad and 2 rad/s, from (0, 0) to (1, 0.5) between 0.5 s and 3.5 s.
+class RequestCheckFile : public testing::Test {
+ protected:
+  RequestCheckFile() {
+    folder_.Write("arm.urdf", R"(<robot name="two"><link name="base"/>
+<link name="upper"><collision><origin xyz="0.25 0 0"/><geometry><box size="0.5 0.04 0.04"/></geometry></collision></link>
+<link name="fore"><collision><origin xyz="0.25 0 0"/><geometry><box size="0.5 0.04 0.04"/></geometry></collision></link>
+<joint name="j1" type="revolute"><parent link="base"/><child link="upper"/><axis xyz="0 0 1"/>
+<limit lower="-2.9" upper="2.9" velocity="2" effort="1"/></joint>
+<joint name="j2" type="revolute"><parent link="upper"/><child link="fore"/><origin xyz="0.5 0 0"/><axis xyz="0 0 1"/>
+<limit lower="-2.9" upper="2.9" velocity="2" effort="1"/></joint></robot>)");
+    folder_.Write("d.yaml", R"(name: two
+include: [package://oca/parts/avoidance.yaml]
+parameters: {avoidance: safety_filter}
+simulator: {duration: 4}
+models: {arm: {urdf: arm.urdf}}
+systems:
+  obstacles:
+    type: ObstacleSource
+    obstacles: [{id: ball, shape: {type: sphere, radius: 0.1}, pose: {xyz: [0, 5, 0]}}]
+  spline:
+    type: SplineGenerator
+    period: ${1 / rate}
+    key_points: [{time: 0.5, position: [0, 0]}, {time: 3.5, position: [1, 0.5]}]
+  plant: {initial_position: [0, 0]}
+)");
+  }
+  std::vector<std::string> Told(const std::vector<std::string>& overrides) const {
+    std::vector<files::Override> parsed;
+    for (const std::string& text : overrides) parsed.push_back(files::Override::Parse(text));
+    return RequestWarnings(loading::LoadDiagram(folder_.path() / "d.yaml", parsed));
+  }
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(RequestCheckFile, SaysNothingOfTheFileItself) { EXPECT_THAT(Told({}), IsEmpty()); }
+
+TEST_F(RequestCheckFile, AGoalBeyondALimitIsNamedWithItsPlace) {
+  EXPECT_THAT(
+      Told({"systems.spline.key_points.1.position=[1, 3]"}),
+      ElementsAre(AllOf(HasSubstr("d.yaml:"),
+                        HasSubstr("warning: systems.spline: joint 'j2' is to go to 3 rad at 3.5 s"),
+                        HasSubstr("its limits are [-2.9, 2.9]"))));
+}
+
+TEST_F(RequestCheckFile, AStartBeyondALimitIsNamed) {
+  EXPECT_THAT(Told({"systems.plant.initial_position=[3.5, 0]"}),
+              ElementsAre(AllOf(HasSubstr("systems.plant: joint 'j1' starts at 3.5 rad"))));
+}
+
+TEST_F(RequestCheckFile, ARequestTooFastIsNamedWithItsSpeed) {
+  // A cubic from rest to rest: 1.5 times the mean speed, in the middle: 1.5 / 0.5 s.
+  EXPECT_THAT(Told({"systems.spline.key_points.1.time=1"}),
+              testing::Contains(AllOf(HasSubstr("joint 'j1' is to move at 3 rad/s at 0.75 s"),
+                                      HasSubstr("its limit is 2"))));
+}
+
+TEST_F(RequestCheckFile, AccelerationsAreLookedAtWhereTheyHaveALimit) {
+  // The same motion accelerates with 6 way / time^2 = 6 / 2.25 rad/s^2 at its ends.
+  EXPECT_THAT(
+      Told({"systems.spline.key_points.1.time=2", "parameters.acceleration_limit=1.3"}),
+      ElementsAre(AllOf(HasSubstr("joint 'j1' is to accelerate with"), HasSubstr("2.667 rad/s^2"),
+                        HasSubstr("and 1 more joints likewise"))));
+}
+
+TEST_F(RequestCheckFile, ContactAtTheStartAndAtTheEndIsNamed) {
+  EXPECT_THAT(Told({"systems.obstacles.obstacles.0.pose.xyz=[0.8, 0.05, 0]"}),
+              ElementsAre(AllOf(HasSubstr("systems.plant: the arm starts in contact: fore is"),
+                                HasSubstr("deep in ball at 0 s"))));
+  EXPECT_THAT(Told({"systems.obstacles.obstacles.0.pose.xyz=[0.27, 0.42, 0]"}),
+              ElementsAre(HasSubstr("systems.spline: the request ends in contact: upper is")));
+}
+
+}  // namespace request_check_test
+}  // namespace oca::runs
