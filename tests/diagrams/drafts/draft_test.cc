@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/diagrams/drafts/draft.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "oca/diagrams/loading/loader.h"
+#include "oca/framework/dataflow/error.h"
+#include "oca/models/error.h"
+#include "tests/temporary_folder.h"
+
+namespace oca::drafts {
+namespace draft_test {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+std::string Content(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// A six-axis arm of capsule-like boxes with a gripper of two jaws; `scale` stretches its links.
+std::string ArmWithGripper(double scale, const std::string& limit = "velocity='2'") {
+  std::string text = "<robot name='my arm'><link name='base'/>";
+  const auto link = [&](const std::string& name, double length) {
+    return "<link name='" + name + "'><collision><origin xyz='0 0 " +
+           std::to_string(0.5 * length * scale) + "'/><geometry><cylinder radius='" +
+           std::to_string(0.05 * scale) + "' length='" + std::to_string(0.7 * length * scale) +
+           "'/></geometry></collision></link>";
+  };
+  const auto joint = [&](const std::string& name, const std::string& parent,
+                         const std::string& axis, double offset) {
+    return "<joint name='" + name + "' type='revolute'><parent link='" + parent +
+           "'/><child link='" + name + "_link'/><origin xyz='0 0 " +
+           std::to_string(offset * scale) + "'/><axis xyz='" + axis +
+           "'/><limit lower='-2.8' upper='2.8' " + limit + "/></joint>";
+  };
+  const double lengths[] = {0.3, 0.4, 0.35, 0.1, 0.1, 0.1};
+  const char* const axes[] = {"0 0 1", "0 1 0", "0 1 0", "0 1 0", "0 0 1", "0 1 0"};
+  std::string parent = "base";
+  double offset = 0.1;
+  for (int i = 0; i < 6; ++i) {
+    const std::string name = "j" + std::to_string(i + 1);
+    text += link(name + "_link", lengths[i]) + joint(name, parent, axes[i], offset);
+    parent = name + "_link";
+    offset = lengths[i];
+  }
+  for (const char* jaw : {"left", "right"}) {
+    text += std::string("<link name='") + jaw + "_jaw'><collision><geometry><box size='" +
+            std::to_string(0.01 * scale) +
+            " 0.01 0.03'/></geometry></collision></link><joint name='" + jaw +
+            "' type='prismatic'><parent link='" + parent + "'/><child link='" + jaw +
+            "_jaw'/><origin xyz='0 0 " + std::to_string(0.12 * scale) +
+            "'/><axis xyz='1 0 0'/><limit lower='0.01' upper='0.04' velocity='0.1'/></joint>";
+  }
+  return text + "</robot>";
+}
+
+class DraftTest : public testing::Test {
+ protected:
+  Draft Make(const std::string& urdf) {
+    folder_.Write("my_arm.urdf", urdf);
+    DraftOptions options;
+    options.robot = folder_.path() / "my_arm.urdf";
+    options.folder = folder_.path() / "out";
+    options.warn = [this](const std::string& line) { warnings_ += line + "\n"; };
+    return MakeDraft(options);
+  }
+  test::TemporaryFolder folder_;
+  std::string warnings_;
+};
+
+TEST_F(DraftTest, OfAnArmWithAGripperTouchesWithoutAvoidanceAndEvadesWithIt) {
+  const Draft draft = Make(ArmWithGripper(1.0));
+  EXPECT_EQ(draft.robot.model->num_positions(), 6);
+  EXPECT_THAT(draft.robot.held,
+              testing::ElementsAre(std::pair("left", 0.01), std::pair("right", 0.01)));
+  EXPECT_TRUE(draft.attempt.contact());
+  EXPECT_TRUE(draft.attempt.evaded());
+  ASSERT_EQ(draft.files.size(), 2);
+  EXPECT_EQ(draft.files[0], folder_.path() / "out/my_arm.yaml");
+  EXPECT_EQ(draft.files[1], folder_.path() / "out/my_arm.srdf");
+  // The file says what was run.
+  const loading::LoadedDiagram loaded = loading::LoadDiagram(draft.diagram);
+  EXPECT_EQ(loaded.models.Get("arm")->num_positions(), 6);
+  EXPECT_THAT(Content(draft.diagram),
+              AllOf(HasSubstr("urdf: \"../my_arm.urdf\""), HasSubstr("\"left\": 0.01"),
+                    Not(HasSubstr("safe_distance"))));
+}
+
+TEST_F(DraftTest, OfASmallArmHasSmallDistances) {
+  const Draft draft = Make(ArmWithGripper(0.3));
+  EXPECT_TRUE(draft.attempt.contact());
+  EXPECT_TRUE(draft.attempt.evaded());
+  EXPECT_THAT(Content(draft.diagram), HasSubstr("safe_distance: 0.01"));
+}
+
+TEST_F(DraftTest, FillsInLimitsThatAreMissing) {
+  const Draft draft = Make(ArmWithGripper(1.0, "velocity='0'"));
+  ASSERT_EQ(draft.files.size(), 3);
+  EXPECT_THAT(Content(folder_.path() / "out/my_arm_limits.yaml"),
+              HasSubstr("\"j3\": {has_velocity_limits: true, max_velocity: 1}   # rad/s; a guess"));
+  const auto loaded = loading::LoadDiagram(draft.diagram);
+  EXPECT_EQ(loaded.models.Get("arm")->velocity_limits(), Eigen::VectorXd::Ones(6));
+}
+
+TEST_F(DraftTest, ReplacesNothing) {
+  folder_.Write("out/my_arm.yaml", "mine\n");
+  EXPECT_THROW(Make(ArmWithGripper(1.0)), ConfigError);
+  EXPECT_EQ(Content(folder_.path() / "out/my_arm.yaml"), "mine\n");
+}
+
+TEST_F(DraftTest, RefusesWhatIsNoRobot) {
+  EXPECT_THROW(Make("<robot name='r'><link name='a'/></robot>"), models::ModelError);
+  EXPECT_THROW(Make("robot"), models::ModelError);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out"));
+}
+
+}  // namespace draft_test
+}  // namespace oca::drafts
