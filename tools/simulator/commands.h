@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "oca/tools/simulator/simulator_main.h"
+#include "tools/simulator/robot_options.h"
 #include "tools/simulator/run_files.h"
 
 namespace oca::tools {
@@ -64,13 +65,11 @@ struct GraphArguments {
 int GraphCommand(const GraphArguments& arguments, const files::Catalogue& catalogue);
 
 struct CheckCollisionsArguments {
-  std::string urdf;                    ///< or xacro
-  std::vector<std::string> arguments;  ///< NAME=VALUE, of a xacro
-  std::string write_srdf;              ///< empty: print only
+  RobotArguments robot;
+  std::string write_srdf;  ///< empty: print only
   int samples{10000};
   std::uint64_t seed{0};
   double margin{0.02};  ///< m
-  std::string visual_as_collision{"none"};
   bool json{false};
 };
 /// Which pairs of links of a robot need no check for collision, for its SRDF.

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <atomic>
 #include <chrono>
 #include <csignal>
@@ -12,6 +13,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "oca/diagrams/live/access.h"
@@ -111,20 +113,30 @@ int RunLiveCommand(const RunArguments& arguments, const std::vector<files::Overr
   return kRunFailed;
 }
 
-int ViewCommand(const ViewArguments& arguments) {
+void AddServerOptions(CLI::App& command, ViewArguments& arguments) {
+  command.add_option("--port", arguments.port, "to serve it on; 0: any that is free")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  command.add_option("--address", arguments.address, "to serve it on")->capture_default_str();
+}
+
+int ServeRecord(const std::string& what, std::string record, const ViewArguments& arguments) {
   live::LiveOptions options;
   options.address = arguments.address;
   options.port = arguments.port;
-  options.record = RecordBytes(arguments.file);
+  options.record = std::move(record);
   options.page = record::PageWithSource(record::LoadPage(), "record.mcap");
   options.forbidden = SayForbidden;
   const live::LiveServer server(options);
   std::signal(SIGINT, End);
   std::signal(SIGTERM, End);
-  SayWhere(arguments.file + ", in a browser; Ctrl-C ends it", server, arguments.address,
-           "read the record");
+  SayWhere(what + ", in a browser; Ctrl-C ends it", server, arguments.address, "read the record");
   while (!ended) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   return kFine;
+}
+
+int ViewCommand(const ViewArguments& arguments) {
+  return ServeRecord(arguments.file, RecordBytes(arguments.file), arguments);
 }
 
 }  // namespace oca::tools

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iostream>
@@ -9,7 +8,6 @@
 
 #include "oca/diagrams/files/package_paths.h"
 #include "oca/diagrams/runs/output_files.h"
-#include "oca/framework/dataflow/error.h"
 #include "oca/models/opened_files.h"
 #include "oca/models/robot/collision_check.h"
 #include "oca/models/robot/srdf.h"
@@ -17,7 +15,6 @@
 #include "oca/models/robot/urdf.h"
 #include "tools/simulator/commands.h"
 #include "tools/simulator/terminal.h"
-#include "tools/simulator/xacro_arguments.h"
 
 namespace oca::tools {
 namespace {
@@ -83,31 +80,18 @@ std::vector<robot::DisabledPair> DisabledPairs(const robot::RobotModel& model,
   return disabled;
 }
 
-robot::VisualAsCollision VisualsFrom(const std::string& name) {
-  const auto names = EnumNames(robot::VisualAsCollision{});
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) {
-    throw ConfigError(fmt::format("--visual-as-collision: got '{}'; expected one of: {}", name,
-                                  fmt::join(names, ", ")));
-  }
-  return static_cast<robot::VisualAsCollision>(found - names.begin());
-}
-
 }  // namespace
 
 int CheckCollisionsCommand(const CheckCollisionsArguments& arguments) {
-  robot::LoadOptions options;
-  options.package_directories = files::PackageFolders();
+  robot::LoadOptions options = LoadOptionsOf(arguments.robot);
   options.load_visuals = false;
-  options.visual_as_collision = VisualsFrom(arguments.visual_as_collision);
-  options.xacro_arguments = ParseXacroArguments(arguments.arguments);
   const auto warn = [&](const std::string& line) {
-    Tell("{}: warning: {}\n", arguments.urdf, line);
+    Tell("{}: warning: {}\n", arguments.robot.urdf, line);
   };
   options.warn = warn;
   models::OpenedFiles opened;
   const robot::RobotModel model =
-      robot::LoadUrdf(files::ResolvePath(arguments.urdf, {}, {}), options);
+      robot::LoadUrdf(files::ResolvePath(arguments.robot.urdf, {}, {}), options);
   runs::CheckOutputs({{"--write-srdf", arguments.write_srdf}},
                      runs::InputsOf(opened.files(), "what the robot is read from"));
   if (const std::string unseen = robot::DescribeUnseen(model, "--visual-as-collision missing");

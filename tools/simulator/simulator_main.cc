@@ -18,7 +18,9 @@
 #include "oca/version.h"
 #include "tools/simulator/commands.h"
 #include "tools/simulator/file_name.h"
+#include "tools/simulator/live_commands.h"
 #include "tools/simulator/record_commands.h"
+#include "tools/simulator/show_command.h"
 #include "tools/simulator/sweep_commands.h"
 #include "tools/simulator/terminal.h"
 
@@ -145,10 +147,7 @@ class CommandLine {
   void AddView() {
     CLI::App* const view = app_.add_subcommand("view", "show a record in a browser");
     view->add_option("FILE", view_.file, "record (.mcap)")->required();
-    view->add_option("--port", view_.port, "to serve it on; 0: any that is free")
-        ->check(CLI::Range(0, 65535))
-        ->capture_default_str();
-    view->add_option("--address", view_.address, "to serve it on")->capture_default_str();
+    AddServerOptions(*view, view_);
     view->callback([this] { command_ = [this] { return ViewCommand(view_); }; });
   }
 
@@ -226,10 +225,7 @@ class CommandLine {
     robot->require_subcommand(1);
     CLI::App* const check = robot->add_subcommand(
         "check-collisions", "find the pairs of links that need no check for collision");
-    check->add_option("URDF", collisions_.urdf, "or xacro: path or package://NAME/PATH")
-        ->required();
-    check->add_option("--argument", collisions_.arguments, "NAME=VALUE: argument of a xacro")
-        ->allow_extra_args(false);
+    AddRobotOptions(*check, collisions_.robot);
     check
         ->add_option("--write-srdf", collisions_.write_srdf,
                      "file to write the pairs to; what else it holds is kept")
@@ -244,11 +240,6 @@ class CommandLine {
         ->add_option("--margin", collisions_.margin,
                      "m; a pair that comes nearer counts as one that may collide")
         ->capture_default_str();
-    check
-        ->add_option(
-            "--visual-as-collision", collisions_.visual_as_collision,
-            "links that take what is drawn of them as collision shapes: none, missing, all")
-        ->capture_default_str();
     check->add_flag("--json", collisions_.json, "print one JSON object instead of the table");
     check->callback([this] { command_ = [this] { return CheckCollisionsCommand(collisions_); }; });
     CLI::App* const expand =
@@ -258,6 +249,7 @@ class CommandLine {
         ->allow_extra_args(false);
     expand->add_option("-o,--output", expand_.output, "file to write it to")->check(FileName());
     expand->callback([this] { command_ = [this] { return ExpandCommand(expand_); }; });
+    AddShow(*robot, command_);
   }
 
   /// CLI11 says little of misspelt words; name the nearest ones.
@@ -283,7 +275,7 @@ class CommandLine {
   }
 
   std::string ExplainRobot(const std::string& what, int argc, char** argv) {
-    const std::vector<std::string> commands{"check-collisions", "expand"};
+    const std::vector<std::string> commands{"check-collisions", "expand", "show"};
     const std::string second = argc > 2 ? argv[2] : "";
     if (std::find(commands.begin(), commands.end(), second) != commands.end()) {
       return ExplainOption(*app_.get_subcommand("robot")->get_subcommand(second), what, argc, argv);

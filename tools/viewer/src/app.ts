@@ -13,6 +13,7 @@ import { Player } from "./player";
 import { Plots } from "./plots";
 import { Recording, upperBound } from "./recording";
 import { SceneView } from "./scene_view";
+import { makeSwitches, markSwitch, Tabs } from "./tabs";
 import { Timeline } from "./timeline";
 
 const kSwitches: [layer: Layer, name: string][] = [
@@ -32,15 +33,15 @@ export class App {
   plots: Plots | undefined;
   recording = new Recording();
   private readonly timeline: Timeline;
-  private readonly panes = new Map<Tab, HTMLElement>();
+  private readonly tabs: Tabs<Tab>;
   private live: LiveSource | undefined;
 
   constructor(readonly page: Page) {
     this.view = new SceneView(page, byId("view"), byId("labels"), this.recording);
     this.player = new Player((time) => this.show(time));
     this.timeline = new Timeline(page, (time) => this.player.seek(time));
-    this.makeTabs();
-    this.makeSwitches();
+    this.tabs = new Tabs(kTabs, () => { if (this.live) this.refreshSaid(); });
+    makeSwitches(kSwitches, (layer) => this.turn(layer), (layer) => this.view.overlays.isOn(layer));
     bindKeys(this);
     page.onTheme(() => this.plots?.refresh());
     const loop = (now: number): void => {
@@ -69,7 +70,7 @@ export class App {
     });
     this.live = live;
     const pane = element("div", "knobs");
-    this.panes.get("Parameters")!.replaceChildren(pane);
+    this.tabs.pane("Parameters").replaceChildren(pane);
     const knobs = new Knobs(pane, live);
     dragObstacles(this.view, live);
     byId("follow").hidden = false;
@@ -97,15 +98,10 @@ export class App {
   turn(layer: Layer, on = !this.view.overlays.isOn(layer)): void {
     this.view.overlays.turn(layer, on);
     this.view.touch();
-    byId("switches").querySelector(`[data-layer=${layer}]`)!.setAttribute("aria-pressed", String(on));
+    markSwitch(layer, on);
   }
 
-  select(tab: Tab): void {
-    for (const [name, pane] of this.panes) pane.hidden = name !== tab;
-    for (const button of byId("tabs").children) button.setAttribute("aria-selected", String(button.textContent === tab));
-    if (this.live) this.refreshSaid();
-  }
-  selectNumber(index: number): void { if (kTabs[index]) this.select(kTabs[index]); }
+  selectNumber(index: number): void { this.tabs.selectNumber(index); }
 
   private take(recording: Recording): void {
     this.recording = recording;
@@ -142,7 +138,7 @@ export class App {
     if (!this.plots) return;
     const report = reportOf(this.recording);
     this.showBadges(report);
-    for (const [tab, pane] of this.panes) {
+    for (const [tab, pane] of this.tabs.panes) {
       if (!pane.hidden && !pane.matches(":active")) this.refill(tab, report);
     }
   }
@@ -155,7 +151,7 @@ export class App {
 
   private makePlots(): void {
     this.plotsAsked = this.recording.about("plots", "oca.plots");
-    const pane = this.panes.get("Plots")!;
+    const pane = this.tabs.pane("Plots");
     pane.replaceChildren();
     this.plots = new Plots(this.page, pane, this.recording, (time) => this.player.seek(time));
     const distances = this.plots.specs.find((spec) => spec.role === "distance");
@@ -210,36 +206,9 @@ export class App {
   }
 
   private fill(tab: Tab, into: (pane: HTMLElement) => void): void {
-    const pane = this.panes.get(tab)!;
+    const pane = this.tabs.pane(tab);
     pane.replaceChildren();
     into(pane);
-  }
-
-  private makeTabs(): void {
-    byId("tabs").replaceChildren();
-    byId("panes").replaceChildren();
-    for (const tab of kTabs) {
-      const button = element("button", "", tab), pane = element("div", `pane ${tab.toLowerCase()}`);
-      button.setAttribute("role", "tab");
-      pane.setAttribute("role", "tabpanel");
-      button.onclick = () => this.select(tab);
-      byId("tabs").append(button);
-      byId("panes").append(pane);
-      this.panes.set(tab, pane);
-    }
-    this.select("Plots");
-  }
-
-  private makeSwitches(): void {
-    byId("switches").replaceChildren();
-    kSwitches.forEach(([layer, name], i) => {
-      const button = element("button", `switch ${layer}`, name);
-      button.dataset["layer"] = layer;
-      button.title = `${name} (${i + 1})`;
-      button.setAttribute("aria-pressed", "true");
-      button.onclick = () => this.turn(layer);
-      byId("switches").append(button);
-    });
   }
 
   static readonly layers = kSwitches.map(([layer]) => layer);

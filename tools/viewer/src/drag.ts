@@ -3,6 +3,8 @@ import * as THREE from "three";
 import type { LiveSource } from "./live_source";
 import type { SceneView } from "./scene_view";
 
+const kObstacle = "obstacle/";
+
 /** Drags obstacles of a live scene, parallel to the picture; with Shift along the vertical. */
 export function dragObstacles(view: SceneView, live: LiveSource): void {
   const canvas = view.canvas;
@@ -13,10 +15,10 @@ export function dragObstacles(view: SceneView, live: LiveSource): void {
   };
   canvas.addEventListener("pointerdown", (event) => {
     const box = canvas.getBoundingClientRect();
-    const hit = view.obstacleAt(event.clientX - box.left, event.clientY - box.top);
-    if (!hit) return;
+    const hit = view.frameAt(event.clientX - box.left, event.clientY - box.top);
+    if (!hit?.frame.startsWith(kObstacle)) return;
     const normal = event.shiftKey ? view.camera.getWorldDirection(new THREE.Vector3()) : new THREE.Vector3(0, 0, 1);
-    held = { parameter: live.positionOf(hit.id), plane: new THREE.Plane().setFromNormalAndCoplanarPoint(normal, hit.point),
+    held = { parameter: live.positionOf(hit.frame.slice(kObstacle.length)), plane: new THREE.Plane().setFromNormalAndCoplanarPoint(normal, hit.point),
              offset: hit.origin.sub(hit.point) };
     view.controls.enabled = false;
     canvas.setPointerCapture(event.pointerId);

@@ -1,21 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One page, three sources: a record inside the page, a record at an address, a running simulator.
+// One page, three sources: a record inside the page, a record at an address, a running simulator. A record is that of a run, or
+// of a robot that stands still.
 import "./style.css";
 import { App } from "./app";
 import { fromBase64, readMcap } from "./mcap_source";
 import { Page } from "./page";
+import { RobotApp } from "./robot_app";
 
 const began = performance.now();
 const page = new Page();
 
 async function open(bytes: Uint8Array): Promise<void> {
-  const app = new App(page);
-  app.load(await readMcap(bytes));
-  expose(app);
+  const recording = await readMcap(bytes);
+  if (recording.topics.has("/robot")) {
+    expose(new RobotApp(page, recording));
+  } else {
+    const app = new App(page);
+    app.load(recording);
+    expose(app);
+  }
 }
 
 /** What tests look at. */
-function expose(app: App): void {
+function expose(app: App | RobotApp): void {
   Object.assign(window, { oca: app, ocaLoadMilliseconds: performance.now() - began });
 }
 

@@ -146,3 +146,34 @@ export function solid(entity: SceneEntity): THREE.Group {
   for (const one of entity.models ?? []) group.add(model(one));
   return group;
 }
+
+const kOverlay = { roughness: 0.8, transparent: true, opacity: 0.32, depthWrite: false,
+                   polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -1 };
+const overlay = new THREE.MeshStandardMaterial({ ...kOverlay, color: 0xf08a1d });
+
+/** An entity that is seen through, over what else is drawn at the same place. */
+export function overlaid(entity: SceneEntity): THREE.Group {
+  const group = solid(entity);
+  group.traverse((object) => {
+    if (!(object instanceof THREE.Mesh)) return;
+    object.material = overlay;
+    object.castShadow = object.receiveShadow = false;
+    object.renderOrder = 1;
+  });
+  return group;
+}
+
+const painted = new Map<string, THREE.MeshStandardMaterial>();
+
+/** Everything of an object in a colour of the style sheet; undefined: as it was. What is seen through stays so. */
+export function repaint(group: THREE.Object3D, colour: string | undefined): void {
+  group.traverse((object) => {
+    if (!(object instanceof THREE.Mesh)) return;
+    const own = (object.userData["own"] ??= object.material) as THREE.MeshStandardMaterial;
+    const key = `${colour},${own === overlay}`;
+    if (colour && !painted.has(key)) {
+      painted.set(key, new THREE.MeshStandardMaterial({ ...(own === overlay ? { ...kOverlay, opacity: 0.55 } : { roughness: 0.55 }), color: colour }));
+    }
+    object.material = colour ? painted.get(key)! : own;
+  });
+}

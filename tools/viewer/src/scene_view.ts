@@ -6,13 +6,17 @@ import { placeLabel } from "./labels";
 import { Overlays } from "./overlays";
 import type { FrameTransform, FrameTransforms, SceneEntity, SceneUpdate } from "./messages";
 import { element, type Page } from "./page";
-import { segments, solid } from "./primitives";
+import { overlaid, repaint, segments, solid } from "./primitives";
 import type { Recording } from "./recording";
 
 /** px; keeps the names of obstacles clear of the nearest distance */
 const kUnder = 26;
 
-interface Shown { entity: SceneEntity; object: THREE.Object3D }
+/** What is solid: topics of entities. */
+export type Solids = "/scene/robots" | "/scene/obstacles" | "/scene/collisions";
+
+interface Shown { entity: SceneEntity; object: THREE.Object3D; topic: Solids }
+interface Label { element: HTMLElement; at: THREE.Object3D; down: number }
 
 /** The world at one instant: robots, obstacles, and what pushes them. z is up, lengths in m. */
 export class SceneView {
@@ -25,7 +29,10 @@ export class SceneView {
   private readonly frames = new Map<string, THREE.Group>();
   private readonly histories = new Map<string, EntityHistory>();
   private readonly shown = new Map<string, Shown>();
-  private readonly obstacleLabels = new Map<string, HTMLElement>();
+  private readonly standing = new Map<string, Label>();
+  private readonly hidden = new Set<Solids>();
+  /** Of the picture's height, what is drawn takes 1 / room at the start. */
+  room = 0.92;
   private grid = new THREE.GridHelper();
   private framed = false;
   /** Something moved since the last picture. */
@@ -65,7 +72,7 @@ export class SceneView {
   /** Puts everything where it is at `time`. */
   show(time: number): void {
     this.showTransforms(time);
-    for (const name of ["/scene/robots", "/scene/obstacles"]) this.showHistory(name, time);
+    for (const name of ["/scene/robots", "/scene/obstacles", "/scene/collisions"] as const) this.showHistory(name, time);
     const trails = this.history("/scene/trails");
     const pieces: SceneEntity[] = [];
     if (trails) {
@@ -99,16 +106,61 @@ export class SceneView {
     return found && found.getWorldPosition(new THREE.Vector3()).toArray();
   }
 
-  /** The id of the obstacle at a point of the canvas (CSS pixels), with the point that was hit. */
-  obstacleAt(x: number, y: number): { id: string; point: THREE.Vector3; origin: THREE.Vector3 } | undefined {
-    const hit = this.ray(x, y).intersectObjects([...this.shown.values()].map((one) => one.object), true)[0];
+  /** The frame whose solids are at a point of the canvas (CSS pixels), with the point that was hit. */
+  frameAt(x: number, y: number): { frame: string; point: THREE.Vector3; origin: THREE.Vector3 } | undefined {
+    const seen = [...this.shown.values()].filter(({ topic }) => !this.hidden.has(topic));
+    const hit = this.ray(x, y).intersectObjects(seen.map((one) => one.object), true)[0];
     for (let object: THREE.Object3D | null | undefined = hit?.object; object; object = object.parent) {
       const frame = [...this.frames].find(([, group]) => group === object)?.[0];
-      if (frame?.startsWith("obstacle/")) {
-        return { id: frame.slice("obstacle/".length), point: hit!.point, origin: object.getWorldPosition(new THREE.Vector3()) };
-      }
+      if (frame) return { frame, point: hit!.point, origin: object.getWorldPosition(new THREE.Vector3()) };
     }
     return undefined;
+  }
+
+  /** Puts a frame where it is in its parent, whatever the recording says. */
+  place(transform: FrameTransform): void {
+    const { translation: p, rotation: q } = transform;
+    const group = this.frame(transform.child_frame_id);
+    const parent = transform.parent_frame_id === "world" ? this.world : this.frame(transform.parent_frame_id);
+    if (group.parent !== parent) parent.add(group);
+    group.position.set(p.x, p.y, p.z);
+    group.quaternion.set(q.x, q.y, q.z, q.w);
+    this.stale = true;
+  }
+
+  /** Shows or hides all solids of a topic. */
+  turn(topic: Solids, on: boolean): void {
+    if (on) this.hidden.delete(topic); else this.hidden.add(topic);
+    for (const one of this.shown.values()) if (one.topic === topic) one.object.visible = on;
+    this.stale = true;
+  }
+  isOn(topic: Solids): boolean { return !this.hidden.has(topic); }
+
+  /** Gives the solids of a frame another colour; none: their own. */
+  paint(frame: string, colour: string | undefined): void {
+    for (const { entity, object } of this.shown.values()) {
+      if (entity.frame_id !== frame) continue;
+      repaint(object, colour);
+      object.userData["paint"] = colour;
+    }
+    this.stale = true;
+  }
+
+  /** The colours that a frame was painted in, one a body, for tests. */
+  coloursOf(frame: string): string[] {
+    const bodies = [...this.shown.values()].filter(({ entity }) => entity.frame_id === frame);
+    return bodies.map(({ object }) => object.userData["paint"] as string);
+  }
+
+  /** A label at the middle of what is drawn of a frame; empty text: none. */
+  label(frame: string, text: string, className: string): void {
+    const old = this.standing.get(frame);
+    if (old?.element.textContent === text && old.element.className === `label ${className}`) return;
+    old?.element.remove();
+    old?.at.removeFromParent();
+    this.standing.delete(frame);
+    if (text !== "") this.addLabel(frame, text, className, this.middleOf(frame), 0);
+    this.stale = true;
   }
 
   ray(x: number, y: number): THREE.Raycaster {
@@ -136,15 +188,6 @@ export class SceneView {
     for (const transform of now.transforms) this.place(transform);
   }
 
-  private place(transform: FrameTransform): void {
-    const { translation: p, rotation: q } = transform;
-    const group = this.frame(transform.child_frame_id);
-    const parent = transform.parent_frame_id === "world" ? this.world : this.frame(transform.parent_frame_id);
-    if (group.parent !== parent) parent.add(group);
-    group.position.set(p.x, p.y, p.z);
-    group.quaternion.set(q.x, q.y, q.z, q.w);
-  }
-
   private history(name: string): EntityHistory | undefined {
     const topic = this.recording.topics.get(name);
     if (!topic) return undefined;
@@ -154,7 +197,7 @@ export class SceneView {
     return history;
   }
 
-  private showHistory(name: string, time: number): void {
+  private showHistory(name: Solids, time: number): void {
     const history = this.history(name);
     if (!history) return;
     for (const id of history.ids) {
@@ -162,30 +205,40 @@ export class SceneView {
       if (old && old.entity === entity) continue;
       if (old) this.remove(id);
       if (!entity) continue;
-      const object = solid(entity);
+      const object = name === "/scene/collisions" ? overlaid(entity) : solid(entity);
+      object.visible = this.isOn(name);
       (entity.frame_id === "world" ? this.world : this.frame(entity.frame_id)).add(object);
-      this.shown.set(id, { entity, object });
-      if (name === "/scene/obstacles") this.addLabel(id);
+      this.shown.set(id, { entity, object, topic: name });
+      if (name === "/scene/obstacles") this.addLabel(id, id.replace(/^obstacle\//, ""), "obstacle", object, kUnder);
     }
   }
 
-  private addLabel(id: string): void {
-    const label = element("span", "label obstacle", id.replace(/^obstacle\//, ""));
-    this.labels.append(label);
-    this.obstacleLabels.set(id, label);
+  private addLabel(id: string, text: string, className: string, at: THREE.Object3D, down: number): void {
+    const made = element("span", `label ${className}`, text);
+    this.labels.append(made);
+    this.standing.set(id, { element: made, at, down });
+  }
+
+  /** A point of a frame amid its solids; its origin if it has none. */
+  private middleOf(name: string): THREE.Object3D {
+    const frame = this.frame(name), box = new THREE.Box3(), middle = new THREE.Object3D();
+    this.world.updateMatrixWorld(true);
+    for (const { entity, object } of this.shown.values()) if (entity.frame_id === name) box.expandByObject(object);
+    if (!box.isEmpty()) middle.position.copy(frame.worldToLocal(box.getCenter(new THREE.Vector3())));
+    frame.add(middle);
+    return middle;
   }
 
   private remove(id: string): void {
     this.shown.get(id)?.object.removeFromParent();
     this.shown.delete(id);
-    this.obstacleLabels.get(id)?.remove();
-    this.obstacleLabels.delete(id);
+    this.standing.get(id)?.element.remove();
+    this.standing.delete(id);
   }
 
   private placeLabels(): void {
-    for (const [id, label] of this.obstacleLabels) {
-      const object = this.shown.get(id)!.object;
-      placeLabel(label, object.getWorldPosition(new THREE.Vector3()), this.camera, this.canvas, kUnder);
+    for (const { element: label, at, down } of this.standing.values()) {
+      placeLabel(label, at.getWorldPosition(new THREE.Vector3()), this.camera, this.canvas, down);
     }
     this.overlays.placeLabels(this.camera, this.canvas);
   }
@@ -211,7 +264,7 @@ export class SceneView {
     this.framed = true;
     const sphere = box.getBoundingSphere(new THREE.Sphere());
     const narrow = Math.min(1, this.camera.aspect);
-    const distance = (Math.max(0.4, sphere.radius) * 0.92) / Math.sin((this.camera.fov * Math.PI) / 360) / narrow;
+    const distance = (Math.max(0.4, sphere.radius) * this.room) / Math.sin((this.camera.fov * Math.PI) / 360) / narrow;
     this.controls.target.copy(sphere.center);
     this.camera.position.copy(sphere.center).addScaledVector(new THREE.Vector3(0.78, -0.5, 0.38).normalize(), Math.min(distance, 12));
     this.controls.update();

@@ -30,7 +30,7 @@ export async function openPage(browser, url, options = {}) {
   page.on("pageerror", (error) => problems.push(`error: ${error.message}`));
   const began = Date.now();
   await page.goto(url);
-  await page.waitForFunction(() => window.oca && window.oca.plots && window.oca.player.end > 0);
+  await page.waitForFunction(() => window.oca && (window.oca.robot || (window.oca.plots && window.oca.player.end > 0)));
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   return { page, problems, milliseconds: Date.now() - began };
 }

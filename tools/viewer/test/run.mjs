@@ -11,6 +11,7 @@ import { McapIndexedReader } from "@mcap/core";
 import { embed, launch, openPage } from "./page.mjs";
 import { delta, final, requested, sampleRecord } from "./sample_record.mjs";
 import { testLive, testView } from "./live.mjs";
+import { testRealRobots, testRobot } from "./robot.mjs";
 import { testAccess, testTruth } from "./truth.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -210,7 +211,10 @@ await test("names from a record stay text", async () => {
   await page.context().close();
 });
 
+await testRobot({ test, browser, write, embed, page_text, errorsOf, colours });
+
 if (simulator) {
+  await testRealRobots({ test, browser, simulator, folder, write, errorsOf, colours });
   await testView({ test, browser, simulator, folder, messagesOf, errorsOf, colours, show });
   await testLive({ test, browser, simulator, errorsOf });
   await testTruth({ test, browser, simulator, folder, viewer, errorsOf, show });

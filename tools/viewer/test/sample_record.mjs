@@ -6,10 +6,10 @@ const kEpoch = 1_700_000_000_000_000_000n;  // ns
 const kJoints = 7;
 const kHeights = [0.31, 0, 0.4, 0, 0.39, 0, 0.16];  // m to the next joint, along the arm
 const kBox = { id: "box", at: [0.45, 0.45, 1.0], size: 0.2 };
-const identity = { x: 0, y: 0, z: 0, w: 1 };
-const vector = ([x, y, z]) => ({ x, y, z });
-const pose = (position, orientation = identity) => ({ position: vector(position), orientation });
-const colour = (r, g, b, a = 1) => ({ r, g, b, a });
+export const identity = { x: 0, y: 0, z: 0, w: 1 };
+export const vector = ([x, y, z]) => ({ x, y, z });
+export const pose = (position, orientation = identity) => ({ position: vector(position), orientation });
+export const colour = (r, g, b, a = 1) => ({ r, g, b, a });
 
 /** Joint angles (rad) at time t (s): the test compares the page's plots with these. */
 export const requested = (t) => Array.from({ length: kJoints }, (_, i) => (i === 0 ? 1.4 * Math.sin(0.25 * t) : 0.3 + 0.5 * Math.sin(0.2 * t + i)));
@@ -79,18 +79,14 @@ function forces(now, t) {
     { ...base, id: "forces", arrows }, { ...base, id: "torques", arrows: torques }] } };
 }
 
-/** The bytes of a record of `duration` s: scene at 60 Hz, signals at 100 Hz. */
-export async function sampleRecord(duration = 10) {
+/** The bytes of a record that `fill` puts messages and metadata into. */
+export async function recordOf(fill) {
   const parts = [];
-  let size = 0;
+  let size = 0, sequence = 0;
   const writer = new McapWriter({ writable: {
     write: async (bytes) => { parts.push(Uint8Array.from(bytes)); size += bytes.length; }, position: () => BigInt(size) } });
   await writer.start({ profile: "", library: "oca" });
-  await writer.addMetadata({ name: "oca", metadata: new Map(Object.entries({ version: "0.1.0", diagram: "sample.yaml", seed: "42",
-    start_epoch_ns: String(kEpoch), dropped_messages: "0", outcome: "finished" })) });
-  await writer.addMetadata({ name: "oca.parameters", metadata: new Map([["max_distance", "0.3"], ["max_joint_velocity", "0.6"], ["alpha", "1"]]) });
   const channels = new Map();
-  let sequence = 0;
   async function put(topic, schemaName, t, message, schema = { type: "object" }) {
     if (!channels.has(topic)) {
       const schemaId = await writer.registerSchema({ name: schemaName, encoding: "jsonschema", data: Buffer.from(JSON.stringify(schema)) });
@@ -99,6 +95,17 @@ export async function sampleRecord(duration = 10) {
     const time = kEpoch + BigInt(Math.round(t * 1e9));
     await writer.addMessage({ channelId: channels.get(topic), sequence: sequence++, logTime: time, publishTime: time, data: Buffer.from(JSON.stringify(message)) });
   }
+  await fill(put, (name, metadata) => writer.addMetadata({ name, metadata: new Map(Object.entries(metadata)) }));
+  await writer.end();
+  return Buffer.concat(parts);
+}
+
+/** The bytes of a record of `duration` s: scene at 60 Hz, signals at 100 Hz. */
+export const sampleRecord = (duration = 10) => recordOf((put, describe) => fillSample(put, describe, duration));
+
+async function fillSample(put, describe, duration) {
+  await describe("oca", { version: "0.1.0", diagram: "sample.yaml", seed: "42", start_epoch_ns: String(kEpoch), dropped_messages: "0", outcome: "finished" });
+  await describe("oca.parameters", { max_distance: "0.3", max_joint_velocity: "0.6", alpha: "1" });
   const named = (values) => Object.fromEntries(values.map((value, i) => [`a${i + 1}`, value]));
   const jointSchema = { type: "object", properties: Object.fromEntries(requested(0).map((_, i) => [`a${i + 1}`, { type: "number", "x-unit": "rad" }])) };
   await put("/scene/robots", "foxglove.SceneUpdate", 0, { deletions: [], entities: robotEntities() });
@@ -130,6 +137,4 @@ export async function sampleRecord(duration = 10) {
   await put("/metrics", "oca.Metrics", duration, { name: "sample", duration, steps: 100 * duration, wall_seconds: 0.01,
     metrics: { min_distance: nearest.distance, min_distance_pair: [nearest.link, nearest.obstacle], min_distance_time: nearest.t, contact_time: 0, max_abs_delta: 0.3 },
     expectations: [{ name: "min_distance", value: nearest.distance, bound: ">= 0.02", at: duration, ok: nearest.distance >= 0.02 }] });
-  await writer.end();
-  return Buffer.concat(parts);
 }

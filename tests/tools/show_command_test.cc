@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `simulator robot show`, as a user meets it; what its page does is judged in tools/viewer/test.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/tools/program.h"
+
+namespace oca::tools {
+namespace show_command_test {
+
+using testing::HasSubstr;
+using testing::Not;
+
+class ShowCommandTest : public testing::Test {
+ protected:
+  ShowCommandTest() { run.folder().Write("page.html", "<head><!--oca:source--></head>"); }
+  /// Without `more`, the page goes to out.html.
+  Ran Show(const std::string& robot, const std::string& more = "") const {
+    const std::string folder = run.folder().path().string();
+    return run("OCA_VIEWER=" + folder + "/page.html $S robot show " + robot + " " +
+               (more.empty() ? "-o " + folder + "/out.html" : more));
+  }
+  Program run;
+};
+
+TEST_F(ShowCommandTest, WritesThePageWithTheRobotInside) {
+  const Ran ran = Show("package://lwr4/lwr4.urdf");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("wrote " + (run.folder().path() / "out.html").string()));
+  // The magic bytes of MCAP in base64, by hand: 89 4d 43 41 50 30 0d 0a.
+  EXPECT_THAT(run.Read("out.html"), HasSubstr("id=\"oca-record\" type=\"application/octet-stream;"
+                                              "base64\">iU1DQVAwDQ"));
+}
+
+TEST_F(ShowCommandTest, ServesThePageUntilItIsInterrupted) {
+  const std::string page = (run.folder().path() / "page.html").string();
+  const Ran ran = run("OCA_VIEWER=" + page +
+                      " timeout --preserve-status -s INT 5 $S robot show "
+                      "package://planar2/planar2.urdf --port 0");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("package://planar2/planar2.urdf, in a browser; Ctrl-C ends it: "
+                                 "http://127.0.0.1:"));
+}
+
+TEST_F(ShowCommandTest, TellsTheWarningsOfTheLoad) {
+  const std::string arm = run.folder().Write("arm.urdf", R"(<robot name="arm"><link name="base">
+      <visual><geometry><sphere radius="1"/></geometry></visual></link></robot>)");
+  EXPECT_THAT(Show(arm).err, HasSubstr(arm + ": warning: robot 'arm' has no collision shape"));
+  const Ran drawn =
+      Show(arm, "--visual-as-collision missing -o " + (run.folder().path() / "o.html").string());
+  EXPECT_EQ(drawn.status, 0);
+  EXPECT_THAT(drawn.err, Not(HasSubstr("warning")));
+}
+
+TEST_F(ShowCommandTest, TakesXacroAndItsArguments) {
+  const std::string arm =
+      run.folder().Write("arm.xacro", R"xml(<robot name="$(arg n)" xmlns:xacro="x">
+      <xacro:arg name="n" default="a"/><link name="l"><visual><geometry><sphere radius="1"/>
+      </geometry></visual></link></robot>)xml");
+  const std::string out = " -o " + (run.folder().path() / "o.html").string();
+  EXPECT_THAT(Show(arm, "--argument n=bee" + out).err, HasSubstr("robot 'bee' has no collision"));
+  EXPECT_EQ(Show(arm, "--argument m=bee" + out).status, 2);
+}
+
+TEST_F(ShowCommandTest, RefusesWhatItCannotShow) {
+  EXPECT_EQ(Show("missing.urdf").status, 2);
+  EXPECT_EQ(Show("package://lwr4/lwr4.urdf", "--srdf package://ur5e/ur5e.srdf -o x.html").status,
+            2);
+  EXPECT_EQ(Show("package://lwr4/lwr4.urdf", "-o /nowhere/at/all.html").status, 2);
+  EXPECT_EQ(Show("package://lwr4/lwr4.urdf", "-o ''").status, 64);
+  EXPECT_EQ(Show("package://lwr4/lwr4.urdf", "--port 70000").status, 64);
+  const Ran all = Show("package://lwr4/lwr4.urdf", "--visual-as-collision some -o x.html");
+  EXPECT_EQ(all.status, 2);
+  EXPECT_THAT(all.err, HasSubstr("expected one of: none, missing, all"));
+  const Ran misspelt = Show("package://lwr4/lwr4.urdf", "--sdrf x");
+  EXPECT_EQ(misspelt.status, 64);
+  EXPECT_THAT(misspelt.err, HasSubstr("did you mean '--srdf'?"));
+}
+
+TEST_F(ShowCommandTest, WritesOverNothingThatItReads) {
+  const std::string urdf = (run.folder().path() / "arm.urdf").string();
+  const Ran ran = run("cp models/robots/planar2/planar2.urdf " + urdf +
+                      " && OCA_VIEWER=" + run.folder().path().string() +
+                      "/page.html $S robot show " + urdf + " -o " + urdf);
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_THAT(ran.err, HasSubstr("is what the robot is read from"));
+  EXPECT_THAT(run.Read("arm.urdf"), HasSubstr("<robot"));
+}
+
+}  // namespace show_command_test
+}  // namespace oca::tools

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/simulator/show_command.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "oca/diagrams/files/package_paths.h"
+#include "oca/diagrams/record/page.h"
+#include "oca/diagrams/record/robot_record.h"
+#include "oca/diagrams/runs/output_files.h"
+#include "oca/framework/dataflow/error.h"
+#include "oca/models/opened_files.h"
+#include "tools/simulator/commands.h"
+#include "tools/simulator/file_name.h"
+#include "tools/simulator/live_commands.h"
+#include "tools/simulator/robot_options.h"
+#include "tools/simulator/terminal.h"
+
+namespace oca::tools {
+namespace {
+
+struct ShowArguments {
+  RobotArguments robot;
+  std::string srdf;    ///< empty: none
+  std::string output;  ///< HTML file; empty: serve the page
+  ViewArguments view;
+};
+
+record::RobotRecord ReadRobot(const ShowArguments& arguments) {
+  robot::LoadOptions options = LoadOptionsOf(arguments.robot);
+  record::RobotSource source;
+  source.file = arguments.robot.urdf;
+  source.srdf = arguments.srdf;
+  source.remedy = "--visual-as-collision missing";
+  if (!arguments.srdf.empty()) options.srdf = files::ResolvePath(arguments.srdf, {}, {});
+  options.warn = [&source](const std::string& line) { source.warnings.push_back(line); };
+  const auto model = std::make_shared<const robot::RobotModel>(
+      robot::LoadUrdf(files::ResolvePath(arguments.robot.urdf, {}, {}), options));
+  return record::RecordRobot(model, source);
+}
+
+void WritePage(const std::string& file, const std::string& mcap) {
+  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
+  stream << record::PageWithRecord(record::LoadPage(), mcap);
+  stream.close();
+  if (!stream) {
+    throw ConfigError(fmt::format(
+        "--output: got {}, which could not be written to the end; expected room", file));
+  }
+  Tell("wrote {}\n", file);
+}
+
+int ShowCommand(const ShowArguments& arguments) {
+  models::OpenedFiles opened;
+  record::RobotRecord record = ReadRobot(arguments);
+  for (const std::string& line : record.warnings) {
+    Tell("{}: warning: {}\n", arguments.robot.urdf, line);
+  }
+  if (arguments.output.empty()) {
+    return ServeRecord(arguments.robot.urdf, std::move(record.mcap), arguments.view);
+  }
+  runs::CheckOutputs({{"--output", arguments.output}},
+                     runs::InputsOf(opened.files(), "what the robot is read from"));
+  WritePage(arguments.output, record.mcap);
+  return kFine;
+}
+
+}  // namespace
+
+void AddShow(CLI::App& robot, std::function<int()>& command) {
+  CLI::App* const show = robot.add_subcommand(
+      "show", "move its joints in a browser, beside its collision shapes and warnings");
+  const auto arguments = std::make_shared<ShowArguments>();
+  AddRobotOptions(*show, arguments->robot);
+  show->add_option("--srdf", arguments->srdf,
+                   "pairs of links that are not checked for contact: path or package://NAME/PATH")
+      ->check(FileName());
+  show->add_option("-o,--output", arguments->output,
+                   "HTML file to write instead: opens in a browser, offline")
+      ->check(FileName());
+  AddServerOptions(*show, arguments->view);
+  show->callback(
+      [&command, arguments] { command = [arguments] { return ShowCommand(*arguments); }; });
+}
+
+}  // namespace oca::tools
