@@ -101,6 +101,8 @@ void ModelSection::ReadEntry(const std::string& where, Read& read) const {
   params.srdf = Resolve(params.srdf, LocationOf(read.entry, "srdf")).string();
   params.urdf = Resolve(params.urdf, LocationOf(read.entry, "urdf")).string();
   params.xacro = Resolve(params.xacro, LocationOf(read.entry, "xacro")).string();
+  params.joint_limits =
+      Resolve(params.joint_limits, LocationOf(read.entry, "joint_limits")).string();
   const Warn warn = [&](const std::string& line) { read.warnings.push_back(line); };
   read.model = LoadModel(where, params, packages_, warn);
 }
@@ -120,7 +122,9 @@ void ModelSection::ReadModel(const Value::Entry& entry, const std::string& full_
       sources_[entry.key] = {where, read->params, packages_};
     }
   } catch (const std::runtime_error& error) {
-    thrown.Add(entry.location, fmt::format("{}: {}", where, error.what()));
+    const Value* const at = FindSpokenOf(entry.value, error.what());
+    thrown.Add(at == nullptr ? entry.location : at->location(),
+               fmt::format("{}: {}", where, error.what()));
   }
   const Read& found = read == nullptr ? fresh : *read;
   failed_ = failed_ || found.model == nullptr || !thrown.empty();
@@ -178,7 +182,8 @@ Value ModelSection::ResolveFiles(const Value& value, Problems& problems) const {
   } else if (const Value::Map* const map = value.map()) {
     for (std::size_t i = 0; i < map->size(); ++i) {
       const Value::Entry& entry = (*map)[i];
-      if (entry.key == "arguments") continue;  // what they mean the xacro file knows
+      // What arguments mean the xacro file knows; what is held are joints.
+      if (entry.key == "arguments" || entry.key == "held") continue;
       if (entry.key == "file" && entry.value.string() != nullptr) {
         (*resolved.map())[i].value = ResolveName(entry.value, problems);
         continue;

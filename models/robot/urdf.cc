@@ -13,6 +13,7 @@
 #include "oca/models/robot/fuse_capsules.h"
 #include "oca/models/robot/inertia.h"
 #include "oca/models/robot/joint_limits.h"
+#include "oca/models/robot/joint_limits_file.h"
 #include "oca/models/robot/mesh_path.h"
 #include "oca/models/robot/srdf.h"
 #include "oca/models/robot/urdf_outline.h"
@@ -50,36 +51,55 @@ class UrdfReader {
     OrderTree();
     for (const std::size_t joint : joint_order_) joints_.push_back(ReadJoint(joint));
     for (const std::size_t link : link_order_) links_.push_back(ReadLink(outline_.links[link]));
+    const Srdf srdf = ReadSrdf();
+    const JointLimitsFile limits = ReadLimitsFile();
+    limits.TightenRanges(joints_);
+    if (!options_.held.empty()) {
+      joints_ = HoldJoints(MakeModel(links_, joints_, {}), srdf, options_.held);
+    }
     ApplyLimits(options_.acceleration_limits, "acceleration_limits", &Joint::acceleration_limit);
     ApplyLimits(options_.jerk_limits, "jerk_limits", &Joint::jerk_limit);
-    std::vector<std::pair<int, int>> disabled;
-    if (!options_.srdf.empty()) {
-      SrdfRobot robot{outline_.robot_name, {}, {}};
-      for (const Link& link : links_) robot.links.push_back(link.name.text());
-      for (const Joint& joint : joints_) robot.joints.push_back(joint.name.text());
-      disabled = LoadDisabledPairs(options_.srdf, robot);
-    }
+    limits.TightenRates(joints_);
+    const RobotModel model = MakeModel(std::move(links_), std::move(joints_), srdf);
+    if (options_.warn) Warn(repairs, model);
+    return model;
+  }
+
+ private:
+  Srdf ReadSrdf() const {
+    if (options_.srdf.empty()) return {};
+    SrdfRobot robot{outline_.robot_name, {}, {}};
+    for (const Link& link : links_) robot.links.push_back(link.name.text());
+    for (const Joint& joint : joints_) robot.joints.push_back(joint.name.text());
+    return LoadSrdf(options_.srdf, robot);
+  }
+
+  JointLimitsFile ReadLimitsFile() const {
+    return options_.joint_limits.empty() ? JointLimitsFile()
+                                         : JointLimitsFile(options_.joint_limits);
+  }
+
+  RobotModel MakeModel(std::vector<Link> links, std::vector<Joint> joints, const Srdf& srdf) const {
     try {
-      RobotModel model(models::Name(outline_.robot_name), std::move(links_), std::move(joints_),
-                       options_.X_WB, std::move(disabled));
-      if (options_.warn) {
-        for (const std::string& line : repairs) options_.warn(line);
-        WarnOfMissingVisuals();
-        if (const std::string line = InertiaWarning(model); !line.empty()) options_.warn(line);
-        for (const UrdfOutline::Joint& joint : outline_.joints) {
-          if (!joint.fixed || joint.mimic.empty()) continue;
-          options_.warn(fmt::format("joint '{}': fixed, so its <mimic> of '{}' does nothing",
-                                    joint.name, joint.mimic));
-        }
-        for (const std::string& line : LimitWarnings(model)) options_.warn(line);
-      }
-      return model;
+      return RobotModel(models::Name(outline_.robot_name), std::move(links), std::move(joints),
+                        options_.X_WB, srdf.disabled_pairs, srdf.states);
     } catch (const models::ModelError& error) {
       throw models::ModelError(fmt::format("{}: {}", where_, error.what()));
     }
   }
 
- private:
+  void Warn(const std::vector<std::string>& repairs, const RobotModel& model) const {
+    for (const std::string& line : repairs) options_.warn(line);
+    WarnOfMissingVisuals();
+    if (const std::string line = InertiaWarning(model); !line.empty()) options_.warn(line);
+    for (const UrdfOutline::Joint& joint : outline_.joints) {
+      if (!joint.fixed || joint.mimic.empty()) continue;
+      options_.warn(fmt::format("joint '{}': fixed, so its <mimic> of '{}' does nothing",
+                                joint.name, joint.mimic));
+    }
+    for (const std::string& line : LimitWarnings(model)) options_.warn(line);
+  }
+
   // Depth first, children in the order of the file's joints, without recursion.
   void OrderTree() {
     std::unordered_map<std::string, std::size_t> link_of_name;
