@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <string_view>
 #include <vector>
 
@@ -14,12 +15,32 @@
 namespace oca::robot {
 namespace {
 
-std::vector<std::filesystem::path> Candidates(const std::string& name,
-                                              const std::filesystem::path& directory,
-                                              const LoadOptions& options) {
-  constexpr std::string_view kPackage = "package://";
-  constexpr std::string_view kFile = "file://";
-  if (name.starts_with(kFile)) return {directory / name.substr(kFile.size())};
+constexpr std::string_view kPackage = "package://";
+
+/// A URI with `%20` and its like as the characters that they stand for.
+/// source RFC 3986, section 2.1
+std::string Decoded(const std::string& uri) {
+  std::string text;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    unsigned byte = 0;
+    const char* const end = uri.data() + std::min(i + 3, uri.size());
+    if (uri[i] == '%' && end - (uri.data() + i) == 3 &&
+        std::from_chars(uri.data() + i + 1, end, byte, 16).ptr == end && byte != 0) {
+      text += static_cast<char>(byte);
+      i += 2;
+    } else {
+      text += uri[i];
+    }
+  }
+  return text;
+}
+
+std::vector<std::filesystem::path> CandidatesAsWritten(const std::string& name,
+                                                       const std::filesystem::path& directory,
+                                                       const LoadOptions& options) {
+  for (const std::string_view scheme : {"file://localhost", "file://", "file:"}) {
+    if (name.starts_with(scheme)) return {directory / name.substr(scheme.size())};
+  }
   if (!name.starts_with(kPackage)) return {directory / name};
   const std::size_t slash = std::min(name.find('/', kPackage.size()), name.size());
   const std::string package = name.substr(kPackage.size(), slash - kPackage.size());
@@ -32,6 +53,20 @@ std::vector<std::filesystem::path> Candidates(const std::string& name,
   for (const auto& folder : options.package_directories) {
     candidates.push_back(folder / package / rest);
   }
+  return candidates;
+}
+
+/// A URI's first as it is meant, then as it is written, for some write paths without escapes.
+std::vector<std::filesystem::path> Candidates(const std::string& name,
+                                              const std::filesystem::path& directory,
+                                              const LoadOptions& options) {
+  std::vector<std::filesystem::path> candidates;
+  const bool uri = name.starts_with(kPackage) || name.starts_with("file:");
+  if (const std::string meant = Decoded(name); uri && meant != name) {
+    candidates = CandidatesAsWritten(meant, directory, options);
+  }
+  const auto written = CandidatesAsWritten(name, directory, options);
+  candidates.insert(candidates.end(), written.begin(), written.end());
   return candidates;
 }
 

@@ -2,6 +2,7 @@
 #include "oca/models/robot/urdf.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tinyxml.h>
 
 #include <algorithm>
@@ -16,6 +17,7 @@
 #include "oca/models/robot/joint_limits_file.h"
 #include "oca/models/robot/mesh_path.h"
 #include "oca/models/robot/srdf.h"
+#include "oca/models/robot/urdf_newer.h"
 #include "oca/models/robot/urdf_outline.h"
 #include "oca/models/robot/urdf_repair.h"
 #include "oca/models/robot/urdfdom.h"
@@ -44,10 +46,13 @@ class UrdfReader {
 
   RobotModel Read(const std::string& text) {
     const XmlDocument document = ParseXml(text, where_);
+    root_ = document->RootElement();
+    newer_ = RewriteNewerUrdf(*document->RootElement(), where_);
     const std::vector<std::string> repairs = RepairUrdf(*document->RootElement());
     outline_ = ReadUrdfOutline(*document->RootElement(), where_);
     CheckUrdfTree(outline_, where_);
-    parsed_ = ParseWithUrdfdom(repairs.empty() ? text : TextOf(*document), where_);
+    parsed_ =
+        ParseWithUrdfdom(repairs.empty() && !newer_.changed ? text : TextOf(*document), where_);
     OrderTree();
     for (const std::size_t joint : joint_order_) joints_.push_back(ReadJoint(joint));
     for (const std::size_t link : link_order_) links_.push_back(ReadLink(outline_.links[link]));
@@ -97,6 +102,12 @@ class UrdfReader {
       options_.warn(fmt::format("joint '{}': fixed, so its <mimic> of '{}' does nothing",
                                 joint.name, joint.mimic));
     }
+    if (!softened_.empty()) {
+      options_.warn(
+          fmt::format("joints whose soft limits, of their safety_controller, are the limits "
+                      "that count: {}",
+                      fmt::join(softened_, ", ")));
+    }
     for (const std::string& line : LimitWarnings(model)) options_.warn(line);
   }
 
@@ -127,7 +138,19 @@ class UrdfReader {
     }
   }
 
-  Joint ReadJoint(std::size_t index) const {
+  /// A controller that slows down at soft limits never lets the joint go beyond. Two that are equal
+  /// are none, as they are 0 where they are left out.
+  void NarrowToSoftLimits(const urdf::JointSafety& soft, Joint& joint) {
+    const double lower = std::max(joint.lower_limit, soft.soft_lower_limit);
+    const double upper = std::min(joint.upper_limit, soft.soft_upper_limit);
+    const bool narrower = lower > joint.lower_limit || upper < joint.upper_limit;
+    if (joint.type == JointType::kContinuous || !narrower || !(lower < upper)) return;
+    joint.lower_limit = lower;
+    joint.upper_limit = upper;
+    softened_.push_back(fmt::format("'{}' [{:.9g}, {:.9g}]", joint.name.text(), lower, upper));
+  }
+
+  Joint ReadJoint(std::size_t index) {
     const UrdfOutline::Joint& entry = outline_.joints[index];
     const urdf::Joint& from = *parsed_->getJoint(entry.name);
     Joint joint;
@@ -149,6 +172,7 @@ class UrdfReader {
         joint.upper_limit = from.limits->upper;
       }
     }
+    if (from.safety != nullptr && entry.mimic.empty()) NarrowToSoftLimits(*from.safety, joint);
     joint.acceleration_limit = entry.acceleration.value_or(kUnlimited);
     joint.jerk_limit = entry.jerk.value_or(kUnlimited);
     if (!entry.mimic.empty()) {
@@ -171,10 +195,14 @@ class UrdfReader {
     link.name = models::Name(entry.name);
     link.collisions = FuseCapsules(ReadCollisions(entry, from));
     for (std::size_t i = 0; i < from.visual_array.size(); ++i) {
-      const auto visual = ReadVisual(
+      auto visual = ReadVisual(
           *from.visual_array[i],
           fmt::format("{}:{}: link '{}' visual", where_, entry.visual_lines[i], entry.name));
-      if (visual) link.visuals.push_back(*visual);
+      if (!visual) continue;
+      if (newer_.IsCapsule(*root_, "visual", entry.name, i)) {
+        visual->shape = CapsuleOf(*visual->shape);
+      }
+      link.visuals.push_back(*visual);
     }
     if (from.inertial != nullptr) link.inertia = ReadInertia(*from.inertial);
     return link;
@@ -200,8 +228,9 @@ class UrdfReader {
       const std::string line = fmt::format("{}:{}", where_, lines[i]);
       const std::string source = expanded_ == nullptr ? line : expanded_->WithPlaces(line, where_);
       const std::string where = fmt::format("{}: link '{}' {}", source, link, kind);
-      solids.push_back({ToPose(elements[i]->origin),
-                        ReadShape(*elements[i]->geometry, link, kind, where), source});
+      geometry::Shape shape = ReadShape(*elements[i]->geometry, link, kind, where);
+      if (newer_.IsCapsule(*root_, kind, link, i)) shape = CapsuleOf(shape);
+      solids.push_back({ToPose(elements[i]->origin), std::move(shape), source});
     }
     return solids;
   }
@@ -237,6 +266,11 @@ class UrdfReader {
     }
     const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
     return geometry::Cylinder{cylinder.radius, cylinder.length};
+  }
+
+  static geometry::Shape CapsuleOf(const geometry::Shape& shape) {
+    const auto& cylinder = std::get<geometry::Cylinder>(shape);
+    return geometry::Capsule{cylinder.radius, cylinder.length};
   }
 
   /// Nothing if its mesh is missing: a picture may lack a part.
@@ -308,12 +342,15 @@ class UrdfReader {
   const LoadOptions& options_;
   const std::filesystem::path& directory_;
   const ExpandedXacro* const expanded_;
+  const TiXmlElement* root_{nullptr};  // of the document that is read
+  NewerUrdf newer_;
   UrdfOutline outline_;
   std::shared_ptr<urdf::ModelInterface> parsed_;
   std::vector<std::size_t> link_order_, joint_order_;  // places in the outline
   std::unordered_map<std::string, int> number_of_link_, number_of_joint_;
   std::vector<Link> links_;
   std::vector<Joint> joints_;
+  std::vector<std::string> softened_;         // joints
   std::vector<std::string> missing_visuals_;  // why each one is not drawn
 };
 

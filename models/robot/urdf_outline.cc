@@ -92,8 +92,7 @@ class OutlineReader {
     } else if (kind == "mesh") {
       CheckMesh(*shape);
     } else {
-      xml_.Fail(*shape, "unknown geometry", kind,
-                "sphere, box, cylinder or mesh (a capsule is a cylinder and two spheres)");
+      xml_.Fail(*shape, "unknown geometry", kind, "sphere, box, cylinder, capsule or mesh");
     }
   }
 
