@@ -8,6 +8,7 @@
 #include <exception>
 
 #include "oca/diagrams/files/diagram_file.h"
+#include "oca/diagrams/files/section.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/nearest.h"
 
@@ -81,7 +82,9 @@ std::unique_ptr<System> CatalogueRow::Make(const void* params, const Value& give
   } catch (const std::exception& error) {
     // One that follows from what has been reported says nothing new.
     if (problems.empty() || !HasGap(given)) {
-      problems.Add(given.location(), (where.empty() ? "" : where + ": ") + error.what());
+      const Value* const at = FindSpokenOf(given, error.what());
+      problems.Add((at == nullptr ? given : *at).location(),
+                   (where.empty() ? "" : where + ": ") + error.what());
     }
   }
   return nullptr;

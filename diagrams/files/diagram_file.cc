@@ -24,7 +24,18 @@ void ModelParams::Describe(Fields<ModelParams>& fields) {
              "instead of urdf: a file that is expanded first, named .xacro");
   fields.Add("arguments", &ModelParams::arguments, "",
              "values of the arguments that the xacro declares, by name");
-  fields.Add("srdf", &ModelParams::srdf, "", "pairs of links that are not checked for collision");
+  fields.Add(
+      "srdf", &ModelParams::srdf, "",
+      "pairs of links that are not checked for collision, groups of joints, and postures that "
+      "have names");
+  fields.Add(
+      "group", &ModelParams::group, "",
+      "of the SRDF: the joints that move; all others are held, at 0 or the limit nearest to it "
+      "if `held` does not say where");
+  fields.Add(
+      "held", &ModelParams::held, "",
+      "joints that no method moves, by name with their positions, rad or m; or by group with "
+      "the name of a state of it. They are no joints of the robot's positions");
   fields.Add("collision", &ModelParams::collision, "",
              "what its collision meshes count as: their convex hull, or the convex parts of a "
              "decomposition, which keep hollows");
@@ -40,6 +51,8 @@ void ModelParams::Describe(Fields<ModelParams>& fields) {
       .Add("jerk_limits", &ModelParams::jerk_limits, "rad/s^3",
            "which URDF lacks; a number or one a joint")
       .Above(0.0);
+  fields.Add("joint_limits", &ModelParams::joint_limits, "",
+             "YAML file of joint limits as MoveIt writes it, which narrow all others");
   fields.Add("attached", &ModelParams::attached, "",
              "tools and grasped objects: they move with a link of the robot and collide");
 }

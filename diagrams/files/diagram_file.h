@@ -32,17 +32,27 @@ struct XacroArguments {
   robot::XacroArguments texts{};
 };
 
+/// Where joints are that a task does not move; in a diagram file one map: numbers, rad or m, by the
+/// name of a joint, names of states by that of a group.
+struct HeldParams {
+  std::map<std::string, double> positions{};
+  std::map<std::string, std::string> states{};
+};
+
 /// An entry of `models`: of urdf and xacro one is given.
 struct ModelParams {
   std::string urdf{};
   std::string xacro{};  ///< in place of urdf
   XacroArguments arguments{};
   std::string srdf{};
+  std::string group{};  ///< of the SRDF; all joints outside are held
+  HeldParams held{};
   systems::CollisionMeshes collision{systems::CollisionMeshes::kHull};  ///< of its meshes
   robot::VisualAsCollision visual_as_collision{robot::VisualAsCollision::kNone};
   systems::PoseParams base_pose{};
   std::optional<PerComponent> acceleration_limits{};
   std::optional<PerComponent> jerk_limits{};
+  std::string joint_limits{};  ///< a file
   std::vector<AttachedParams> attached{};
   static void Describe(Fields<ModelParams>& fields);
 };
@@ -69,5 +79,7 @@ namespace oca {
 
 template <>
 const ParamType& ParamTypeOf<files::XacroArguments>();
+template <>
+const ParamType& ParamTypeOf<files::HeldParams>();
 
 }  // namespace oca

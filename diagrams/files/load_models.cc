@@ -56,6 +56,8 @@ void ReadModel(const std::string& where, const ModelParams& params, const Packag
   options.decompose_meshes = params.collision == systems::CollisionMeshes::kDecomposition;
   options.visual_as_collision = params.visual_as_collision;
   options.srdf = params.srdf;
+  options.joint_limits = params.joint_limits;
+  options.held = {params.group, params.held.positions, params.held.states};
   if (params.acceleration_limits) {
     options.acceleration_limits = params.acceleration_limits->values();
   }
@@ -88,6 +90,8 @@ std::string FormOf(const std::string& where, const ModelParams& params,
   for (const auto* const limits : {&params.acceleration_limits, &params.jerk_limits}) {
     form += limits->has_value() ? '\n' + BytesOf((*limits)->values()) : "\n";
   }
+  form += fmt::format("\n{}\n{}\n{}", params.joint_limits, params.group,
+                      ParamTypeOf<HeldParams>().ToJson(&params.held).dump());
   for (const AttachedParams& object : params.attached) {
     form += "\n" + JsonOfFields(FieldsOf<AttachedParams>(), &object).dump();
   }
@@ -136,6 +140,7 @@ systems::ModelSet LoadModels(const std::vector<std::pair<std::string, ModelParam
     placed.urdf = FromHere(params.urdf);
     placed.xacro = FromHere(params.xacro);
     placed.srdf = FromHere(params.srdf);
+    placed.joint_limits = FromHere(params.joint_limits);
     for (AttachedParams& object : placed.attached) {
       if (object.shape.file) object.shape.file = FromHere(*object.shape.file);
     }

@@ -109,6 +109,8 @@ void ModelSection::ReadEntry(const std::string& where, Read& read) const {
   params.srdf = Resolve(params.srdf, LocationOf(read.entry, "srdf")).string();
   params.urdf = Resolve(params.urdf, LocationOf(read.entry, "urdf")).string();
   params.xacro = Resolve(params.xacro, LocationOf(read.entry, "xacro")).string();
+  params.joint_limits =
+      Resolve(params.joint_limits, LocationOf(read.entry, "joint_limits")).string();
   const Warn warn = [&](const std::string& line) { read.warnings.push_back(line); };
   read.model = LoadModel(where, params, packages_, warn);
 }
@@ -131,7 +133,10 @@ void ModelSection::ReadModel(const Value::Entry& entry, const std::string& full_
     const std::string text = error.what();
     for (std::size_t from = 0, end = 0; end != std::string::npos; from = end + 1) {
       end = text.find('\n', from);
-      thrown.Add(PlaceOf(entry), fmt::format("{}: {}", where, text.substr(from, end - from)));
+      const std::string line = text.substr(from, end - from);
+      const Value* const at = FindSpokenOf(entry.value, line);
+      thrown.Add(at == nullptr ? PlaceOf(entry) : at->location(),
+                 fmt::format("{}: {}", where, line));
     }
   }
   const Read& found = read == nullptr ? fresh : *read;
@@ -190,7 +195,8 @@ Value ModelSection::ResolveFiles(const Value& value, Problems& problems) const {
   } else if (const Value::Map* const map = value.map()) {
     for (std::size_t i = 0; i < map->size(); ++i) {
       const Value::Entry& entry = (*map)[i];
-      if (entry.key == "arguments") continue;  // what they mean the xacro file knows
+      // What arguments mean the xacro file knows; what is held are joints.
+      if (entry.key == "arguments" || entry.key == "held") continue;
       if (entry.key == "file" && entry.value.string() != nullptr) {
         (*resolved.map())[i].value = ResolveName(entry.value, problems);
         continue;

@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string>
+#include <variant>
+
 #include "oca/diagrams/loading/loaded_diagram.h"
 #include "oca/framework/dataflow/dynamic_port.h"
 #include "oca/framework/dataflow/error.h"
@@ -11,6 +15,16 @@
 #include "oca/systems/signals/roles.h"
 
 namespace oca::loading {
+namespace {
+
+/// Whether lengths of vectors do not fit.
+bool IsOfSize(const WiringProblem& problem) {
+  const auto* const words = std::get_if<std::string>(&problem.text.back());
+  return words != nullptr &&
+         (words->starts_with(": size; got") || words->starts_with(": initial value; got"));
+}
+
+}  // namespace
 
 Assembly::Assembly(const Value& root, const Level& level, const SystemSources& sources,
                    Construction& construction, DiagramBuilder& builder, Problems& problems)
@@ -49,7 +63,10 @@ std::unique_ptr<Diagram> Assembly::Build(bool movable) {
   } catch (const SimulationError& error) {  // a state starts where it cannot be
     construction_.AddStartProblem(error, problems_);
   } catch (const WiringError& error) {
+    const bool counted = std::any_of(error.problems.begin(), error.problems.end(), IsOfSize) &&
+                         systems_.TellWrongCounts(problems_);
     for (const WiringProblem& problem : error.problems) {
+      if (counted && IsOfSize(problem)) continue;  // they follow
       construction_.AddWiringProblem(problem, root_.location(), problems_);
     }
   }

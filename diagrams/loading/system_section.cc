@@ -14,9 +14,34 @@
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/nearest.h"
 #include "oca/models/file_cache.h"
+#include "oca/models/robot/posture.h"
 #include "oca/systems/signals/roles.h"
 
 namespace oca::loading {
+
+namespace {
+
+struct Numbers {
+  std::string where;
+  const Value* value;  // a list
+};
+
+/// Where an entry says a number a joint.
+std::vector<Numbers> NumbersOfJoints(const Value& entry) {
+  std::vector<Numbers> found;
+  const auto add = [&](const std::string& where, const Value* value) {
+    if (value != nullptr && value->list() != nullptr) found.push_back({where, value});
+  };
+  if (const Value* const points = entry.Find("key_points"); points && points->list()) {
+    for (std::size_t i = 0; i < points->list()->size(); ++i) {
+      add(fmt::format("key_points[{}].position", i), (*points->list())[i].Find("position"));
+    }
+  }
+  add("initial_position", entry.Find("initial_position"));
+  return found;
+}
+
+}  // namespace
 
 SystemSection::SystemSection(const Value& root, const Level& level, const SystemSources& sources,
                              Construction& construction, DiagramBuilder& builder,
@@ -146,10 +171,9 @@ void SystemSection::Make(const Value::Entry& entry, const Value& type, const std
                         : models::MakeOnce<ReadEntry>(
                               "systems." + path, sources_.models.FormOf(entry.value), read_now);
   problems_.Add(read->of_paths);
-  // A model that did not load has been reported; its users would only repeat it.
-  if (sources_.models.failed() && row->needs_models) return;
   problems_.Add(read->of_params);
-  if (read->typed == nullptr) return;
+  // A model that did not load has been reported; its users would only repeat it.
+  if (read->typed == nullptr || (sources_.models.failed() && row->needs_models)) return;
   auto system =
       row->Make(read->typed.get(), read->params, where, sources_.models.models(), problems_);
   if (!system) return;
@@ -192,6 +216,37 @@ void SystemSection::Use(const Value::Entry& entry) {
     for (LoadedDiagram::Block& block : systems.TakeBlocks()) blocks_.push_back(std::move(block));
   }
   made_[entry.key] = {.file = used_.back().get()};
+}
+
+bool SystemSection::TellWrongCounts(Problems& problems) const {
+  bool told = false;
+  for (const Value::Entry& entry : Entries()) {
+    const auto model = ModelOf(entry.value);
+    if (model == nullptr) continue;
+    for (const auto& [where, value] : NumbersOfJoints(entry.value)) {
+      if (std::ssize(*value->list()) == model->num_positions()) continue;
+      problems.Add(value->location(),
+                   fmt::format("systems.{}.{}: got {} numbers; expected {}", entry.key, where,
+                               value->list()->size(), robot::OneAJoint(*model)));
+      told = true;
+      break;  // the others are as long, or have been told of
+    }
+  }
+  for (const auto& used : used_) {
+    if (used->failed()) continue;
+    Problems own;
+    told = used->assembly().systems().TellWrongCounts(own) || told;
+    used->Tell(own);
+  }
+  return told;
+}
+
+std::shared_ptr<const robot::RobotModel> SystemSection::ModelOf(const Value& entry) const {
+  const Value* const named = entry.Find("model");
+  const std::string name = named != nullptr && named->string() != nullptr ? *named->string() : "";
+  if (name.empty() && !models_->HasOnly()) return nullptr;
+  const auto model = models_->Get(name);
+  return model->num_positions() > 0 ? model : nullptr;
 }
 
 void SystemSection::KeepWarnings(const System& system, const std::string& where,

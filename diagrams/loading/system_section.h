@@ -62,6 +62,9 @@ class SystemSection {
   /// throw WiringError if there is no such port.
   std::optional<OutputAt> FindOutput(const std::string& path) const;
   std::optional<std::vector<InputAt>> FindInputs(const std::string& path) const;
+  /// Of a diagram whose sizes do not fit: adds a problem for each system that says another number
+  /// of joints than its robot has, where it says so. Returns whether there is one.
+  bool TellWrongCounts(Problems& problems) const;
   /// All that systems and used files have, as `system.port`.
   std::vector<std::string> OutputNames() const;
   std::vector<std::string> InputNames() const;
@@ -83,6 +86,8 @@ class SystemSection {
                        const std::string& where) const;
   void Make(const Value::Entry& entry, const Value& type, const std::string& where);
   void Use(const Value::Entry& entry);
+  /// The robot that an entry names, or the only one; nullptr if there is not one.
+  std::shared_ptr<const robot::RobotModel> ModelOf(const Value& entry) const;
   void KeepWarnings(const System& system, const std::string& where, const Location& location);
   /// What the first name of a path leads to.
   struct Followed {

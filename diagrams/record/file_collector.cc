@@ -28,11 +28,13 @@ fs::path FolderOf(const Location& location) {
 }
 
 bool NamesFile(const std::string& key) {
-  return key == "urdf" || key == "xacro" || key == "srdf" || key == "file";
+  return key == "urdf" || key == "xacro" || key == "srdf" || key == "joint_limits" || key == "file";
 }
 
-/// The key of a model whose entries are no files of the diagram, whatever their names.
 constexpr const char* kArguments = "arguments";
+
+/// Whether the entries of a key of a model are no files of the diagram, whatever their names.
+bool NamesNone(const std::string& key) { return key == kArguments || key == "held"; }
 
 /// Whether a tree has a file's name in it.
 bool HoldsFile(const Value& value) {
@@ -41,7 +43,7 @@ bool HoldsFile(const Value& value) {
   }
   return value.map() != nullptr &&
          std::any_of(value.map()->begin(), value.map()->end(), [](const Value::Entry& entry) {
-           return entry.key != kArguments && (NamesFile(entry.key) || HoldsFile(entry.value));
+           return !NamesNone(entry.key) && (NamesFile(entry.key) || HoldsFile(entry.value));
          });
 }
 
@@ -89,7 +91,7 @@ Value FileCollector::Rewrite(const Value& document, const Value* resolved) {
   Value::Map map;
   for (const Value::Entry& entry : *document.map()) {
     const Value* const own = resolved->Find(entry.key);
-    if (entry.key == kArguments) {
+    if (NamesNone(entry.key)) {
       map.push_back(entry);
       continue;
     }

@@ -70,6 +70,7 @@ std::pair<robot::PostureSolution, int> FindPosture(
     robot::InverseKinematicsSettings settings;
     settings.solutions = kSolutions;
     settings.clearance = goal.clearance;
+    settings.turns_freely = goal.turns_freely;
     std::vector<robot::PlacedBody> bodies;
     if (goal.bodies) bodies = goal.bodies(goal.time.value_or(before.time));
     robot::Clearance surroundings(model, true, std::move(bodies));
@@ -91,10 +92,11 @@ motion::KeyPoint KeyPointAt(const PoseGoal& goal, const motion::KeyPoint& before
   const auto [found, link] = FindPosture(goal, before, model);
   if (!found.reached) {
     throw models::ModelError(fmt::format(
-        "goal.pose: out of reach; got one that {} misses by at least {:.3g} m and {:.3g} rad; "
-        "expected one within the joints' limits",
+        "goal.{}: out of reach; got one that {} misses by at least {:.3g} m{}; expected one within "
+        "the joints' limits",
+        goal.turns_freely ? "point" : "pose",
         model->links()[static_cast<std::size_t>(link)].name.text(), found.position_error,
-        found.rotation_error));
+        goal.turns_freely ? "" : fmt::format(" and {:.3g} rad", found.rotation_error)));
   }
   motion::KeyPoint point;
   point.position = found.q;

@@ -16,6 +16,7 @@ namespace oca::planning {
 /// Where a link of a robot shall be.
 struct PoseGoal {
   Eigen::Isometry3d X_WG{Eigen::Isometry3d::Identity()};  ///< of the link, world
+  bool turns_freely{false};                               ///< the link's origin alone is meant
   std::string link{};                                     ///< empty: the tip
   std::optional<double> time{};                           ///< s; of arrival
   double clearance{0.0};                                  ///< m; 0: nothing is looked at

@@ -65,7 +65,8 @@ RobotModel AttachObjects(const RobotModel& robot, std::span<const AttachedObject
     joints.push_back(std::move(joint));
     links.push_back(std::move(link));
   }
-  return {robot.name(), std::move(links), std::move(joints), robot.X_WB(), std::move(disabled)};
+  return {robot.name(), std::move(links),    std::move(joints),
+          robot.X_WB(), std::move(disabled), robot.states()};
 }
 
 }  // namespace oca::robot

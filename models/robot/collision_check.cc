@@ -12,6 +12,7 @@
 #include "oca/models/geometry/distance.h"
 #include "oca/models/robot/joint_limits.h"
 #include "oca/models/robot/kinematics.h"
+#include "oca/models/robot/posture.h"
 
 namespace oca::robot {
 namespace {
@@ -72,13 +73,6 @@ std::vector<Range> RangesOf(const RobotModel& model) {
         model.lower_limits()[i], model.upper_limits()[i]));
   }
   return ranges;
-}
-
-/// The posture 0 as far as the limits allow it.
-Eigen::VectorXd ZeroPosture(const RobotModel& model) {
-  return Eigen::VectorXd::Zero(model.num_positions())
-      .cwiseMax(model.lower_limits())
-      .cwiseMin(model.upper_limits());
 }
 
 std::vector<std::vector<Solid>> MakeSolids(const RobotModel& model) {

@@ -34,7 +34,7 @@ constexpr int kDrawIterations = 12;
 
 /// What is made small, for ceres::TinySolver, behind each other:
 ///
-///   6  the pose error at the clamped position q
+///   6  the pose error at the clamped position q, 0 for what is free
 ///   n  x - q, what lies beyond the limits
 ///   n  w (q - start), and
 ///   a row a link for what lacks of the clearance, both only if the weight w is positive
@@ -44,12 +44,14 @@ class Residuals {
   enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = Eigen::Dynamic };
 
   Residuals(const RobotModel& model, int link, const Eigen::Isometry3d& X_WG,
-            const Eigen::VectorXd& start, double clearance, Clearance* surroundings)
+            const Eigen::VectorXd& start, const InverseKinematicsSettings& settings,
+            Clearance* surroundings)
       : model_(model),
         link_(link),
         X_WG_(X_WG),
         start_(start),
-        aim_(clearance + kClearanceSlack),
+        turns_freely_(settings.turns_freely),
+        aim_(settings.clearance + kClearanceSlack),
         surroundings_(surroundings),
         X_WL_(model.links().size()),
         J_(6, start.size()),
@@ -65,7 +67,9 @@ class Residuals {
 
   Vector6 ErrorAt(const Eigen::VectorXd& q) const {
     ForwardKinematics(model_, q, X_WL_);
-    return PoseError(X_WL_[link_], X_WG_);
+    Vector6 error = PoseError(X_WL_[link_], X_WG_);
+    if (turns_freely_) error.tail<3>().setZero();
+    return error;
   }
 
   bool operator()(const double* parameters, double* residuals, double* jacobian) const {
@@ -85,6 +89,7 @@ class Residuals {
     J.setZero();
     PoseErrorJacobian(model_, X_WL_, link_, X_WG_, J_);
     J.topRows<6>() = J_;
+    if (turns_freely_) J.middleRows<3>(3).setZero();
     if (posture_weight_ > 0.0) J.middleRows(6 + n, n).diagonal().setConstant(posture_weight_);
     AddClearance(r, &J);
     for (Eigen::Index j = 0; j < n; ++j) {
@@ -116,6 +121,7 @@ class Residuals {
   const int link_;
   const Eigen::Isometry3d X_WG_;
   const Eigen::VectorXd start_;
+  const bool turns_freely_;
   const double aim_;
   Clearance* const surroundings_;
   double posture_weight_{0.0};
@@ -136,7 +142,7 @@ class Search {
         settings_(settings),
         surroundings_(settings.clearance > 0.0 ? surroundings : nullptr),
         start_(Clamped(start)),
-        residuals_(model, link, X_WG, start_, settings.clearance, surroundings_),
+        residuals_(model, link, X_WG, start_, settings, surroundings_),
         random_(settings.seed),
         carries_(start.size(), false),
         ranges_(start.size(), false),

@@ -21,7 +21,8 @@ struct InverseKinematicsSettings {
   int starts{200};                  // at most; the given posture, then random ones
   int solutions{1};                 // how many are sought, of which the best is taken
   std::uint64_t seed{0};
-  double clearance{0.0};  // m, wanted from what a Clearance knows; 0: it is not looked at
+  double clearance{0.0};     // m, wanted from what a Clearance knows; 0: it is not looked at
+  bool turns_freely{false};  // the origin of the link shall be there, turned however it is
 };
 
 /// A posture, and what it is worth. Of a goal that is out of reach it is the one whose PoseError
@@ -30,7 +31,7 @@ struct PostureSolution {
   Eigen::VectorXd q;           // n; within the limits
   bool reached{false};         // both errors are within their tolerances
   double position_error{0.0};  // m
-  double rotation_error{0.0};  // rad
+  double rotation_error{0.0};  // rad; 0 where it turns freely
   double change{0.0};          // |q - start|
   double clearance{0.0};       // m, the least; the wanted one if that is less
   int starts{0};               // that were tried

@@ -48,6 +48,12 @@ struct PositionLimits {
 std::vector<PositionLimits> LimitsOfPositions(models::Name robot, const std::vector<Joint>& joints,
                                               const std::vector<KinematicStep>& steps);
 
+/// Gives the joints that move by themselves, in their order, a limit of one kind each, above 0: one
+/// for all, one a joint, or none, which changes nothing. `what` begins the message.
+/// throws ModelError for another number of limits, or one that is not above 0
+void GiveLimits(std::vector<Joint>& joints, const Eigen::VectorXd& limits, const std::string& what,
+                double Joint::*field);
+
 /// A line for all that these rules make of a description and its author may not have meant:
 /// velocity and effort limits of 0, no velocity limit, ranges too wide to be drawn from, leaders
 /// that their mimics bind.

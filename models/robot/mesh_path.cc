@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <map>
 #include <string_view>
 #include <vector>
@@ -35,17 +36,50 @@ std::vector<std::filesystem::path> FoldersOf(const std::string& package,
   return folders;
 }
 
-std::vector<std::filesystem::path> Candidates(const std::string& name,
-                                              const std::filesystem::path& directory,
-                                              const LoadOptions& options) {
-  constexpr std::string_view kFile = "file://";
-  if (name.starts_with(kFile)) return {directory / name.substr(kFile.size())};
+/// A URI with `%20` and its like as the characters that they stand for.
+/// source RFC 3986, section 2.1
+std::string Decoded(const std::string& uri) {
+  std::string text;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    unsigned byte = 0;
+    const char* const end = uri.data() + std::min(i + 3, uri.size());
+    if (uri[i] == '%' && end - (uri.data() + i) == 3 &&
+        std::from_chars(uri.data() + i + 1, end, byte, 16).ptr == end && byte != 0) {
+      text += static_cast<char>(byte);
+      i += 2;
+    } else {
+      text += uri[i];
+    }
+  }
+  return text;
+}
+
+std::vector<std::filesystem::path> CandidatesAsWritten(const std::string& name,
+                                                       const std::filesystem::path& directory,
+                                                       const LoadOptions& options) {
+  for (const std::string_view scheme : {"file://localhost", "file://", "file:"}) {
+    if (name.starts_with(scheme)) return {directory / name.substr(scheme.size())};
+  }
   if (!name.starts_with(kPackage)) return {directory / name};
   const std::string package = PackageOf(name);
   const std::size_t slash = kPackage.size() + package.size();
   const std::string rest = slash < name.size() ? name.substr(slash + 1) : "";
   std::vector<std::filesystem::path> candidates = FoldersOf(package, options);
   for (std::filesystem::path& folder : candidates) folder /= rest;
+  return candidates;
+}
+
+/// A URI's first as it is meant, then as it is written, for some write paths without escapes.
+std::vector<std::filesystem::path> Candidates(const std::string& name,
+                                              const std::filesystem::path& directory,
+                                              const LoadOptions& options) {
+  std::vector<std::filesystem::path> candidates;
+  const bool uri = name.starts_with(kPackage) || name.starts_with("file:");
+  if (const std::string meant = Decoded(name); uri && meant != name) {
+    candidates = CandidatesAsWritten(meant, directory, options);
+  }
+  const auto written = CandidatesAsWritten(name, directory, options);
+  candidates.insert(candidates.end(), written.begin(), written.end());
   return candidates;
 }
 

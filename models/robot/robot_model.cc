@@ -51,12 +51,14 @@ int ParallelTo(const Eigen::Vector3d& axis) {
 
 RobotModel::RobotModel(models::Name name, std::vector<Link> links, std::vector<Joint> joints,
                        const Eigen::Isometry3d& X_WB,
-                       std::vector<std::pair<int, int>> disabled_pairs)
+                       std::vector<std::pair<int, int>> disabled_pairs,
+                       std::vector<NamedState> states)
     : name_(name),
       links_(std::move(links)),
       joints_(std::move(joints)),
       X_WB_(X_WB),
-      disabled_pairs_(std::move(disabled_pairs)) {
+      disabled_pairs_(std::move(disabled_pairs)),
+      states_(std::move(states)) {
   CheckTree();
   NumberPositions();
   CompileSteps();
@@ -255,12 +257,22 @@ bool RobotModel::collision_disabled(int link_a, int link_b) const {
                                                 std::pair<int, int>(pair.first, pair.second));
 }
 
+int RobotModel::BodyByDesign(int link) const {
+  for (; link > 0; link = joints_[link - 1].parent_link) {
+    if (joints_[link - 1].movable() || joints_[link - 1].held) break;
+  }
+  return link;
+}
+
 bool RobotModel::adjacent(int link_a, int link_b) const {
-  const int a = body(link_a);
-  const int b = body(link_b);
-  // The body one movable joint nearer to the root.
-  const auto before = [this](int body_link) { return body(joints_[body_link - 1].parent_link); };
-  if (links_[link_a].attached || links_[link_b].attached) return a == b;
+  if (body(link_a) == body(link_b)) return true;
+  if (links_[link_a].attached || links_[link_b].attached) return false;
+  const int a = BodyByDesign(link_a);
+  const int b = BodyByDesign(link_b);
+  // The body one joint nearer to the root.
+  const auto before = [this](int body_link) {
+    return BodyByDesign(joints_[body_link - 1].parent_link);
+  };
   return a == b || (a > 0 && before(a) == b) || (b > 0 && before(b) == a);
 }
 
@@ -276,7 +288,10 @@ int RobotModel::FindPosition(std::string_view joint_name) const {
     throw models::ModelError(
         fmt::format("robot '{}': position of joint; got '{}', which is {}; expected a joint that "
                     "moves by itself",
-                    name_.text(), joint_name, joint.movable() ? "a mimic" : "fixed"));
+                    name_.text(), joint_name,
+                    joint.movable() ? "a mimic"
+                    : joint.held    ? "held"
+                                    : "fixed"));
   }
   return joint.position_index;
 }

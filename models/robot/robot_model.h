@@ -78,9 +78,17 @@ struct Joint {
   double acceleration_limit{kUnlimited};
   double jerk_limit{kUnlimited};
   std::optional<Mimic> mimic{};
+  bool held{false};        ///< moves by design, and is fixed here: see HoldJoints
   int position_index{-1};  // own entry of q; -1 for fixed and mimic; RobotModel numbers them
 
   bool movable() const { return type != JointType::kFixed; }
+};
+
+/// A posture that has a name, SRDF's <group_state>: where some joints of `group` are, rad or m.
+struct NamedState {
+  std::string name;
+  std::string group{};
+  std::vector<std::pair<std::string, double>> positions{};
 };
 
 /// What a kinematics pass reads of one joint, packed: the joint stands at
@@ -108,13 +116,15 @@ class RobotModel {
  public:
   /// Takes links and joints in the order above (joint j has child_link j + 1 and a parent_link
   /// <= j; indices of parents and positions are filled in here). `X_WB` is the root link's pose in
-  /// the world. `disabled_pairs` are pairs of link numbers that are never checked for collision.
+  /// the world. `disabled_pairs` are pairs of link numbers that are never checked for collision;
+  /// `states` may speak of joints that do not move.
   /// throws ModelError if the tree, an axis, a limit or a mimic rule is wrong, a mimic is fixed or
   /// leaves the joint it follows no position, or if an inertia has numbers that are not finite or a
   /// negative mass; whether any body can have it says ImpossibleInertia
   RobotModel(models::Name name, std::vector<Link> links, std::vector<Joint> joints,
              const Eigen::Isometry3d& X_WB = Eigen::Isometry3d::Identity(),
-             std::vector<std::pair<int, int>> disabled_pairs = {});
+             std::vector<std::pair<int, int>> disabled_pairs = {},
+             std::vector<NamedState> states = {});
 
   /// The same robot with its root link elsewhere. throws ModelError for what is no pose
   RobotModel At(const Eigen::Isometry3d& X_WB) const;
@@ -151,8 +161,12 @@ class RobotModel {
   bool collision_disabled(int link_a, int link_b) const;
   /// Pairs of link numbers, each with first < second, ascending.
   const std::vector<std::pair<int, int>>& disabled_pairs() const { return disabled_pairs_; }
-  /// True if the two links are rigidly connected or only one movable joint lies between them; of an
-  /// attached object only if rigidly connected, for it was not built to clear the neighbours.
+  /// The postures that have names, in the order of the file.
+  const std::vector<NamedState>& states() const { return states_; }
+
+  /// True if the two links are rigidly connected or only one joint that moves by design, held or
+  /// not, lies between them; of an attached object only if rigidly connected, for it was not built
+  /// to clear the neighbours.
   bool adjacent(int link_a, int link_b) const;
 
   /// Number of the link or joint of that name, the place in q of that joint.
@@ -169,12 +183,14 @@ class RobotModel {
   void CompileSteps();
   void CollectLimits();
   void AssignBodies();
+  int BodyByDesign(int link) const;
 
   models::Name name_;
   std::vector<Link> links_;
   std::vector<Joint> joints_;
   Eigen::Isometry3d X_WB_;
   std::vector<std::pair<int, int>> disabled_pairs_;
+  std::vector<NamedState> states_;
   std::vector<KinematicStep> steps_;
   std::vector<models::Name> position_names_;
   Eigen::VectorXd lower_limits_, upper_limits_, velocity_limits_, effort_limits_;

@@ -81,8 +81,7 @@ XmlDocument DocumentToFill(const std::filesystem::path& file, const std::string&
 
 }  // namespace
 
-std::vector<std::pair<int, int>> LoadDisabledPairs(const std::filesystem::path& file,
-                                                   const SrdfRobot& robot) {
+Srdf LoadSrdf(const std::filesystem::path& file, const SrdfRobot& robot) {
   const std::string where = file.string();
   const XmlDocument document = ParseXml(ReadXmlFile(file), where);
   return ReadSrdf(CheckedRoot(*document, where), robot, where);

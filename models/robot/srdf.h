@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "oca/models/robot/robot_model.h"
+
 namespace oca::robot {
 
 /// The names in the URDF that an SRDF speaks of.
@@ -14,18 +16,35 @@ struct SrdfRobot {
   std::vector<std::string> links, joints;
 };
 
-/// Pairs of links, as indices into `robot.links`, that an SRDF file excludes from collision checks:
-/// <disable_collisions link1 link2>; and <disable_default_collisions link>, which excludes a link
-/// from all pairs that no <enable_collisions link1 link2> brings back. The other elements of
-/// MoveIt's format (groups, states, end effectors) are checked, not used: what they name must be
-/// there.
+/// A <group>: what it names itself, and the groups that it takes in.
+struct SrdfGroup {
+  struct Chain {
+    std::string base_link, tip_link;
+  };
+  std::string name;
+  std::vector<std::string> links{}, joints{}, groups{};
+  std::vector<Chain> chains{};
+};
+
+/// What an SRDF file says of a robot.
+struct Srdf {
+  /// As indices into `SrdfRobot::links`, which are not checked for collision: those of
+  /// <disable_collisions link1 link2>; and of <disable_default_collisions link>, which excludes a
+  /// link from all pairs that no <enable_collisions link1 link2> brings back.
+  std::vector<std::pair<int, int>> disabled_pairs{};
+  std::vector<SrdfGroup> groups{};
+  std::vector<NamedState> states{};    ///< of joints of the URDF that have one number
+  std::vector<std::string> passive{};  ///< joints without a motor
+};
+
+/// Reads an SRDF file. The other elements of MoveIt's format (end effectors, virtual joints) are
+/// checked, not used: what they name must be there.
 ///
 /// throws ModelError naming file and line, with the nearest name: for an element or attribute that
 ///        is none of the format, as a misspelt one would leave a pair unchecked; for an unknown
 ///        link, joint or group; for the file of another robot; for xacro that was not expanded
 /// source MoveIt, "URDF and SRDF"; srdfdom, src/model.cpp
-std::vector<std::pair<int, int>> LoadDisabledPairs(const std::filesystem::path& file,
-                                                   const SrdfRobot& robot);
+Srdf LoadSrdf(const std::filesystem::path& file, const SrdfRobot& robot);
 
 /// An entry <disable_collisions link1 link2 reason>.
 struct DisabledPair {

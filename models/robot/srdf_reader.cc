@@ -41,27 +41,30 @@ const std::vector<Kind>& Kinds() {
   return kinds;
 }
 
-/// One file: checks every element, then takes what disables and enables.
+/// One file: checks every element, then takes what it says.
 class SrdfReader {
  public:
   SrdfReader(const TiXmlElement& root, const SrdfRobot& robot, const std::string& where)
       : root_(root), robot_(robot), reader_(where) {}
 
-  std::vector<std::pair<int, int>> Read() {
+  Srdf Read() {
     reader_.CheckExpanded(root_);
     CheckText(root_);
     CheckRobot();
     for (auto* e = root_.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
       CheckShape(*e);
       const std::string& name = e->ValueStr();
-      if (name == "group") groups_.push_back(Attribute(*e, "name"));
+      if (name == "group") AddGroup(*e);
       if (name == "virtual_joint") joints_.push_back(Attribute(*e, "name"));
     }
     joints_.insert(joints_.end(), robot_.joints.begin(), robot_.joints.end());
     for (auto* e = root_.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
       CheckContent(*e);
+      if (e->ValueStr() == "group_state") AddState(*e);
+      if (e->ValueStr() == "passive_joint") srdf_.passive.push_back(Attribute(*e, "name"));
     }
-    return Pairs();
+    srdf_.disabled_pairs = Pairs();
+    return std::move(srdf_);
   }
 
  private:
@@ -209,6 +212,45 @@ class SrdfReader {
     }
   }
 
+  /// Groups of one name are one.
+  void AddGroup(const TiXmlElement& element) {
+    const std::string name = Attribute(element, "name");
+    const auto place = std::find(groups_.begin(), groups_.end(), name) - groups_.begin();
+    if (place == std::ssize(groups_)) {
+      groups_.push_back(name);
+      srdf_.groups.push_back({name});
+    }
+    SrdfGroup& group = srdf_.groups[static_cast<std::size_t>(place)];
+    for (auto* e = element.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+      const std::string& kind = e->ValueStr();
+      const std::string named = Attribute(*e, "name");
+      if (kind == "chain") {
+        group.chains.push_back({Attribute(*e, "base_link"), Attribute(*e, "tip_link")});
+      } else if (kind == "link") {
+        group.links.push_back(named);
+      } else if (kind == "group") {
+        group.groups.push_back(named);
+      } else {
+        (kind == "joint" ? group.joints : srdf_.passive).push_back(named);
+      }
+    }
+  }
+
+  /// What it says of a virtual joint, whose numbers are several, is where the robot stands.
+  void AddState(const TiXmlElement& element) {
+    NamedState state{Attribute(element, "name"), Attribute(element, "group")};
+    for (auto* e = element.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+      const std::string joint = Attribute(*e, "name");
+      const auto numbers = ParseFiniteNumbers(e->Attribute("value"));
+      const auto& known = robot_.joints;
+      if (numbers->size() != 1 || std::find(known.begin(), known.end(), joint) == known.end()) {
+        continue;
+      }
+      state.positions.emplace_back(joint, numbers->front());
+    }
+    srdf_.states.push_back(std::move(state));
+  }
+
   int LinkAt(const TiXmlElement& element, const char* attribute) const {
     const auto found =
         std::find(robot_.links.begin(), robot_.links.end(), Attribute(element, attribute));
@@ -241,12 +283,12 @@ class SrdfReader {
   const SrdfRobot& robot_;
   const XmlReader reader_;
   Names groups_, joints_;
+  Srdf srdf_;
 };
 
 }  // namespace
 
-std::vector<std::pair<int, int>> ReadSrdf(const TiXmlElement& root, const SrdfRobot& robot,
-                                          const std::string& where) {
+Srdf ReadSrdf(const TiXmlElement& root, const SrdfRobot& robot, const std::string& where) {
   return SrdfReader(root, robot, where).Read();
 }
 

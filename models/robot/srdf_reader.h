@@ -2,8 +2,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "oca/models/robot/srdf.h"
 
@@ -11,11 +9,10 @@ class TiXmlElement;
 
 namespace oca::robot {
 
-/// The pairs that an SRDF's elements below `root` disable, as LoadDisabledPairs has them, after a
-/// look at all of them: each element and attribute must be one of MoveIt's format, and what it
-/// names must be there. `where` names the file in messages.
+/// What an SRDF's elements below `root` say, as LoadSrdf has it, after a look at all of them: each
+/// element and attribute must be one of MoveIt's format, and what it names must be there. `where`
+/// names the file in messages.
 /// throws ModelError naming file, line and the nearest name
-std::vector<std::pair<int, int>> ReadSrdf(const TiXmlElement& root, const SrdfRobot& robot,
-                                          const std::string& where);
+Srdf ReadSrdf(const TiXmlElement& root, const SrdfRobot& robot, const std::string& where);
 
 }  // namespace oca::robot

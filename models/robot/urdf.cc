@@ -2,6 +2,7 @@
 #include "oca/models/robot/urdf.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tinyxml.h>
 
 #include <algorithm>
@@ -12,8 +13,10 @@
 #include "oca/models/robot/fuse_capsules.h"
 #include "oca/models/robot/inertia.h"
 #include "oca/models/robot/joint_limits.h"
+#include "oca/models/robot/joint_limits_file.h"
 #include "oca/models/robot/mesh_path.h"
 #include "oca/models/robot/srdf.h"
+#include "oca/models/robot/urdf_newer.h"
 #include "oca/models/robot/urdf_outline.h"
 #include "oca/models/robot/urdf_repair.h"
 #include "oca/models/robot/urdfdom.h"
@@ -21,16 +24,6 @@
 
 namespace oca::robot {
 namespace {
-
-Eigen::Isometry3d ToPose(const urdf::Pose& pose) {
-  const auto& [x, y, z, w] = pose.rotation;
-  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-  X.linear() = Eigen::Quaterniond(w, x, y, z).normalized().toRotationMatrix();
-  X.translation() = Eigen::Vector3d(pose.position.x, pose.position.y, pose.position.z);
-  return X;
-}
-
-Eigen::Vector3d ToVector(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
 
 // One load: what the conversions share.
 class UrdfReader {
@@ -42,6 +35,8 @@ class UrdfReader {
 
   RobotModel Read(const std::string& text) {
     const XmlDocument document = ParseXml(text, where_);
+    root_ = document->RootElement();
+    newer_ = RewriteNewerUrdf(*document->RootElement(), where_);
     for (const std::string& line : RepairUrdf(*document->RootElement())) {
       if (options_.warn) options_.warn(line);
     }
@@ -54,36 +49,74 @@ class UrdfReader {
     for (const std::size_t joint : order_.joints) joints_.push_back(ReadJoint(joint));
     for (const std::size_t link : order_.links) links_.push_back(ReadLink(outline_.links[link]));
     errors_.Throw();
-    ApplyLimits(options_.acceleration_limits, "acceleration_limits", &Joint::acceleration_limit);
-    ApplyLimits(options_.jerk_limits, "jerk_limits", &Joint::jerk_limit);
-    std::vector<std::pair<int, int>> disabled;
-    if (!options_.srdf.empty()) {
-      SrdfRobot robot{outline_.robot_name, {}, {}};
-      for (const Link& link : links_) robot.links.push_back(link.name.text());
-      for (const Joint& joint : joints_) robot.joints.push_back(joint.name.text());
-      disabled = LoadDisabledPairs(options_.srdf, robot);
+    const Srdf srdf = ReadSrdf();
+    const JointLimitsFile limits = ReadLimitsFile();
+    limits.TightenRanges(joints_);
+    if (!options_.held.empty()) {
+      joints_ = HoldJoints(MakeModel(links_, joints_, {}), srdf, options_.held);
     }
+    GiveLimits(joints_, options_.acceleration_limits, where_ + ": acceleration_limits",
+               &Joint::acceleration_limit);
+    GiveLimits(joints_, options_.jerk_limits, where_ + ": jerk_limits", &Joint::jerk_limit);
+    limits.TightenRates(joints_);
+    const RobotModel model = MakeModel(std::move(links_), std::move(joints_), srdf);
+    if (options_.warn) Warn(model);
+    return model;
+  }
+
+ private:
+  Srdf ReadSrdf() const {
+    if (options_.srdf.empty()) return {};
+    SrdfRobot robot{outline_.robot_name, {}, {}};
+    for (const Link& link : links_) robot.links.push_back(link.name.text());
+    for (const Joint& joint : joints_) robot.joints.push_back(joint.name.text());
+    return LoadSrdf(options_.srdf, robot);
+  }
+
+  JointLimitsFile ReadLimitsFile() const {
+    return options_.joint_limits.empty() ? JointLimitsFile()
+                                         : JointLimitsFile(options_.joint_limits);
+  }
+
+  RobotModel MakeModel(std::vector<Link> links, std::vector<Joint> joints, const Srdf& srdf) const {
     try {
-      RobotModel model(models::Name(outline_.robot_name), std::move(links_), std::move(joints_),
-                       options_.X_WB, std::move(disabled));
-      if (options_.warn) {
-        WarnOfMissingVisuals();
-        if (const std::string line = InertiaWarning(model); !line.empty()) options_.warn(line);
-        for (const UrdfOutline::Joint& joint : outline_.joints) {
-          if (!joint.fixed || joint.mimic.empty()) continue;
-          options_.warn(fmt::format("joint '{}': fixed, so its <mimic> of '{}' does nothing",
-                                    joint.name, joint.mimic));
-        }
-        for (const std::string& line : LimitWarnings(model)) options_.warn(line);
-      }
-      return model;
+      return RobotModel(models::Name(outline_.robot_name), std::move(links), std::move(joints),
+                        options_.X_WB, srdf.disabled_pairs, srdf.states);
     } catch (const models::ModelError& error) {
       throw models::ModelError(fmt::format("{}: {}", where_, error.what()));
     }
   }
 
- private:
-  Joint ReadJoint(std::size_t index) const {
+  void Warn(const RobotModel& model) const {
+    WarnOfMissingVisuals();
+    if (const std::string line = InertiaWarning(model); !line.empty()) options_.warn(line);
+    for (const UrdfOutline::Joint& joint : outline_.joints) {
+      if (!joint.fixed || joint.mimic.empty()) continue;
+      options_.warn(fmt::format("joint '{}': fixed, so its <mimic> of '{}' does nothing",
+                                joint.name, joint.mimic));
+    }
+    if (!softened_.empty()) {
+      options_.warn(
+          fmt::format("joints whose soft limits, of their safety_controller, are the limits "
+                      "that count: {}",
+                      fmt::join(softened_, ", ")));
+    }
+    for (const std::string& line : LimitWarnings(model)) options_.warn(line);
+  }
+
+  /// A controller that slows down at soft limits never lets the joint go beyond. Two that are equal
+  /// are none, as they are 0 where they are left out.
+  void NarrowToSoftLimits(const urdf::JointSafety& soft, Joint& joint) {
+    const double lower = std::max(joint.lower_limit, soft.soft_lower_limit);
+    const double upper = std::min(joint.upper_limit, soft.soft_upper_limit);
+    const bool narrower = lower > joint.lower_limit || upper < joint.upper_limit;
+    if (joint.type == JointType::kContinuous || !narrower || !(lower < upper)) return;
+    joint.lower_limit = lower;
+    joint.upper_limit = upper;
+    softened_.push_back(fmt::format("'{}' [{:.9g}, {:.9g}]", joint.name.text(), lower, upper));
+  }
+
+  Joint ReadJoint(std::size_t index) {
     const UrdfOutline::Joint& entry = outline_.joints[index];
     const urdf::Joint& from = *parsed_->getJoint(entry.name);
     Joint joint;
@@ -105,6 +138,7 @@ class UrdfReader {
         joint.upper_limit = from.limits->upper;
       }
     }
+    if (from.safety != nullptr && entry.mimic.empty()) NarrowToSoftLimits(*from.safety, joint);
     joint.acceleration_limit = entry.acceleration.value_or(kUnlimited);
     joint.jerk_limit = entry.jerk.value_or(kUnlimited);
     if (!entry.mimic.empty()) {
@@ -127,12 +161,16 @@ class UrdfReader {
     link.name = models::Name(entry.name);
     link.collisions = FuseCapsules(ReadCollisions(entry, from));
     for (std::size_t i = 0; i < from.visual_array.size(); ++i) {
-      const auto visual = ReadVisual(
+      auto visual = ReadVisual(
           *from.visual_array[i],
           fmt::format("{}:{}: link '{}' visual", where_, entry.visuals[i].line, entry.name));
-      if (visual) link.visuals.push_back(*visual);
+      if (!visual) continue;
+      if (newer_.IsCapsule(*root_, "visual", entry.name, i)) {
+        visual->shape = CapsuleOf(*visual->shape);
+      }
+      link.visuals.push_back(*visual);
     }
-    if (from.inertial != nullptr) link.inertia = ReadInertia(*from.inertial);
+    if (from.inertial != nullptr) link.inertia = ToInertia(*from.inertial);
     return link;
   }
 
@@ -178,6 +216,7 @@ class UrdfReader {
       errors_.Try([&] {
         geometry::Shape shape =
             ReadShape(*elements[i]->geometry, link.name, kind, WhereIs(link, outlines[i], kind));
+        if (newer_.IsCapsule(*root_, kind, link.name, i)) shape = CapsuleOf(shape);
         solids.push_back({ToPose(elements[i]->origin), std::move(shape), Source(outlines[i])});
       });
     }
@@ -203,18 +242,7 @@ class UrdfReader {
         throw models::ModelError(where + ": " + error.what());
       }
     }
-    return ReadPrimitive(geometry);
-  }
-
-  static geometry::Shape ReadPrimitive(const urdf::Geometry& geometry) {
-    if (geometry.type == urdf::Geometry::SPHERE) {
-      return geometry::Sphere{static_cast<const urdf::Sphere&>(geometry).radius};
-    }
-    if (geometry.type == urdf::Geometry::BOX) {
-      return geometry::Box{ToVector(static_cast<const urdf::Box&>(geometry).dim)};
-    }
-    const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
-    return geometry::Cylinder{cylinder.radius, cylinder.length};
+    return ToPrimitive(geometry);
   }
 
   /// Nothing if its mesh is missing: a picture may lack a part.
@@ -233,7 +261,7 @@ class UrdfReader {
       }
       visual.mesh_scale = ToVector(mesh.scale);
     } else {
-      visual.shape = ReadPrimitive(*from.geometry);
+      visual.shape = ToPrimitive(*from.geometry);
     }
     if (from.material != nullptr) {
       const urdf::Color& colour = from.material->color;
@@ -255,43 +283,19 @@ class UrdfReader {
     return printer.Str();
   }
 
-  static Inertia ReadInertia(const urdf::Inertial& from) {
-    const Eigen::Isometry3d X_LC = ToPose(from.origin);
-    Eigen::Matrix3d I;
-    I << from.ixx, from.ixy, from.ixz, from.ixy, from.iyy, from.iyz, from.ixz, from.iyz, from.izz;
-    return {from.mass, X_LC.translation(), X_LC.linear() * I * X_LC.linear().transpose()};
-  }
-
-  void ApplyLimits(const Eigen::VectorXd& limits, const char* what, double Joint::*field) {
-    if (limits.size() == 0) return;
-    std::vector<Joint*> moving;
-    for (Joint& joint : joints_) {
-      if (joint.movable() && !joint.mimic) moving.push_back(&joint);
-    }
-    if (limits.size() != 1 && limits.size() != std::ssize(moving)) {
-      throw models::ModelError(fmt::format("{}: {}; got {} numbers; expected 1 or {}", where_, what,
-                                           limits.size(), moving.size()));
-    }
-    for (std::size_t i = 0; i < moving.size(); ++i) {
-      const double limit = limits[limits.size() == 1 ? 0 : static_cast<Eigen::Index>(i)];
-      if (!(limit > 0.0)) {
-        throw models::ModelError(fmt::format("{}: {} of joint '{}'; got {}; expected more than 0",
-                                             where_, what, moving[i]->name.text(), limit));
-      }
-      moving[i]->*field = limit;
-    }
-  }
-
   const std::string& where_;
   const LoadOptions& options_;
   const std::filesystem::path& directory_;
   const ExpandedXacro* const expanded_;
   models::ModelErrors errors_;
+  const TiXmlElement* root_{nullptr};  // of the document that is read
+  NewerUrdf newer_;
   UrdfOutline outline_;
   std::shared_ptr<urdf::ModelInterface> parsed_;
   UrdfOrder order_;
   std::vector<Link> links_;
   std::vector<Joint> joints_;
+  std::vector<std::string> softened_;         // joints
   std::vector<std::string> missing_visuals_;  // why each one is not drawn
 };
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "oca/models/robot/hold_joints.h"
 #include "oca/models/robot/robot_model.h"
 #include "oca/models/robot/xacro.h"
 
@@ -26,12 +27,17 @@ inline std::span<const char* const> EnumNames(VisualAsCollision) {
 struct LoadOptions {
   /// Pose of the root link in the world.
   Eigen::Isometry3d X_WB{Eigen::Isometry3d::Identity()};
-  /// SRDF file with the pairs of links that are never checked for collision; empty: none.
+  /// SRDF file with the pairs of links that are never checked for collision, groups and states;
+  /// empty: none.
   std::filesystem::path srdf{};
   /// rad/s^2 or m/s^2, rad/s^3 or m/s^3, more than 0: one for all, or one a position; empty: as in
   /// the URDF's <limit acceleration jerk>, unlimited where it has none.
   Eigen::VectorXd acceleration_limits{};
   Eigen::VectorXd jerk_limits{};
+  /// File of joint limits as MoveIt writes it, which may narrow all of these; empty: none.
+  std::filesystem::path joint_limits{};
+  /// Joints that are made fixed ones: no positions of the robot, which the limits above know.
+  HeldJoints held{};
   /// package://NAME/rest is looked up as find_package(NAME)/rest if that is set and not empty, then
   /// as DIR/NAME/rest for each DIR.
   std::function<std::filesystem::path(const std::string& package)> find_package{};

@@ -111,8 +111,7 @@ class OutlineReader {
     } else if (kind == "mesh") {
       return CheckMesh(*shape);
     } else {
-      xml_.Fail(*shape, "unknown geometry", kind,
-                "sphere, box, cylinder or mesh (a capsule is a cylinder and two spheres)");
+      xml_.Fail(*shape, "unknown geometry", kind, "sphere, box, cylinder, capsule or mesh");
     }
     return {};
   }

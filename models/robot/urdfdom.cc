@@ -55,4 +55,37 @@ std::shared_ptr<urdf::ModelInterface> ParseWithUrdfdom(const std::string& text,
   return parsed;
 }
 
+Eigen::Isometry3d ToPose(const urdf::Pose& pose) {
+  const auto& [x, y, z, w] = pose.rotation;
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.linear() = Eigen::Quaterniond(w, x, y, z).normalized().toRotationMatrix();
+  X.translation() = Eigen::Vector3d(pose.position.x, pose.position.y, pose.position.z);
+  return X;
+}
+
+Eigen::Vector3d ToVector(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
+
+geometry::Shape ToPrimitive(const urdf::Geometry& geometry) {
+  if (geometry.type == urdf::Geometry::SPHERE) {
+    return geometry::Sphere{static_cast<const urdf::Sphere&>(geometry).radius};
+  }
+  if (geometry.type == urdf::Geometry::BOX) {
+    return geometry::Box{ToVector(static_cast<const urdf::Box&>(geometry).dim)};
+  }
+  const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
+  return geometry::Cylinder{cylinder.radius, cylinder.length};
+}
+
+geometry::Shape CapsuleOf(const geometry::Shape& shape) {
+  const auto& cylinder = std::get<geometry::Cylinder>(shape);
+  return geometry::Capsule{cylinder.radius, cylinder.length};
+}
+
+Inertia ToInertia(const urdf::Inertial& from) {
+  const Eigen::Isometry3d X_LC = ToPose(from.origin);
+  Eigen::Matrix3d I;
+  I << from.ixx, from.ixy, from.ixz, from.ixy, from.iyy, from.iyz, from.ixz, from.iyz, from.izz;
+  return {from.mass, X_LC.translation(), X_LC.linear() * I * X_LC.linear().transpose()};
+}
+
 }  // namespace oca::robot

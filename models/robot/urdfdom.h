@@ -3,8 +3,11 @@
 
 #include <urdf_model/model.h>
 
+#include <Eigen/Geometry>
 #include <memory>
 #include <string>
+
+#include "oca/models/robot/robot_model.h"
 
 namespace oca::robot {
 
@@ -13,5 +16,14 @@ namespace oca::robot {
 /// throws ModelError with what urdfdom would have printed as an error; `where` names the file
 std::shared_ptr<urdf::ModelInterface> ParseWithUrdfdom(const std::string& text,
                                                        const std::string& where);
+
+// What it read, as ours.
+Eigen::Isometry3d ToPose(const urdf::Pose& pose);
+Eigen::Vector3d ToVector(const urdf::Vector3& v);
+/// Of a sphere, a box or a cylinder.
+geometry::Shape ToPrimitive(const urdf::Geometry& geometry);
+/// A cylinder as the capsule of the same length between its centres.
+geometry::Shape CapsuleOf(const geometry::Shape& shape);
+Inertia ToInertia(const urdf::Inertial& from);
 
 }  // namespace oca::robot

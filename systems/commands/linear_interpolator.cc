@@ -15,13 +15,22 @@ LinearRequest::Params LinearRequest::Example() {
                          {.time = 1.0, .position = Eigen::Vector2d(0.5, -1.0)}}};
 }
 
+LinearRequest::Params LinearRequest::Resolved(Params params, const ModelSet& models) {
+  const auto model = RobotOfPostures(models, params.model);
+  params.points = KeyPointsFrom(params.key_points, params.file, params.joints, model.get());
+  return params;
+}
+
 LinearRequest::Params LinearRequest::Checked(Params params) {
   Validated(params);
+  if (params.points.empty()) {
+    params.points = KeyPointsFrom(params.key_points, params.file, params.joints);
+  }
   return params;
 }
 
 motion::Trajectory LinearRequest::MakeTrajectory(const Params& params) {
-  return motion::Trajectory::Linear(KeyPointsFrom(params.key_points, params.file, params.joints));
+  return motion::Trajectory::Linear(params.points);
 }
 
 }  // namespace oca::systems

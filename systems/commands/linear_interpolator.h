@@ -19,11 +19,16 @@ struct LinearRequest {
     std::vector<KeyPointParams> key_points{};
     std::string file{};
     std::vector<std::string> joints{};
+    std::string model{};
     Period period{};
     std::string unit{"rad"};
     static void Describe(Fields<Params>& fields);
+
+    std::vector<motion::KeyPoint> points{};  ///< made of all this; no parameter of files
   };
   static Params Example();
+  /// With the points that a robot of the file tells the meaning of.
+  static Params Resolved(Params params, const ModelSet& models);
   static Params Checked(Params params);
   static motion::Trajectory MakeTrajectory(const Params& params);
 };

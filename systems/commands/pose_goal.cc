@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oca/systems/commands/pose_goal.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "oca/framework/dataflow/diagram.h"
@@ -30,7 +32,12 @@ std::vector<robot::PlacedBody> BodiesAt(const std::vector<ObstacleSource::Params
 }  // namespace
 
 void PoseGoalParams::Describe(Fields<PoseGoalParams>& fields) {
-  fields.Add("pose", &PoseGoalParams::pose, "", "of the link, in the world").Required();
+  fields.Add("pose", &PoseGoalParams::pose, "",
+             "of the link, in the world; this or point is required");
+  fields.Add(
+      "point", &PoseGoalParams::point, "m",
+      "instead of pose: where the origin of the link shall be, turned however it is, as of an "
+      "arm of four or five joints");
   fields.Add("link", &PoseGoalParams::link, "",
              "the link; may be left out if the robot has one tip");
   fields.Add("time", &PoseGoalParams::time, "s",
@@ -46,7 +53,13 @@ void PoseGoalParams::Describe(Fields<PoseGoalParams>& fields) {
 motion::KeyPoint KeyPointAt(const PoseGoalParams& params, const motion::KeyPoint& before,
                             const std::shared_ptr<const robot::RobotModel>& model) {
   planning::PoseGoal goal;
-  goal.X_WG = params.pose.Pose("goal.pose");
+  if (params.pose.has_value() == params.point.has_value()) {
+    throw ConfigError(fmt::format("goal: got {}; expected one of pose and point",
+                                  params.pose ? "both pose and point" : "neither pose nor point"));
+  }
+  if (params.pose) goal.X_WG = params.pose->Pose("goal.pose");
+  if (params.point) goal.X_WG.translation() = *params.point;
+  goal.turns_freely = params.point.has_value();
   goal.link = params.link;
   goal.time = params.time;
   goal.clearance = params.clearance;

@@ -17,9 +17,10 @@ class RobotModel;
 
 namespace oca::systems {
 
-/// A planning::PoseGoal as a parameter of whoever moves joints.
+/// A planning::PoseGoal as a parameter of whoever moves joints. Of `pose` and `point` one is given.
 struct PoseGoalParams {
-  PoseParams pose{};                             ///< of the link, world frame
+  std::optional<PoseParams> pose{};              ///< of the link, world frame
+  std::optional<Eigen::Vector3d> point{};        ///< m, world frame; or of its origin alone
   std::string link{};                            ///< empty: the tip
   std::optional<double> time{};                  ///< s; of arrival
   double clearance{0.0};                         ///< m

@@ -52,8 +52,6 @@ void SplineRequest::Params::Describe(Fields<Params>& fields) {
   fields.Add("ends", &Params::ends, "", "of a c2 spline: clamped or natural");
   AddKeyPoints(fields);
   fields.Add("goal", &Params::goal, "", "pose to end at, reached from the last key point");
-  fields.Add("model", &Params::model, "",
-             "robot that has the goal; may be left out if there is but one");
   AddSampling(fields);
 }
 
@@ -63,8 +61,9 @@ SplineRequest::Params SplineRequest::Example() {
 }
 
 SplineRequest::Params SplineRequest::Resolved(Params params, const ModelSet& models) {
+  params.points = KeyPointsFrom(params.key_points, params.file, params.joints,
+                                RobotOfPostures(models, params.model).get());
   if (!params.goal) return params;
-  params.points = KeyPointsFrom(params.key_points, params.file, params.joints);
   const auto model = MovableModel(models, params.model);
   params.points.push_back(KeyPointAt(*params.goal, params.points.back(), model));
   params.goal.reset();

@@ -56,7 +56,12 @@ void TipRequest::Params::Describe(Fields<Params>& fields) {
   fields.Add("centre", &P::centre, "m", "of a circle, base frame");
   fields.Add("normal", &P::normal, "", "across the plane of a circle");
   fields.Add("radius", &P::radius, "m", "of a circle").Above(0.0);
-  fields.Add("posture", &P::posture, "rad", "joint positions at the beginning").Required();
+  fields
+      .Add(
+          "posture", &P::posture, "rad",
+          "joint positions at the beginning; or the name of a state of the SRDF, or some joints by "
+          "name, the others at 0")
+      .Required();
   fields.Add("start", &P::start, "s", "when the approach begins").AtLeast(0.0);
   fields.Add("approach", &P::approach, "s", "from the posture to the path").Above(0.0);
   fields.Add("duration", &P::duration, "s", "along the path").Above(0.0).AtMost(3600.0);
@@ -78,8 +83,9 @@ TipRequest::Params TipRequest::Resolved(Params params, const ModelSet& models) {
   const auto path = WithConfigErrors([&] { return TipPathOf(params); });
   const auto model = MovableModel(models, params.model);
   const int link = TipOf(*model, params.link);
+  const Eigen::VectorXd posture = NumbersOf(params.posture, model.get(), {}, "posture").values();
   params.points = WithConfigErrors([&] {
-    return planning::KeyPointsAlong(*model, link, path, params.posture,
+    return planning::KeyPointsAlong(*model, link, path, posture,
                                     {params.start, params.approach, params.duration});
   });
   return params;

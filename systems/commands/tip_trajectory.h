@@ -10,6 +10,7 @@
 
 #include "oca/framework/dataflow/params.h"
 #include "oca/models/motion/key_points.h"
+#include "oca/systems/commands/posture.h"
 #include "oca/systems/commands/trajectory_source.h"
 #include "oca/systems/signals/model_set.h"
 
@@ -36,7 +37,7 @@ struct TipRequest {
     std::optional<Eigen::Vector3d> centre{};
     std::optional<Eigen::Vector3d> normal{};
     std::optional<double> radius{};
-    Eigen::VectorXd posture{};
+    Posture posture{};
     double start{0.0};
     double approach{3.0};
     double duration{10.0};

@@ -13,8 +13,19 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-IntegratorPlant::Params Checked(const IntegratorPlant::Params& params) {
+const PerComponent& StartOf(const IntegratorPlant::Params& params) {
+  return *params.initial_position.numbers();
+}
+
+IntegratorPlant::Params Resolved(IntegratorPlant::Params params, const ModelSet& models) {
+  const auto model = RobotOfPostures(models, params.model);
+  params.initial_position = NumbersOf(params.initial_position, model.get(), {}, "initial_position");
+  return params;
+}
+
+IntegratorPlant::Params Checked(IntegratorPlant::Params params) {
   Validated(params);
+  params.initial_position = NumbersOf(params.initial_position, nullptr, {}, "initial_position");
   if (params.order == 1 && !params.initial_velocity.values().isZero(0.0)) {
     throw ConfigError(
         "initial_velocity: order 1 has no velocity state; got a value; expected none, or order 2");
@@ -23,10 +34,10 @@ IntegratorPlant::Params Checked(const IntegratorPlant::Params& params) {
     RequireOrdered("lower", *params.lower, "upper", *params.upper);
   }
   if (params.lower) {
-    RequireOrdered("lower", *params.lower, "initial_position", params.initial_position);
+    RequireOrdered("lower", *params.lower, "initial_position", StartOf(params));
   }
   if (params.upper) {
-    RequireOrdered("initial_position", params.initial_position, "upper", *params.upper);
+    RequireOrdered("initial_position", StartOf(params), "upper", *params.upper);
   }
   return params;
 }
@@ -37,25 +48,34 @@ void IntegratorPlant::Params::Describe(Fields<Params>& fields) {
   fields.Add("order", &Params::order, "", "1: the command is a velocity; 2: an acceleration")
       .AtLeast(1)
       .AtMost(2);
-  fields.Add("initial_position", &Params::initial_position, "rad", "position at the start");
+  fields.Add(
+      "initial_position", &Params::initial_position, "rad",
+      "position at the start: a number for all or one a joint; or the name of a state of the "
+      "SRDF, or some joints by name, the others at 0");
   fields.Add("initial_velocity", &Params::initial_velocity, "rad/s",
              "velocity at the start, order 2 only");
   fields.Add("lower", &Params::lower, "rad", "lower stop; absent: none");
   fields.Add("upper", &Params::upper, "rad", "upper stop; absent: none");
+  fields.Add("model", &Params::model, "",
+             "robot whose states and joints initial_position may name; may be left out if there is "
+             "but one");
   fields.Add("unit", &Params::unit, "", "unit of the position");
 }
+
+IntegratorPlant::IntegratorPlant(const Params& params, const ModelSet& models)
+    : IntegratorPlant(Resolved(params, models)) {}
 
 IntegratorPlant::IntegratorPlant(const Params& params)
     : params_(Checked(params)),
       lower_(params_.lower.value_or(-kInfinity)),
       upper_(params_.upper.value_or(kInfinity)),
-      spec_{DeclareSize({{"initial_position", &params_.initial_position},
+      spec_{DeclareSize({{"initial_position", &StartOf(params_)},
                          {"initial_velocity", &params_.initial_velocity},
                          {"lower", &lower_},
                          {"upper", &upper_}}),
             Unit(params_.unit)},
       rate_spec_{spec_.size, spec_.unit.Rate()},
-      position_(DeclareContinuousState("position", spec_, params_.initial_position)),
+      position_(DeclareContinuousState("position", spec_, StartOf(params_))),
       velocity_(DeclareVelocity()),
       command(DeclareInput<Vector>(
           "command", {spec_.size, params_.order == 1 ? rate_spec_.unit : rate_spec_.unit.Rate()})),

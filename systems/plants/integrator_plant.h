@@ -6,6 +6,7 @@
 
 #include "oca/framework/dataflow/params.h"
 #include "oca/framework/dataflow/system.h"
+#include "oca/systems/commands/posture.h"
 
 namespace oca::systems {
 
@@ -21,13 +22,17 @@ namespace oca::systems {
 /// integrator finds no event at a stop, so the state may pass it by what one step carries it; the
 /// output `position` never does, it is the state clamped to the stops.
 ///
+/// `initial_position` is a number for all or one a joint; or, of the robot that `model` names, a state
+/// of its SRDF or some joints by name: the others are at 0 or the limit nearest to it.
+///
 /// in    command   n  u/s (order 1), u/s^2 (order 2)
 /// out   position  n  u
 ///       velocity  n  u/s   position'; order 1: the command, with feedthrough
 /// state position  n  u     continuous
 ///       velocity  n  u/s   continuous, order 2 only
 /// throws ConfigError if order is not 1 or 2, lists differ in length, a number is not finite,
-///        order 1 has an initial velocity, lower > upper, or initial_position is beyond a stop
+///        order 1 has an initial velocity, lower > upper, or initial_position is beyond a stop or
+///        names what the robot does not have
 class IntegratorPlant final : public System {
  public:
   static constexpr SystemDoc kDoc{
@@ -35,16 +40,20 @@ class IntegratorPlant final : public System {
       "order 1: position' = command; order 2: position' = velocity, velocity' = command", ""};
   struct Params {
     int order{1};
-    PerComponent initial_position{0.0};
+    Posture initial_position{0.0};
     PerComponent initial_velocity{0.0};
     std::optional<PerComponent> lower{};
     std::optional<PerComponent> upper{};
+    std::string model{};
     std::string unit{"rad"};
     static void Describe(Fields<Params>& fields);
   };
   static Params Example() { return {.initial_position = Eigen::VectorXd(Eigen::Vector2d(0, 1))}; }
 
+  /// `initial_position` in numbers.
   explicit IntegratorPlant(const Params& params);
+  /// It may name a state or joints of a robot.
+  IntegratorPlant(const Params& params, const ModelSet& models);
 
  private:
   const Params params_;

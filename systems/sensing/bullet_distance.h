@@ -30,8 +30,9 @@ namespace oca::systems {
 /// two arms, which cannot avoid each other: the lowest movable link against the other arm's lowest
 /// movable link and what of the other arm cannot move.
 ///
-/// The second name of an `ignore` with a slash is the link of a model, which must exist; one
-/// without is the id of an obstacle, which may appear at any time.
+/// The second name of an `ignore` that begins with the name of a model and a slash is a link of it,
+/// which must exist; any other is the id of an obstacle, which may appear at any time, unless it
+/// begins nearly like a model. Links and obstacles may have slashes in their names.
 ///
 /// Pairs whose bounding balls are farther apart than max_distance are not looked at: balls around
 /// the obstacles form a tree, which only obstacles that move make work for, so many far ones cost

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/nearest.h"
 #include "oca/models/robot/kinematics.h"
 #include "oca/models/robot/robot_model.h"
 #include "oca/models/robot/unseen_links.h"
@@ -22,6 +23,14 @@ bool Moves(const robot::RobotModel& model) { return model.num_positions() > 0; }
 
 int LowestMovable(const robot::RobotModel& model) {
   return model.bodies().empty() ? -1 : model.bodies().front();
+}
+
+/// Whether `name`, which no model has, is nearly that of one.
+bool LooksMisspelt(const std::string& name, const ModelSet& models) {
+  std::vector<std::string> names;
+  for (const auto& [full, model] : models.all()) names.push_back(full);
+  for (const auto& [full, in_file] : models.in_sight()) names.push_back(in_file);
+  return !DidYouMean(name, names).empty();
 }
 
 }  // namespace
@@ -134,8 +143,11 @@ std::vector<std::pair<models::Name, models::Name>> BulletDistance::MakeIgnored(
       }
       if (slash != std::string::npos) {
         const auto other = models.all().find(models.FullName(model));
-        const auto& found = other == models.all().end() ? models.Get(model) : other->second;
-        found->FindLink(pair[1].substr(slash + 1));
+        if (other != models.all().end()) {
+          other->second->FindLink(pair[1].substr(slash + 1));
+        } else if (LooksMisspelt(model, models)) {
+          models.Get(model);
+        }
       }
     } catch (const std::runtime_error& error) {
       throw ConfigError(fmt::format("ignore[{}]: {}", i, error.what()));

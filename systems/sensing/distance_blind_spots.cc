@@ -62,6 +62,7 @@ class Spots {
     const std::size_t slash = second.find('/');
     if (slash == std::string::npos) return true;
     const std::string model = models_.FullName(second.substr(0, slash));
+    if (!models_.all().contains(model)) return true;  // the id of an obstacle
     return model == own_ ? params_.self_collision : LooksAt(model);
   }
 

@@ -47,8 +47,20 @@ void ModelSet::AddInner(const ModelSet& inner) {
   }
 }
 
+std::string ModelSet::Only() const {
+  if (full_names_.size() == 1) return full_names_.begin()->second;
+  std::string only;
+  for (const auto& entry : full_names_) {
+    const std::string& full = entry.second;
+    if (all_.at(full)->num_positions() == 0) continue;
+    if (!only.empty()) return "";
+    only = full;
+  }
+  return only;
+}
+
 std::shared_ptr<const robot::RobotModel> ModelSet::Get(const std::string& name) const {
-  if (name.empty() && full_names_.size() == 1) return all_.at(full_names_.begin()->second);
+  if (name.empty() && HasOnly()) return all_.at(Only());
   if (const auto found = full_names_.find(name); found != full_names_.end()) {
     return all_.at(found->second);
   }
@@ -61,7 +73,7 @@ std::shared_ptr<const robot::RobotModel> ModelSet::Get(const std::string& name) 
 }
 
 std::string ModelSet::FullName(const std::string& name) const {
-  if (name.empty() && full_names_.size() == 1) return full_names_.begin()->second;
+  if (name.empty() && HasOnly()) return Only();
   for (const auto* const names : {&full_names_, &outer_names_}) {
     if (const auto found = names->find(name); found != names->end()) return found->second;
   }

@@ -34,18 +34,23 @@ class ModelSet {
   /// All models of a file that this one uses, by full names; they replace those here.
   void AddInner(const ModelSet& inner);
 
-  /// The model; an empty name means the only one there is.
+  /// The model; an empty name means the only one there is, or the only one that moves.
   /// throws ConfigError naming the models there are.
   std::shared_ptr<const robot::RobotModel> Get(const std::string& name) const;
   /// The full name of a model, or of one of the nearest file around this one that has the name; an
-  /// empty name means the only one there is. A name that there is not is itself.
+  /// empty name means what it means to Get. A name that there is not is itself.
   std::string FullName(const std::string& name) const;
+  /// Whether Get knows what an empty name means.
+  bool HasOnly() const { return !Only().empty(); }
   /// What stands in one world: by full names.
   const Models& all() const { return all_; }
   /// What systems of this file that look at all others see: names, by full names.
   const std::map<std::string, std::string>& in_sight() const { return in_sight_; }
 
  private:
+  /// The full name of the only model; empty if there is not one.
+  std::string Only() const;
+
   std::map<std::string, std::string> full_names_;   // by name
   std::map<std::string, std::string> outer_names_;  // full ones, by names in the files around this
   std::map<std::string, std::string> in_sight_;

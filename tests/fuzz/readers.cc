@@ -15,6 +15,7 @@
 #include "oca/models/geometry/mesh.h"
 #include "oca/models/geometry/octree.h"
 #include "oca/models/geometry/point_cloud.h"
+#include "oca/models/robot/joint_limits_file.h"
 #include "oca/models/robot/srdf.h"
 #include "oca/models/robot/urdf.h"
 #include "oca/models/robot/xacro.h"
@@ -73,7 +74,11 @@ bool ReadSrdf(std::string_view bytes) {
       "planar2",
       {"planar2_base_link", "planar2_link_1", "planar2_link_2", "planar2_tip"},
       {"planar2_joint_1", "planar2_joint_2", "planar2_tip_joint"}};
-  return Accepts([&] { robot::LoadDisabledPairs(FileOf("fuzz.srdf", bytes), robot); });
+  return Accepts([&] { robot::LoadSrdf(FileOf("fuzz.srdf", bytes), robot); });
+}
+
+bool ReadJointLimits(std::string_view bytes) {
+  return Accepts([&] { robot::JointLimitsFile limits(FileOf("fuzz_limits.yaml", bytes)); });
 }
 
 bool ReadCsv(std::string_view bytes) {
@@ -140,6 +145,7 @@ bool ReadRecord(std::string_view bytes) {
 constexpr Reader kReaders[] = {
     {"csv", ReadCsv},
     {"document", ReadDocument},
+    {"joint_limits", ReadJointLimits},
     {"json", ReadJson},
     {"octree_bt", ReadBinaryTree},
     {"octree_ot", ReadFullTree},

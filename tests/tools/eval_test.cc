@@ -234,7 +234,8 @@ TEST_F(EvalTest, WrongParametersAndModelsEndWithTwo) {
 TEST_F(EvalTest, TakesRobotsInXacroWithTheirArguments) {
   const std::string arm = run.folder()
                               .Write("arm.xacro", R"(<robot name="arm" xmlns:xacro="x">
-<xacro:arg name="length" default="1"/><link name="base"/><link name="tip"/>
+<xacro:arg name="length" default="1"/><link name="base"/>
+<link name="tip"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>
 <joint name="turn" type="continuous"><parent link="base"/><child link="tip"/>
 <origin xyz="$(arg length) 0 0"/><axis xyz="0 0 1"/><limit effort="1" velocity="1"/></joint></robot>)")
                               .string();
@@ -243,6 +244,21 @@ TEST_F(EvalTest, TakesRobotsInXacroWithTheirArguments) {
                             "{\"position\":[0]}\n");
   ASSERT_EQ(answers.size(), 1u);
   EXPECT_THAT(answers[0].dump(), HasSubstr("0.25"));
+}
+
+TEST_F(EvalTest, TakesAnEntryOfModelsAsJson) {
+  const auto answers = Eval(
+      "RobotKinematics --model 'arm={\"urdf\": \"package://planar2/planar2.urdf\", \"held\": "
+      "{\"planar2_joint_2\": 0}, \"base_pose\": {\"xyz\": [0, 0, 0.25]}}' --params '{}'",
+      "{\"position\":[0]}\n{\"position\":[0,0]}\n");
+  ASSERT_EQ(answers.size(), 2u);
+  EXPECT_THAT(answers[0].dump(), HasSubstr("[0.9,0.0,0.25]"));  // the tip, 0.5 m and 0.4 m away
+  EXPECT_THAT(answers[1].dump(), HasSubstr("error"));
+  const Ran ran =
+      run("$S eval RobotKinematics --model 'arm={\"urdf\": \"package://planar2/"
+          "planar2.urdf\", \"hold\": {}}'");
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_THAT(ran.err, HasSubstr("--model arm.hold: unknown key; did you mean 'held'?"));
 }
 
 }  // namespace eval_test

@@ -105,7 +105,7 @@ int DocsCommand(const std::string& page, const files::Catalogue& catalogue);
 struct EvalArguments {
   std::string type;
   std::string params{"{}"};
-  std::vector<std::string> models;     ///< NAME=URDF, or a xacro
+  std::vector<std::string> models;     ///< NAME=URDF, or a xacro, or JSON
   std::vector<std::string> arguments;  ///< MODEL.NAME=VALUE, of a xacro
 };
 /// Serves one JSON object a line from `in` until it ends.

@@ -2,17 +2,18 @@
 #include <fmt/format.h>
 
 #include <iostream>
-#include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "oca/diagrams/files/catalogue.h"
 #include "oca/diagrams/files/diagram_file.h"
 #include "oca/diagrams/files/json_reader.h"
-#include "oca/diagrams/files/package_paths.h"
+#include "oca/diagrams/files/load_models.h"
 #include "oca/diagrams/runs/evaluator.h"
 #include "oca/framework/dataflow/error.h"
-#include "oca/models/robot/urdf.h"
+#include "oca/models/robot/xacro.h"
 #include "tools/simulator/commands.h"
 #include "tools/simulator/terminal.h"
 #include "tools/simulator/xacro_arguments.h"
@@ -20,30 +21,38 @@
 namespace oca::tools {
 namespace {
 
+/// `text`: a file, or the entry of `models` of a diagram file as JSON.
+files::ModelParams ModelFrom(const std::string& name, const std::string& text,
+                             robot::XacroArguments arguments) {
+  files::ModelParams params;
+  if (text.starts_with('{')) {
+    const std::string where = "--model " + name;
+    params = ReadParams<files::ModelParams>(files::ReadJson(text, where), where);
+  } else {
+    (robot::IsXacro(text) ? params.xacro : params.urdf) = text;
+  }
+  params.arguments.texts.merge(arguments);
+  return params;
+}
+
 systems::ModelSet LoadModels(const EvalArguments& arguments) {
-  systems::ModelSet models;
+  std::vector<std::pair<std::string, files::ModelParams>> models;
   auto given = ParseArgumentsOfModels(arguments.arguments);
   for (const std::string& argument : arguments.models) {
     const std::size_t equals = argument.find('=');
     if (equals == std::string::npos || equals == 0) {
       throw ConfigError(fmt::format("--model: got '{}'; expected NAME=URDF", argument));
     }
-    robot::LoadOptions options;
-    options.package_directories = files::PackageFolders();
     const std::string name = argument.substr(0, equals);
-    options.xacro_arguments = std::exchange(given[name], {});
-    options.warn = [&name](const std::string& line) {
-      Tell("warning: --model {}: {}\n", name, line);
-    };
-    models.Add(name, std::make_shared<const robot::RobotModel>(robot::LoadUrdf(
-                         files::ResolvePath(argument.substr(equals + 1), {}, {}), options)));
+    models.emplace_back(
+        name, ModelFrom(name, argument.substr(equals + 1), std::exchange(given[name], {})));
   }
   for (const auto& [name, unused] : given) {
     if (unused.empty()) continue;
     throw ConfigError(fmt::format("--argument: got '{}.{}'; expected a model that --model names",
                                   name, unused.begin()->first));
   }
-  return models;
+  return files::LoadModels(models, [](const std::string& line) { Tell("warning: {}\n", line); });
 }
 
 }  // namespace

@@ -211,7 +211,9 @@ class CommandLine {
         "eval", "feed one system JSON lines of inputs, get JSON lines of outputs");
     eval->add_option("TYPE", eval_.type, "system type")->required();
     eval->add_option("--params", eval_.params, "its parameters as JSON");
-    eval->add_option("--model", eval_.models, "NAME=URDF, or xacro: a robot that parameters name")
+    eval->add_option(
+            "--model", eval_.models,
+            "NAME=URDF, or xacro, or an entry of `models` as JSON: a robot that parameters name")
         ->allow_extra_args(false);
     eval->add_option("--argument", eval_.arguments, "MODEL.NAME=VALUE: argument of a xacro")
         ->allow_extra_args(false);

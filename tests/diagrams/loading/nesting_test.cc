@@ -286,7 +286,7 @@ TEST_F(NestingTest, RefusesModelsThatThereAreNot) {
                       "right; did you mean 'right'?")));
   folder.Write("arm.yaml", std::string(kArm).substr(std::string(kArm).find("systems")));
   EXPECT_THAT(Refusal(TwoArms("{}")),
-              HasSubstr("arm.yaml:3:15: error: in right: systems.kinematics: model: got 'arm'; "
+              HasSubstr("arm.yaml:3:46: error: in right: systems.kinematics: model: got 'arm'; "
                         "expected one of: (the file has no models)"));
   EXPECT_THAT(WithoutFolder(Load(TwoArms("{arm: right, amr: left}")).warnings.at(0)),
               HasSubstr("warning: systems.right.models.amr: nothing in arm.yaml uses it"));

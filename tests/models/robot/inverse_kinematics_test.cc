@@ -149,6 +149,43 @@ TEST_P(ArmTest, TellsHowFarAGoalIsOutOfReach) {
 INSTANTIATE_TEST_SUITE_P(Arms, ArmTest, testing::Values("lwr4", "iiwa14", "ur5e"),
                          [](const auto& instance) { return std::string(instance.param); });
 
+/// Yaw, then `pitches` pitching joints 0.3 m apart and a roll of the wrist.
+RobotModel PitchingArm(int pitches) {
+  std::string urdf = "<robot name='few'><link name='l0'/>";
+  for (int i = 1; i <= pitches + 2; ++i) {
+    const char* const axis = i == 1 ? "0 0 1" : i == pitches + 2 ? "1 0 0" : "0 1 0";
+    urdf += "<link name='l" + std::to_string(i) + "'/><joint name='j" + std::to_string(i) +
+            "' type='revolute'><parent link='l" + std::to_string(i - 1) + "'/><child link='l" +
+            std::to_string(i) + "'/><origin xyz='" + (i > 2 ? "0.3" : "0") +
+            " 0 0.1'/><axis xyz='" + axis +
+            "'/><limit lower='-2.5' upper='2.5' velocity='1' effort='1'/></joint>";
+  }
+  return ParseUrdf(urdf + "</robot>", "few.urdf");
+}
+
+TEST(InverseKinematicsTest, ArmsOfFourAndFiveJointsReachPointsTurnedHowever) {
+  for (const int pitches : {2, 3}) {
+    const RobotModel arm = PitchingArm(pitches);
+    Random random(7);
+    InverseKinematicsSettings settings;
+    settings.turns_freely = true;
+    int poses_reached = 0;
+    for (int i = 0; i < 300; ++i) {
+      Eigen::Isometry3d goal = TipPose(arm, PostureWithin(arm, random));
+      goal.linear() = RandomPose(random).linear();
+      const Eigen::VectorXd start = PostureWithin(arm, random);
+      const PostureSolution found = SolveTip(arm, goal, start, settings);
+      ASSERT_TRUE(found.reached) << pitches << " " << i;
+      EXPECT_LT((TipPose(arm, found.q).translation() - goal.translation()).norm(), 1e-6);
+      EXPECT_EQ(found.rotation_error, 0.0);
+      ExpectWithinLimits(arm, found.q);
+      poses_reached += static_cast<int>(
+          SolveTip(arm, goal, start, {.starts = 3}).reached);  // such an arm has no such pose
+    }
+    EXPECT_EQ(poses_reached, 0);
+  }
+}
+
 TEST(InverseKinematicsTest, TheToleranceDecidesFromBothSides) {
   const RobotModel model = Arm("planar2");
   Eigen::Isometry3d X_WG = TipPose(model, Eigen::Vector2d(0.4, 0.8));

@@ -23,7 +23,7 @@ const SrdfRobot kRobot{"r", {"base", "arm", "hand"}, {"turn", "grip"}};
 
 std::vector<std::pair<int, int>> Load(const std::string& content) {
   const oca::test::TemporaryFolder folder;
-  return LoadDisabledPairs(folder.Write("pairs.srdf", content).string(), kRobot);
+  return LoadSrdf(folder.Write("pairs.srdf", content).string(), kRobot).disabled_pairs;
 }
 
 std::string RefusalOf(const std::string& content) {
@@ -142,14 +142,14 @@ TEST(SrdfTest, AnotherRobotsFileAndXacroAreRefused) {
 TEST(SrdfTest, OtherFilesAreRefused) {
   EXPECT_THROW(Load(""), models::ModelError);
   EXPECT_THROW(Load("<urdf/>"), models::ModelError);
-  EXPECT_THROW(LoadDisabledPairs("/nowhere.srdf", {}), models::ModelError);
+  EXPECT_THROW(LoadSrdf("/nowhere.srdf", {}), models::ModelError);
 }
 
 TEST(SrdfTest, WhatIsWrittenIsRead) {
   const oca::test::TemporaryFolder folder;
   const auto file = folder.path() / "new.srdf";
   SaveDisabledPairs(file, "r", {{"hand", "arm", "Adjacent"}, {"base", "hand", "Never"}});
-  EXPECT_THAT(LoadDisabledPairs(file, kRobot), ElementsAre(Pair(0, 2), Pair(1, 2)));
+  EXPECT_THAT(LoadSrdf(file, kRobot).disabled_pairs, ElementsAre(Pair(0, 2), Pair(1, 2)));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "new.srdf.part"));
 }
 
@@ -163,7 +163,7 @@ TEST(SrdfTest, WritingReplacesTheComputedPairsOfAFileAndKeepsTheRest) {
   <disable_collisions link1="base" link2="arm" reason="User"/>
 </robot>)");
   SaveDisabledPairs(file, "r", {{"hand", "arm", "Adjacent"}, {"arm", "base", "Always"}});
-  EXPECT_THAT(LoadDisabledPairs(file, kRobot), ElementsAre(Pair(0, 1), Pair(1, 2)));
+  EXPECT_THAT(LoadSrdf(file, kRobot).disabled_pairs, ElementsAre(Pair(0, 1), Pair(1, 2)));
   std::ifstream in(file);
   const std::string text(std::istreambuf_iterator<char>(in), {});
   EXPECT_THAT(text, AllOf(HasSubstr("hand-made"), HasSubstr("<chain"), HasSubstr("Adjacent"),

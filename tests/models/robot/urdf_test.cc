@@ -206,6 +206,27 @@ TEST_F(MeshTest, PackagesAreFoundByFolderOrByFunction) {
   EXPECT_EQ(ParseUrdf(text, "r.urdf", by_function).links()[0].visuals[0].mesh_file, file);
 }
 
+TEST_F(MeshTest, UrisMayHaveEscapes) {
+  const std::string text =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  const std::string spaced = temporary_.Write("parts/two words.obj", text).string();
+  const std::string percent = temporary_.Write("parts/100%25.obj", text).string();
+  LoadOptions options;
+  options.package_directories = {folder_};
+  const auto found = [&](const std::string& name) {
+    const RobotModel robot = ParseUrdf(WithMesh(name, "visual"), "r.urdf", options, folder_);
+    return robot.links()[0].visuals.empty() ? "" : robot.links()[0].visuals[0].mesh_file;
+  };
+  const std::string folder = folder_.string();
+  EXPECT_EQ(found("package://parts/two%20words.obj"), spaced);
+  EXPECT_EQ(found("package://parts/two words.obj"), spaced);
+  EXPECT_EQ(found("file://" + folder + "/parts/two%20words.obj"), spaced);
+  EXPECT_EQ(found("file:" + folder + "/parts/two%20words.obj"), spaced);
+  EXPECT_EQ(found("file://localhost" + folder + "/parts/two%20words.obj"), spaced);
+  EXPECT_EQ(found("package://parts/100%25.obj"), percent);  // written without escapes
+  EXPECT_EQ(found("parts/two%20words.obj"), "");            // no URI
+}
+
 TEST_F(MeshTest, MissingFilesAreRefusedWithTheNameOfTheLink) {
   for (const char* path : {"none.obj", "package://parts/none.obj", "package://unknown/none.obj",
                            "package://parts", "file:///none.obj"}) {

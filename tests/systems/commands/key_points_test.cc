@@ -29,7 +29,7 @@ TEST(KeyPointParamsTest, BecomeKeyPoints) {
   const auto points = KeyPointsFrom(kTwo, "");
   ASSERT_EQ(points.size(), 2u);
   EXPECT_EQ(points[1].time, 1.0);
-  EXPECT_EQ(points[1].position, kTwo[1].position);
+  EXPECT_EQ(points[1].position, Eigen::Vector2d(3.0, 4.0));
   EXPECT_EQ(points[1].velocity, kTwo[1].velocity);
   EXPECT_FALSE(points[0].velocity || points[1].acceleration);
 }

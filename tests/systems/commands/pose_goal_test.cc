@@ -28,8 +28,7 @@ std::shared_ptr<const robot::RobotModel> Robot(const std::string& name) {
 /// Of the arm of links 0.5 and 0.4 m long: the upper arm along x, the forearm along y.
 PoseGoalParams Corner() {
   PoseGoalParams goal;
-  goal.pose.xyz = {0.5, 0.4, 0.0};
-  goal.pose.rpy = Eigen::Vector3d(0.0, 0.0, kPi / 2.0);
+  goal.pose = PoseParams{.xyz = {0.5, 0.4, 0.0}, .rpy = Eigen::Vector3d(0.0, 0.0, kPi / 2.0)};
   goal.time = 3.0;
   return goal;
 }
@@ -57,6 +56,23 @@ TEST(PoseGoalTest, IsWhatItsParametersSay) {
   PoseGoalParams goal = Corner();
   goal.link = "planar2_tpi";
   EXPECT_THAT(RefusalOf(goal, before, arm), HasSubstr("planar2_tip"));
+}
+
+TEST(PoseGoalTest, APointIsReachedTurnedHowever) {
+  const auto arm = Robot("planar2");
+  PoseGoalParams goal;
+  goal.point = Eigen::Vector3d(0.5, 0.4, 0.0);
+  const motion::KeyPoint before = At(1.0, Eigen::Vector2d(0.3, 0.3));
+  // Two postures reach it, with the elbow to either side; the one nearer to the start is a corner.
+  EXPECT_LT((KeyPointAt(goal, before, arm).position - Eigen::Vector2d(0.0, kPi / 2.0)).norm(),
+            1e-5);
+  goal.point = Eigen::Vector3d(0.5, 0.8, 0.0);  // 0.943 m away; the arm is 0.9 m long
+  EXPECT_THAT(RefusalOf(goal, before, arm),
+              HasSubstr("goal.point: out of reach; got one that planar2_tip misses by at least "
+                        "0.0434 m; expected"));
+  goal.pose = PoseParams{};
+  EXPECT_THAT(RefusalOf(goal, before, arm), HasSubstr("got both pose and point"));
+  EXPECT_THAT(RefusalOf({}, before, arm), HasSubstr("got neither pose nor point"));
 }
 
 TEST(PoseGoalTest, KeepsTheClearanceFromWhatIsThereThen) {
@@ -91,7 +107,7 @@ TEST(PoseGoalTest, IsRefusedWithAConfigError) {
   EXPECT_THAT(RefusalOf(Corner(), At(3.0, Eigen::Vector2d(0.3, 0.3)), arm),
               HasSubstr("goal.time: not later"));
   PoseGoalParams goal = Corner();
-  goal.pose.xyz.x() = std::numeric_limits<double>::quiet_NaN();
+  goal.pose->xyz.x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(RefusalOf(goal, At(0.0, Eigen::Vector2d(0.3, 0.3)), arm), HasSubstr("goal.pose"));
 }
 

@@ -132,7 +132,9 @@ TEST(TipTrajectoryTest, RefusesAPathBeyondReachAndOneHalfGiven) {
   short_posture.posture = Eigen::VectorXd::Zero(6);
   EXPECT_THAT(RefusalOf(short_posture), HasSubstr("posture: got 6 numbers; expected 7"));
   TipRequest::Params bent = Line();
-  bent.posture[3] = -3.0;
+  Eigen::VectorXd elbow = Posture();
+  elbow[3] = -3.0;
+  bent.posture = elbow;
   EXPECT_THAT(RefusalOf(bent), HasSubstr("path: takes joint 'lwr4_joint_4'"));
   EXPECT_EQ(RefusalOf(Line()), "accepted");
 }

@@ -75,6 +75,12 @@ TEST_F(PlanarDistanceTest, LeavesOutIgnoredPairs) {
               ElementsAre("planar2_link_1 other", "planar2_link_2 ball", "planar2_link_2 other"));
 }
 
+TEST_F(PlanarDistanceTest, IgnoresObstaclesWithSlashesInTheirIds) {
+  const ProximitySet set = Near({.max_distance = 2.0, .ignore = {{"planar2_link_1", "shelf/ball"}}},
+                                {Ball("shelf/ball", Vector3d(0.7, 0.4, 0.0))});
+  EXPECT_THAT(Pairs(set), ElementsAre("planar2_link_2 shelf/ball"));
+}
+
 TEST_F(PlanarDistanceTest, CarriesTheVelocityOfTheObstacleAtItsPoint) {
   Obstacle ball = Ball("ball", Vector3d(0.7, 0.4, 0.0));
   ball.linear = Vector3d(0.0, -0.5, 0.0);
@@ -114,8 +120,8 @@ TEST_F(PlanarDistanceTest, RefusesParametersThatMakeNoQuery) {
   EXPECT_THAT(refusal({.ignore = {{"planar2_link_9", "ball"}}}), HasSubstr("planar2_link_9"));
   EXPECT_THAT(refusal({.ignore = {{"planar2_link_1", ""}}}), HasSubstr("ignore[0]: obstacle"));
   EXPECT_THAT(refusal({.ignore = {{"planar2_link_1", "/x"}}}), HasSubstr("ignore[0]: obstacle"));
-  EXPECT_THAT(refusal({.ignore = {{"planar2_link_1", "tabel/leg"}}}),
-              HasSubstr("ignore[0]: model: got 'tabel'; expected one of: planar2"));
+  EXPECT_THAT(refusal({.ignore = {{"planar2_link_1", "planra2/leg"}}}),
+              HasSubstr("ignore[0]: model: got 'planra2'; expected one of: planar2"));
   EXPECT_THAT(refusal({.ignore = {{"planar2_link_2", "planar2/planar2_lnk_1"}}}),
               HasSubstr("planar2_link_1"));
   EXPECT_THAT(refusal({.others = {"table"}}), HasSubstr("table"));
