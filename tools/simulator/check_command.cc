@@ -4,8 +4,8 @@
 #include <iostream>
 
 #include "oca/diagrams/loading/loader.h"
-#include "oca/diagrams/runs/chatter_check.h"
 #include "oca/diagrams/runs/request_check.h"
+#include "oca/diagrams/runs/run_warnings.h"
 #include "oca/systems/signals/roles.h"
 #include "tools/simulator/commands.h"
 #include "tools/simulator/terminal.h"
@@ -41,7 +41,7 @@ int CheckCommand(const std::vector<std::string>& files, const std::vector<std::s
       std::vector<files::Override> overrides;
       for (const std::string& text : texts) overrides.push_back(files::Override::Parse(text));
       auto loaded = loading::LoadDiagram(file, overrides, catalogue);
-      runs::AddChatterWarnings(loaded);
+      runs::AddRunWarnings(loaded);
       for (const std::string& warning : loaded.warnings) std::cerr << warning << '\n';
       for (const std::string& warning : runs::RequestWarnings(loaded)) std::cerr << warning << '\n';
       std::cout << file << ": fine, " << loaded.systems.size() << " systems, "
