@@ -10,6 +10,7 @@
 #include "oca/diagrams/files/diagram_file.h"
 #include "oca/diagrams/files/section.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/explain.h"
 #include "oca/framework/dataflow/nearest.h"
 
 namespace oca::files {
@@ -84,7 +85,7 @@ std::unique_ptr<System> CatalogueRow::Make(const void* params, const Value& give
     if (problems.empty() || !HasGap(given)) {
       const Value* const at = FindSpokenOf(given, error.what());
       problems.Add((at == nullptr ? given : *at).location(),
-                   (where.empty() ? "" : where + ": ") + error.what());
+                   (where.empty() ? "" : where + ": ") + oca::internal::Explain(error));
     }
   }
   return nullptr;

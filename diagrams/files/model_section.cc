@@ -14,6 +14,7 @@
 #include "oca/diagrams/files/package_paths.h"
 #include "oca/diagrams/files/section.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/explain.h"
 #include "oca/models/error.h"
 #include "oca/models/file_cache.h"
 
@@ -129,8 +130,8 @@ void ModelSection::ReadModel(const Value::Entry& entry, const std::string& full_
       models_.Add(entry.key, read->model, full_name);
       sources_[entry.key] = {where, read->params, packages_};
     }
-  } catch (const std::runtime_error& error) {
-    const std::string text = error.what();
+  } catch (const std::exception& error) {
+    const std::string text = oca::internal::Explain(error);
     for (std::size_t from = 0, end = 0; end != std::string::npos; from = end + 1) {
       end = text.find('\n', from);
       const std::string line = text.substr(from, end - from);
@@ -168,10 +169,10 @@ void ModelSection::Take(const Value::Entry& given, const Value* own, const Model
     models_.Add(given.key, LoadModel(taken.where, taken.params, taken.packages, {}),
                 outer.models_.FullName(*given.value.string()));
     sources_[given.key] = std::move(taken);
-  } catch (const std::runtime_error& error) {
+  } catch (const std::exception& error) {
     failed_ = true;
     problems_.Add(own == nullptr ? given.location : own->location(),
-                  fmt::format("models.{}: {}", given.key, error.what()));
+                  fmt::format("models.{}: {}", given.key, oca::internal::Explain(error)));
   }
 }
 

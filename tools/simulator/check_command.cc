@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstddef>
+#include <cstdio>
 #include <exception>
-#include <iostream>
 
 #include "oca/diagrams/loading/loader.h"
 #include "oca/diagrams/runs/request_check.h"
 #include "oca/diagrams/runs/run_warnings.h"
+#include "oca/framework/dataflow/explain.h"
 #include "oca/systems/signals/roles.h"
 #include "tools/simulator/commands.h"
 #include "tools/simulator/terminal.h"
@@ -42,14 +43,14 @@ int CheckCommand(const std::vector<std::string>& files, const std::vector<std::s
       for (const std::string& text : texts) overrides.push_back(files::Override::Parse(text));
       auto loaded = loading::LoadDiagram(file, overrides, catalogue);
       runs::AddRunWarnings(loaded);
-      for (const std::string& warning : loaded.warnings) std::cerr << warning << '\n';
-      for (const std::string& warning : runs::RequestWarnings(loaded)) std::cerr << warning << '\n';
-      std::cout << file << ": fine, " << loaded.systems.size() << " systems, "
-                << CountConnections(*loaded.diagram) << " connections\n"
-                << std::flush;
+      for (const std::string& warning : loaded.warnings) Tell("{}\n", warning);
+      for (const std::string& warning : runs::RequestWarnings(loaded)) Tell("{}\n", warning);
+      Print("{}: fine, {} systems, {} connections\n", file, loaded.systems.size(),
+            CountConnections(*loaded.diagram));
+      std::fflush(stdout);
       PrintNotes(*loaded.diagram);
     } catch (const std::exception& error) {
-      std::cerr << error.what() << '\n';
+      Tell("{}\n", oca::internal::Explain(error));
       status = kBadInput;
     }
   }

@@ -13,6 +13,8 @@
 #include "oca/diagrams/files/load_models.h"
 #include "oca/diagrams/runs/evaluator.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/explain.h"
+#include "oca/framework/dataflow/json_text.h"
 #include "oca/models/robot/xacro.h"
 #include "tools/simulator/commands.h"
 #include "tools/simulator/terminal.h"
@@ -71,7 +73,7 @@ int EvalCommand(const EvalArguments& arguments, const files::Catalogue& catalogu
     try {
       answer = evaluator.Serve(line);
     } catch (const std::exception& error) {
-      answer = nlohmann::json{{"error", error.what()}}.dump();
+      answer = oca::internal::JsonText(nlohmann::json{{"error", oca::internal::Explain(error)}});
     }
     out << answer << std::endl;
     if (!out) return kRunFailed;  // nobody reads any more
