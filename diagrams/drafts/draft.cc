@@ -146,7 +146,7 @@ class DraftMaker {
     if (srdf_.empty()) return;
     const robot::RobotModel& model = *draft_.robot.model;
     robot::SaveDisabledPairs(srdf_, model.name().text(),
-                             robot::DisabledPairs(model, robot::CheckCollisions(model, {})));
+                             robot::PairsToDisable(model, robot::CheckCollisions(model, {})));
     draft_.files.push_back(srdf_);
   }
 

@@ -162,4 +162,19 @@ std::vector<LinkPairCheck> CheckCollisions(const RobotModel& model,
   return pairs;
 }
 
+std::vector<DisabledPair> PairsToDisable(const RobotModel& model,
+                                         const std::vector<LinkPairCheck>& pairs) {
+  std::vector<DisabledPair> disabled;
+  for (const PairKind kind :
+       {PairKind::kAdjacent, PairKind::kAlways, PairKind::kDefault, PairKind::kNever}) {
+    for (const LinkPairCheck& pair : pairs) {
+      if (pair.kind != kind) continue;
+      disabled.push_back({model.links()[static_cast<std::size_t>(pair.link_a)].name.text(),
+                          model.links()[static_cast<std::size_t>(pair.link_b)].name.text(),
+                          std::string(ToString(kind))});
+    }
+  }
+  return disabled;
+}
+
 }  // namespace oca::robot

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "oca/models/robot/robot_model.h"
+#include "oca/models/robot/srdf.h"
 
 namespace oca::robot {
 
@@ -53,5 +54,9 @@ struct LinkPairCheck {
 ///        queries
 std::vector<LinkPairCheck> CheckCollisions(const RobotModel& model,
                                            const CollisionSampling& sampling);
+
+/// The pairs that need no check, for SaveDisabledPairs, one reason after the other.
+std::vector<DisabledPair> PairsToDisable(const RobotModel& model,
+                                         const std::vector<LinkPairCheck>& pairs);
 
 }  // namespace oca::robot

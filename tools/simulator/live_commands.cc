@@ -119,8 +119,7 @@ int ServeRecord(const std::string& what, std::string record, const ViewArguments
   options.forbidden = SayForbidden;
   const live::LiveServer server(options);
   CatchInterrupts();
-  SayWhere(what + ", in a browser; Ctrl-C ends it", server, arguments.address,
-           "read the record");
+  SayWhere(what + ", in a browser; Ctrl-C ends it", server, arguments.address, "read the record");
   while (!Interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   return kInterrupted;
 }

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <iostream>
 
 #include "oca/diagrams/drafts/draft.h"
 #include "oca/diagrams/files/package_paths.h"
@@ -31,30 +30,29 @@ fs::path FolderOf(const NewArguments& arguments, const fs::path& robot) {
 
 void PrintRobot(const drafts::DraftRobot& robot) {
   const robot::RobotModel& model = *robot.model;
-  std::cout << fmt::format("robot '{}': {} joints, tip '{}', reach about {:.2g} m\n",
-                           model.name().text(), model.num_positions(),
-                           model.links()[static_cast<std::size_t>(robot.tip)].name.text(),
-                           robot.reach);
+  Print("robot '{}': {} joints, tip '{}', reach about {:.2g} m\n", model.name().text(),
+        model.num_positions(), model.links()[static_cast<std::size_t>(robot.tip)].name.text(),
+        robot.reach);
   if (!robot.held.empty()) {
     std::vector<std::string> joints;
     for (const auto& [joint, position] : robot.held) {
       joints.push_back(fmt::format("{} at {:.4g}", joint, position));
     }
-    std::cout << fmt::format("held, as not of the arm: {}\n", fmt::join(joints, ", "));
+    Print("held, as not of the arm: {}\n", fmt::join(joints, ", "));
   }
 }
 
 void PrintWithout(const runs::RunResult& result) {
   if (!result.metrics || !result.metrics->min_distance) {
-    std::cout << "without avoidance: nothing is known\n";
+    Print("without avoidance: nothing is known\n");
     return;
   }
   const robot::MotionMetricsValue& metrics = *result.metrics;
   const double distance = *metrics.min_distance;
-  std::cout << fmt::format("without avoidance: {} of {} with {}, {:.3f} m{}\n",
-                           distance <= 0.0 ? "CONTACT" : "no contact",
-                           metrics.min_distance_link.text(), metrics.min_distance_obstacle.text(),
-                           std::abs(distance), distance <= 0.0 ? " deep" : " apart");
+  Print("without avoidance: {} of {} with {}, {:.3f} m{}\n",
+        distance <= 0.0 ? "CONTACT" : "no contact", metrics.min_distance_link.text(),
+        metrics.min_distance_obstacle.text(), std::abs(distance),
+        distance <= 0.0 ? " deep" : " apart");
 }
 
 }  // namespace
@@ -74,7 +72,7 @@ int NewCommand(const NewArguments& arguments) {
   const drafts::Draft draft = drafts::MakeDraft(options);
   if (Interrupted()) return kInterrupted;
   PrintRobot(draft.robot);
-  for (const fs::path& file : draft.files) std::cout << fmt::format("wrote {}\n", file.string());
+  for (const fs::path& file : draft.files) Print("wrote {}\n", file.string());
   PrintWithout(draft.attempt.without);
   const loading::LoadedDiagram loaded = loading::LoadDiagram(draft.diagram);
   fs::path page = draft.diagram;
@@ -83,10 +81,9 @@ int NewCommand(const NewArguments& arguments) {
   run.progress = [](double) { return !Interrupted(); };
   run.outputs = {&report};
   const runs::RunResult result = runs::Run(loaded, run);
-  std::cout << "with '" << arguments.avoidance << "':\n"
-            << RunSummary(loaded, result, WantsColour(STDOUT_FILENO))
-            << fmt::format("report: {}\nnext:   simulator run {} --live\n", page.string(),
-                           draft.diagram.string());
+  Print("with '{}':\n{}report: {}\nnext:   simulator run {} --live\n", arguments.avoidance,
+        RunSummary(loaded, result, WantsColour(STDOUT_FILENO)), page.string(),
+        draft.diagram.string());
   if (result.failure) {
     Tell("error: {}\n", result.failure->message);
     return kRunFailed;

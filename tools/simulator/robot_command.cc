@@ -83,20 +83,6 @@ ordered_json ToJson(const robot::RobotModel& model, const std::vector<LinkPairCh
   return json;
 }
 
-std::vector<robot::DisabledPair> DisabledPairs(const robot::RobotModel& model,
-                                               const std::vector<LinkPairCheck>& pairs) {
-  std::vector<robot::DisabledPair> disabled;
-  for (const PairKind kind :
-       {PairKind::kAdjacent, PairKind::kAlways, PairKind::kDefault, PairKind::kNever}) {
-    for (const LinkPairCheck& pair : pairs) {
-      if (pair.kind != kind) continue;
-      disabled.push_back({NameOf(model, pair.link_a), NameOf(model, pair.link_b),
-                          std::string(robot::ToString(kind))});
-    }
-  }
-  return disabled;
-}
-
 }  // namespace
 
 int CheckCollisionsCommand(const CheckCollisionsArguments& arguments) {
@@ -118,7 +104,7 @@ int CheckCollisionsCommand(const CheckCollisionsArguments& arguments) {
   const std::vector<LinkPairCheck> pairs = robot::CheckCollisions(model, sampling);
   if (!arguments.write_srdf.empty()) {
     robot::SaveDisabledPairs(arguments.write_srdf, model.name().text(),
-                             DisabledPairs(model, pairs));
+                             robot::PairsToDisable(model, pairs));
   }
   if (arguments.json) {
     WriteData(oca::internal::JsonText(ToJson(model, pairs, sampling), 2) + "\n");
