@@ -91,8 +91,24 @@ class DraftMaker {
     if (!limits_text_.empty()) limits_ = options.folder / (name + "_limits.yaml");
   }
 
+  /// Leaves no file behind if it throws.
   Draft Make() {
     PrepareFolder();
+    try {
+      Fill();
+    } catch (...) {
+      for (const fs::path& file : draft_.files) {
+        std::error_code ignored;
+        fs::remove(file, ignored);
+      }
+      throw;
+    }
+    return std::move(draft_);
+  }
+
+ private:
+  void Fill() {
+    if (!srdf_.empty()) WriteSrdf();
     const auto motions = planning::ProposeMotions(draft_.robot.model, draft_.robot.tip,
                                                   kMostProposals, options_.seed);
     if (motions.empty()) {
@@ -102,7 +118,6 @@ class DraftMaker {
           "m, own links apart and none below its base; expected a robot that can",
           options_.robot.string(), draft_.robot.model->name().text(), draft_.robot.reach));
     }
-    WriteSrdf();
     if (!limits_.empty()) Keep(limits_, limits_text_);
     WriteDiagram(motions.front());
     const loading::Blueprint blueprint(draft_.diagram);
@@ -116,10 +131,8 @@ class DraftMaker {
       if (good) break;
     }
     WriteDiagram(draft_.attempt.motion);
-    return std::move(draft_);
   }
 
- private:
   bool Interrupted() const { return options_.interrupted && options_.interrupted(); }
 
   void PrepareFolder() const {
@@ -141,13 +154,16 @@ class DraftMaker {
     draft_.files.push_back(file);
   }
 
-  /// Of the arm, with all else where it is held.
+  /// Of the arm, with all else where it is held. The robot is read again, with what it says.
   void WriteSrdf() {
-    if (srdf_.empty()) return;
     const robot::RobotModel& model = *draft_.robot.model;
     robot::SaveDisabledPairs(srdf_, model.name().text(),
                              robot::PairsToDisable(model, robot::CheckCollisions(model, {})));
     draft_.files.push_back(srdf_);
+    DraftOptions known = options_;
+    known.srdf = srdf_;
+    known.warn = nullptr;
+    draft_.robot = ReadDraftRobot(known);
   }
 
   void WriteDiagram(const planning::FirstMotion& motion) {

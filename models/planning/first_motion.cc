@@ -26,7 +26,7 @@ constexpr double kMiddle = 0.7;      // share of a range that postures are drawn
 // Shares of the reach.
 constexpr double kRadius = 1.0 / 12.0;
 constexpr double kRoom = 1.0 / 8.0;                  // from the ball, at the ends
-constexpr double kApart = 0.02;                      // own links
+constexpr double kApart = 0.005, kFarApart = 0.05;   // own links, at least, and as far as it counts
 constexpr double kNearest = 0.35, kFarthest = 0.85;  // the tip, from the first joint
 constexpr double kLeastWay = 0.45;                   // of the tip, end to end
 constexpr double kHandShare = 0.3;  // of the way from the tip back to the last joint
@@ -109,6 +109,8 @@ class MotionSearch {
     return model_.position_names()[static_cast<std::size_t>(position)].text();
   }
 
+  double OwnDistance() const { return clearance_.Nearest(kFarApart * reach_).distance; }
+
   void TryMotion(FirstMotion& motion) {
     clearance_.SetBodies({});
     clearance_.MoveTo(motion.from);
@@ -116,14 +118,16 @@ class MotionSearch {
     clearance_.MoveTo(motion.to);
     if ((Tip() - start).norm() < kLeastWay * reach_) return;
     double lowest = robot::kUnlimited;
+    double apart = kFarApart * reach_;
     for (int step = 0; step <= kPathSteps; ++step) {
       const double s = static_cast<double>(step) / kPathSteps;
       clearance_.MoveTo(motion.from + s * (motion.to - motion.from));
-      if (clearance_.NearerThan(kApart * reach_)) return;
+      apart = std::min(apart, OwnDistance());
+      if (apart < kApart * reach_) return;
       lowest = std::min(lowest, Lowest());
     }
     if (lowest < 0.0) return;
-    PlaceBall(motion, lowest);
+    PlaceBall(motion, lowest, apart);
   }
 
   /// Of the links beyond the first two that move, m above the base's foot.
@@ -136,7 +140,7 @@ class MotionSearch {
     return std::min(lowest, (X_BW * Tip()).z());
   }
 
-  void PlaceBall(FirstMotion& motion, double lowest) {
+  void PlaceBall(FirstMotion& motion, double lowest, double apart) {
     clearance_.MoveTo(0.5 * (motion.from + motion.to));
     const int hand = model_.body(tip_);
     motion.ball = Tip() + kHandShare * (OriginOf(hand) - Tip());
@@ -156,7 +160,7 @@ class MotionSearch {
     }
     if (motion.room < kRoom * reach_) return;
     const double score = std::min(least_move / reach_, 0.3) + std::min(lowest / reach_, 0.2) +
-                         std::min(motion.room / reach_, 0.3);
+                         std::min(motion.room / reach_, 0.3) + 3.0 * apart / reach_;
     found_.push_back({motion, score});
   }
 
