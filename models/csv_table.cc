@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "oca/models/error.h"
+#include "oca/models/file_bytes.h"
 #include "oca/models/nearest_name.h"
 #include "oca/models/table_text.h"
 
@@ -88,8 +89,7 @@ std::vector<std::string> Words(const std::string& comment) {
 
 }  // namespace
 
-CsvTable::CsvTable(const std::filesystem::path& file)
-    : file_(file), text_(internal::ReadWhole(file)) {
+CsvTable::CsvTable(const std::filesystem::path& file) : file_(file), text_(ReadFile(file)) {
   CheckBytes();
   ReadFirst();
 }

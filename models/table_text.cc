@@ -6,10 +6,8 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
-#include <fstream>
 
 #include "oca/models/error.h"
-#include "oca/models/opened_files.h"
 
 namespace oca::models::internal {
 namespace {
@@ -26,31 +24,6 @@ void RefuseText(const fs::path& file, int line, std::string_view what, std::stri
   const std::string place = line > 0 ? fmt::format("{}:{}", file.string(), line) : file.string();
   throw ModelError(
       fmt::format("{}: {}; got {}; expected {}", place, what, got.substr(0, 60), expected));
-}
-
-std::string ReadWhole(const fs::path& file) {
-  NoteOpened(file);
-  return ReadOwn(file);
-}
-
-std::string ReadOwn(const fs::path& file) {
-  std::error_code error;
-  const auto status = fs::status(file, error);
-  if (!fs::exists(status)) RefuseText(file, 0, "cannot be read", "no such file", "a file");
-  if (!fs::is_regular_file(status)) {
-    RefuseText(file, 0, "not a regular file", "a folder, pipe or device", "a file");
-  }
-  const std::uintmax_t size = fs::file_size(file, error);
-  if (error || size > kMostBytes) {
-    RefuseText(file, 0, "too large", fmt::format("{} bytes", size),
-               fmt::format("at most {}", kMostBytes));
-  }
-  std::ifstream stream(file, std::ios::binary);
-  // No more than was promised, should the file grow meanwhile.
-  std::string text(size, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(size));
-  if (!stream) RefuseText(file, 0, "cannot be read", "an error", "a readable file");
-  return text;
 }
 
 std::vector<std::string_view> Words(std::string_view text) {

@@ -10,14 +10,6 @@
 
 namespace oca::models::internal {
 
-inline constexpr std::uintmax_t kMostBytes = 100'000'000;  ///< of a file that is read
-
-/// The content of a file that somebody gave us, as OpenedFiles notes.
-/// throws ModelError if it is missing, no regular file, which is not opened, or above kMostBytes
-std::string ReadWhole(const std::filesystem::path& file);
-/// The same of a file that we wrote ourselves, which nobody notes.
-std::string ReadOwn(const std::filesystem::path& file);
-
 /// Whether it keeps cells apart: a blank or a tab.
 bool IsBlank(char c);
 

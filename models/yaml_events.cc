@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "oca/models/foreign_text.h"
+
 namespace oca::models::internal {
 namespace {
 
@@ -54,30 +56,11 @@ class Forwarder final : public YAML::EventHandler {
   int documents_{0};
 };
 
-/// Length of the UTF-8 sequence that `text` begins with; 0 if it begins with none.
-std::size_t SequenceLength(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  if (byte(0) < 0x80) return 1;
-  const std::size_t length = byte(0) < 0xc2   ? 0
-                             : byte(0) < 0xe0 ? 2
-                             : byte(0) < 0xf0 ? 3
-                             : byte(0) < 0xf5 ? 4
-                                              : 0;
-  if (length == 0 || text.size() < length) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xc0) != 0x80) return 0;
-  }
-  // Longer than needed, a surrogate, or beyond the last code point.
-  const bool wrong = (byte(0) == 0xe0 && byte(1) < 0xa0) || (byte(0) == 0xed && byte(1) > 0x9f) ||
-                     (byte(0) == 0xf0 && byte(1) < 0x90) || (byte(0) == 0xf4 && byte(1) > 0x8f);
-  return wrong ? 0 : length;
-}
-
 /// yaml-cpp replaces what is not UTF-8, and its positions then no longer fit the text.
 void CheckUtf8(std::string_view text) {
   YamlMark at;
   while (!text.empty()) {
-    const std::size_t length = SequenceLength(text);
+    const std::size_t length = Utf8Length(text);
     if (length == 0) throw YamlError(at, "is not UTF-8; expected text");
     if (text[0] == '\n') ++at.line;
     at.offset += length;

@@ -9,6 +9,7 @@
 
 #include "oca/diagrams/files/diagram_file.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/explain.h"
 #include "oca/framework/dataflow/nearest.h"
 
 namespace oca::files {
@@ -81,7 +82,8 @@ std::unique_ptr<System> CatalogueRow::Make(const void* params, const Value& give
   } catch (const std::exception& error) {
     // One that follows from what has been reported says nothing new.
     if (problems.empty() || !HasGap(given)) {
-      problems.Add(given.location(), (where.empty() ? "" : where + ": ") + error.what());
+      problems.Add(given.location(),
+                   (where.empty() ? "" : where + ": ") + oca::internal::Explain(error));
     }
   }
   return nullptr;

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/json_text.h"
 #include "oca/models/file_cache.h"
 #include "oca/models/robot/attach_objects.h"
 #include "oca/models/robot/unseen_links.h"
@@ -89,7 +90,7 @@ std::string FormOf(const std::string& where, const ModelParams& params,
     form += limits->has_value() ? '\n' + BytesOf((*limits)->values()) : "\n";
   }
   for (const AttachedParams& object : params.attached) {
-    form += "\n" + JsonOfFields(FieldsOf<AttachedParams>(), &object).dump();
+    form += "\n" + oca::internal::JsonText(JsonOfFields(FieldsOf<AttachedParams>(), &object));
   }
   for (const auto& [name, text] : params.arguments.texts) {
     form += fmt::format("\n{} {}\n{}", name, text.size(), text);

@@ -14,6 +14,7 @@
 #include "oca/diagrams/files/package_paths.h"
 #include "oca/diagrams/files/section.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/explain.h"
 #include "oca/models/error.h"
 #include "oca/models/file_cache.h"
 
@@ -119,8 +120,8 @@ void ModelSection::ReadModel(const Value::Entry& entry, const std::string& full_
       models_.Add(entry.key, read->model, full_name);
       sources_[entry.key] = {where, read->params, packages_};
     }
-  } catch (const std::runtime_error& error) {
-    thrown.Add(entry.location, fmt::format("{}: {}", where, error.what()));
+  } catch (const std::exception& error) {
+    thrown.Add(entry.location, fmt::format("{}: {}", where, oca::internal::Explain(error)));
   }
   const Read& found = read == nullptr ? fresh : *read;
   failed_ = failed_ || found.model == nullptr || !thrown.empty();
@@ -151,10 +152,10 @@ void ModelSection::Take(const Value::Entry& given, const Value* own, const Model
     models_.Add(given.key, LoadModel(taken.where, taken.params, taken.packages, {}),
                 outer.models_.FullName(*given.value.string()));
     sources_[given.key] = std::move(taken);
-  } catch (const std::runtime_error& error) {
+  } catch (const std::exception& error) {
     failed_ = true;
     problems_.Add(own == nullptr ? given.location : own->location(),
-                  fmt::format("models.{}: {}", given.key, error.what()));
+                  fmt::format("models.{}: {}", given.key, oca::internal::Explain(error)));
   }
 }
 

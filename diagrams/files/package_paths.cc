@@ -5,14 +5,14 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <sstream>
 #include <string_view>
 
 #include "oca/diagrams/files/data_folders.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/models/error.h"
+#include "oca/models/file_bytes.h"
 #include "oca/models/file_cache.h"
 
 namespace oca::files {
@@ -78,9 +78,11 @@ bool IsPartOfOca(const fs::path& file) {
   constexpr std::string_view kParts = OCA_PARTS;  // their names, each between two |
   if (kParts.find("|" + file.filename().string() + "|") == std::string_view::npos) return false;
   const auto content = [](const fs::path& name) -> std::optional<std::string> {
-    std::ifstream stream(name, std::ios::binary);
-    if (!stream) return std::nullopt;
-    return std::string{std::istreambuf_iterator<char>(stream), {}};
+    try {
+      return models::ReadUnnoted(name);
+    } catch (const models::ModelError&) {  // there is none
+      return std::nullopt;
+    }
   };
   const auto own = content(file);
   const auto folders = DataFolders();

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -12,7 +11,7 @@
 #include "oca/diagrams/files/plain_scalar.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/error.h"
-#include "oca/models/opened_files.h"
+#include "oca/models/file_bytes.h"
 #include "oca/models/yaml_events.h"
 
 namespace oca::files {
@@ -209,27 +208,13 @@ Value ReadYaml(std::string_view text, const std::string& name, Problems& problem
 }
 
 std::string ReadTextFile(const std::filesystem::path& file) {
+  std::string text;
   try {
-    models::NoteOpened(file);
-  } catch (const models::ModelError& refused) {
-    throw ConfigError(refused.what());
-  }
-  std::error_code error;
-  if (std::filesystem::is_directory(file, error)) {
-    throw ConfigError(fmt::format("{}: error: is a folder; expected a file", file.string()));
-  }
-  const auto size = std::filesystem::file_size(file, error);
-  if (error) {
-    throw ConfigError(fmt::format("{}: error: cannot be read: {}", file.string(), error.message()));
-  }
-  if (size > kLargestFile) {
-    throw ConfigError(fmt::format("{}: error: got {} bytes; expected at most {}", file.string(),
-                                  size, kLargestFile));
-  }
-  std::ifstream stream(file, std::ios::binary);
-  std::string text(size, '\0');
-  if (!stream.read(text.data(), static_cast<std::streamsize>(size))) {
-    throw ConfigError(fmt::format("{}: error: cannot be read", file.string()));
+    text = models::ReadFile(file, kLargestFile);
+  } catch (const models::ModelError& error) {
+    const std::string place = file.string() + ": ", what = error.what();
+    throw ConfigError(what.starts_with(place) ? place + "error: " + what.substr(place.size())
+                                              : what);
   }
   const auto control = [](unsigned char c) {
     return (c < 0x20 && c != '\n' && c != '\r' && c != '\t') || c == 0x7f;

@@ -4,13 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
 #include <initializer_list>
-#include <stdexcept>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "oca/diagrams/files/model_section.h"
+#include "oca/framework/dataflow/explain.h"
 #include "oca/framework/dataflow/nearest.h"
 
 namespace oca::foresight {
@@ -98,8 +99,8 @@ std::unique_ptr<Diagram> MakeTreeSource(const Value& root, const std::string& na
     DiagramBuilder builder;
     builder.AddSystem(name, std::move(system));
     return builder.Build();
-  } catch (const std::runtime_error& error) {
-    problems.Add(entry->location(), fmt::format("{}: {}", where, error.what()));
+  } catch (const std::exception& error) {
+    problems.Add(entry->location(), fmt::format("{}: {}", where, oca::internal::Explain(error)));
   }
   return nullptr;
 }

@@ -8,6 +8,7 @@
 
 #include "oca/diagrams/record/run_metadata.h"
 #include "oca/diagrams/runs/chatter_check.h"
+#include "oca/framework/dataflow/explain.h"
 #include "oca/framework/dataflow/port_access.h"
 
 namespace oca::live {
@@ -143,7 +144,7 @@ void LiveChanges::BeginChange() {
       }
     }
   } catch (const std::exception& error) {
-    return Refuse(error.what());
+    return Refuse(oca::internal::Explain(error));
   }
   if (!load) return;
   next_ = std::async(std::launch::async, [this, wanted = wanted_] { return Build(wanted); });
@@ -175,7 +176,7 @@ void LiveChanges::Move(runs::RunControl& run) {
     moves_ = std::move(moves);
     ++count_;
   } catch (const std::exception& error) {
-    Refuse(error.what());
+    Refuse(oca::internal::Explain(error));
   }
 }
 
@@ -188,7 +189,7 @@ void LiveChanges::Replace(runs::RunControl& run) {
     ++count_;
     server_.SetParameters(Parameters());
   } catch (const std::exception& error) {
-    Refuse(error.what());
+    Refuse(oca::internal::Explain(error));
   }
 }
 

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/json_text.h"
 #include "oca/systems/signals/roles.h"
 
 namespace oca::live {
@@ -111,7 +112,7 @@ record::McapTexts RangesOf(const LoadedDiagram& loaded) {
   record::McapTexts texts;
   for (const auto& [name, range] : RangesAt(loaded, "", loaded.document)) {
     // JSON has no infinity: nlohmann writes null.
-    texts[name] = nlohmann::json{range.lower, range.upper}.dump();
+    texts[name] = oca::internal::JsonText(nlohmann::json{range.lower, range.upper});
   }
   return texts;
 }

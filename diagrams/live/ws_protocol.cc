@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/json_text.h"
 
 namespace oca::live {
 namespace {
@@ -28,9 +29,7 @@ ordered_json ToJson(const LiveParameter& parameter) {
 }
 
 /// Names may be no UTF-8, as those of files.
-std::string Dump(const ordered_json& json) {
-  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
-}
+std::string Dump(const ordered_json& json) { return oca::internal::JsonText(json); }
 
 }  // namespace
 

@@ -19,6 +19,7 @@
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/nearest.h"
 #include "oca/models/file_cache.h"
+#include "oca/models/foreign_text.h"
 #include "oca/models/opened_files.h"
 
 namespace oca::loading {
@@ -39,7 +40,7 @@ class Loader {
 
   LoadedDiagram Load(bool movable) {
     ReadDocument();
-    loaded_.name = file_.stem().string();
+    loaded_.name = models::internal::AsUtf8(file_.stem().native());
     ReadRun(root(), loaded_, problems_);
     files::ModelSection models(root(), problems_);
     for (const Diagnostic& warning : models.warnings()) construction_.warnings.Add("", warning);

@@ -9,6 +9,7 @@
 #include "oca/diagrams/files/run_params.h"
 #include "oca/diagrams/loading/schema_tree.h"
 #include "oca/diagrams/sampling/scenario.h"
+#include "oca/framework/dataflow/json_text.h"
 
 namespace oca::loading {
 namespace {
@@ -177,7 +178,7 @@ ordered_json DiagramSchemaTree(const files::Catalogue& catalogue) {
 }
 
 std::string DiagramSchema(const files::Catalogue& catalogue) {
-  return DiagramSchemaTree(catalogue).dump(2);
+  return oca::internal::JsonText(DiagramSchemaTree(catalogue), 2);
 }
 
 }  // namespace oca::loading

@@ -5,7 +5,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "oca/diagrams/record/message_json.h"
 #include "oca/diagrams/record/series.h"
+#include "oca/framework/dataflow/json_text.h"
 
 namespace oca::record {
 namespace {
@@ -40,10 +42,10 @@ std::map<std::string, std::string> MetricsOf(const McapFile& record,
   std::map<std::string, std::string> metrics;
   const auto messages = record.MessagesOf("/metrics");
   if (messages.empty()) return metrics;
-  const auto json = ordered_json::parse(messages.back()->data, nullptr, false);
+  const auto json = internal::MessageJson(*messages.back(), "/metrics");
   if (!json.is_object()) return metrics;
   for (const auto& [key, value] : json.items()) {
-    metrics[key] = value.is_null() ? "" : value.dump();
+    metrics[key] = value.is_null() ? "" : oca::internal::JsonText(value);
     if (std::find(order.begin(), order.end(), key) == order.end()) order.push_back(key);
   }
   return metrics;

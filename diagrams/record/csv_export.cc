@@ -4,8 +4,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <string_view>
 
+#include "oca/diagrams/record/message_json.h"
 #include "oca/diagrams/record/series.h"
 #include "oca/diagrams/runs/signal_table.h"
 
@@ -18,9 +18,8 @@ using runs::SignalTable;
 
 /// Names and numbers of a vector's message, without names but numbered ones; false if it is another
 /// signal's.
-bool Numbers(std::string_view message, std::vector<std::string>& joints,
+bool Numbers(const ordered_json& json, std::vector<std::string>& joints,
              std::vector<double>& numbers) {
-  const ordered_json json = ordered_json::parse(message);
   joints.clear();
   numbers.clear();
   const bool listed =
@@ -36,10 +35,10 @@ bool Numbers(std::string_view message, std::vector<std::string>& joints,
   return true;
 }
 
-bool IsVector(std::string_view message) {
+bool IsVector(const ordered_json& json) {
   std::vector<std::string> joints;
   std::vector<double> numbers;
-  return Numbers(message, joints, numbers);
+  return Numbers(json, joints, numbers);
 }
 
 }  // namespace
@@ -50,8 +49,8 @@ std::vector<fs::path> ExportedFiles(const McapFile& record, const fs::path& fold
     if (!IsSignal(channel)) continue;
     const auto messages = record.MessagesOf(channel.topic);
     if (messages.empty()) continue;
-    files.push_back(
-        SignalTable::FileOf(folder, SignalName(channel), IsVector(messages.front()->data)));
+    const bool vector = IsVector(internal::MessageJson(*messages.front(), channel.topic));
+    files.push_back(SignalTable::FileOf(folder, SignalName(channel), vector));
   }
   return files;
 }
@@ -68,7 +67,7 @@ int ExportCsv(const McapFile& record, const fs::path& folder) {
     std::vector<std::string> joints;
     std::vector<double> numbers;
     std::optional<std::vector<std::string>> columns;
-    if (Numbers(messages.front()->data, joints, numbers)) {
+    if (Numbers(internal::MessageJson(*messages.front(), channel.topic), joints, numbers)) {
       columns = SignalTable::Columns(signal.substr(signal.rfind('.') + 1),
                                      static_cast<int>(numbers.size()), joints);
     }
@@ -76,7 +75,7 @@ int ExportCsv(const McapFile& record, const fs::path& folder) {
     for (const McapMessage* const message : messages) {
       const auto time = static_cast<std::int64_t>(message->log_time - start);
       if (columns) {
-        Numbers(message->data, joints, numbers);
+        Numbers(internal::MessageJson(*message, channel.topic), joints, numbers);
         table.Write(time, numbers);
       } else {
         table.Write(time, message->data);

@@ -14,6 +14,8 @@
 #include "oca/diagrams/record/file_collector.h"
 #include "oca/diagrams/record/mcap_bytes.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/models/file_bytes.h"
+#include "oca/models/foreign_text.h"
 #include "oca/models/opened_files.h"
 
 namespace oca::record {
@@ -121,14 +123,17 @@ void ExtractFiles(const McapFile& record, const fs::path& folder) {
   }
   for (const McapAttachment& attachment : record.attachments()) {
     const fs::path name = fs::path(attachment.name).lexically_normal();
-    if (!Inside(name)) {
-      throw ConfigError(
-          fmt::format("record: attachment; got '{}'; expected a name that stays "
-                      "below its folder",
-                      attachment.name));
+    const bool text = models::internal::AsUtf8(attachment.name) == attachment.name &&
+                      attachment.name.find('\0') == std::string::npos;
+    if (!text || !Inside(name) || !name.has_filename()) {
+      throw ConfigError(fmt::format(
+          "record: attachment; got '{}'; expected a name of a file, in UTF-8, that stays "
+          "below its folder",
+          attachment.name));
     }
     const fs::path file = folder / name;
-    fs::create_directories(file.parent_path());
+    std::error_code error;
+    fs::create_directories(file.parent_path(), error);
     std::ofstream stream(file, std::ios::binary);
     stream.write(attachment.data.data(), static_cast<std::streamsize>(attachment.data.size()));
     if (!stream.flush()) throw ConfigError(fmt::format("{}: cannot be written", file.string()));
@@ -184,12 +189,7 @@ void ExtractedRecord::Remove() {
 }
 
 bool IsRecord(const fs::path& file) {
-  std::error_code error;
-  if (!fs::is_regular_file(file, error)) return false;
-  std::ifstream stream(file, std::ios::binary);
-  std::string start(kMcapMagic.size(), '\0');
-  return stream.read(start.data(), static_cast<std::streamsize>(start.size())) &&
-         start == kMcapMagic;
+  return models::BeginningOf(file, kMcapMagic.size()) == kMcapMagic;
 }
 
 }  // namespace oca::record

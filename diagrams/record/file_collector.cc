@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 #include <utility>
 
@@ -12,9 +11,12 @@
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/params.h"
 #include "oca/models/error.h"
+#include "oca/models/file_bytes.h"
+#include "oca/models/foreign_text.h"
 #include "oca/models/opened_files.h"
 #include "oca/models/robot/mesh_path.h"
 #include "oca/models/robot/urdf_meshes.h"
+#include "oca/systems/signals/config_errors.h"
 
 namespace oca::record {
 namespace {
@@ -48,10 +50,7 @@ bool HoldsFile(const Value& value) {
 }  // namespace
 
 std::string ReadBytes(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream) throw ConfigError(fmt::format("{}: cannot be read", file.string()));
-  return bytes;
+  return systems::WithConfigErrors([&] { return models::ReadUnnoted(file); });
 }
 
 bool Inside(const fs::path& name) {
@@ -176,7 +175,7 @@ fs::path FileCollector::PlaceOf(const fs::path& path) const {
   // What comes from a record lies below `files/` already.
   if (relative.empty() || *relative.begin() != "files") place = "files";
   for (const fs::path& part : relative) place /= part == ".." ? fs::path("up") : part;
-  return place;
+  return models::internal::SpeltAsUtf8(place.native());
 }
 
 /// The meshes of a URDF's links. What it finds by an absolute path it is given a relative one

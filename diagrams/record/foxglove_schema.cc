@@ -3,6 +3,7 @@
 
 #include "oca/diagrams/record/foxglove.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/json_text.h"
 
 namespace oca::record {
 namespace {
@@ -109,7 +110,7 @@ std::string FoxgloveSchema(std::string_view name) {
     throw ConfigError("foxglove: no schema '" + std::string(name) + "'");
   }
   schema["title"] = name;
-  return schema.dump();
+  return oca::internal::JsonText(schema);
 }
 
 }  // namespace oca::record

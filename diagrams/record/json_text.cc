@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <iterator>
 
+#include "oca/models/foreign_text.h"
+
 namespace oca::record {
 namespace {
 
@@ -49,8 +51,11 @@ void AppendShort(std::string& out, double number) {
 }
 
 void AppendQuoted(std::string& out, std::string_view text) {
+  if (models::internal::Utf8Prefix(text) < text.size()) {  // a name of a file, perhaps
+    return AppendQuoted(out, models::internal::AsUtf8(text));
+  }
   const auto special = [](char c) {
-    return c == '"' || c == '\\' || static_cast<unsigned char>(c) < 0x20;
+    return c == '"' || c == '\\' || static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
   };
   out += '"';
   for (auto at = text.begin(); at != text.end();) {

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "oca/framework/dataflow/error.h"
+#include "oca/models/foreign_text.h"
 
 namespace oca::record {
 namespace {
@@ -59,8 +60,8 @@ void AppendText(std::string& out, std::string_view text) {
 void AppendTexts(std::string& out, const McapTexts& texts) {
   std::string entries;
   for (const auto& [key, value] : texts) {
-    AppendText(entries, key);
-    AppendText(entries, value);
+    AppendText(entries, models::internal::AsUtf8(key));
+    AppendText(entries, models::internal::AsUtf8(value));
   }
   AppendText(out, entries);
 }

@@ -5,13 +5,12 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <vector>
 
 #include "oca/diagrams/files/data_folders.h"
 #include "oca/diagrams/record/json_text.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/models/file_bytes.h"
 
 namespace oca::record {
 namespace {
@@ -48,8 +47,8 @@ std::string Fill(const std::string& page, const std::string& source) {
 std::string LoadPage() {
   std::string tried;
   for (const auto& path : Candidates()) {
-    std::ifstream file(path, std::ios::binary);
-    if (file) return {std::istreambuf_iterator<char>(file), {}};
+    std::error_code error;
+    if (std::filesystem::is_regular_file(path, error)) return models::ReadUnnoted(path);
     tried += (tried.empty() ? "" : ", ") + path.string();
   }
   throw ConfigError(

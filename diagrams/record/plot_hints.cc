@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "oca/framework/dataflow/json_text.h"
 #include "oca/systems/signals/roles.h"
 
 namespace oca::record {
@@ -100,7 +101,7 @@ std::string LimitHintsJson(const LoadedDiagram& loaded, const std::vector<LimitH
     if (!hint.how.empty()) json["how"] = hint.how;
     list.push_back(json);
   }
-  return list.dump();
+  return oca::internal::JsonText(list);
 }
 
 std::vector<PlotHint> PlotHintsOf(const LoadedDiagram& loaded) {
@@ -138,7 +139,7 @@ std::string PlotHintsJson(const LoadedDiagram& loaded, const std::vector<PlotHin
     if (hint.limit) json["limit"] = *hint.limit;
     list.push_back(json);
   }
-  return list.dump();
+  return oca::internal::JsonText(list);
 }
 
 }  // namespace oca::record

@@ -10,6 +10,7 @@
 #include "oca/diagrams/files/package_paths.h"
 #include "oca/diagrams/record/file_collector.h"
 #include "oca/diagrams/record/yaml_writer.h"
+#include "oca/models/foreign_text.h"
 #include "oca/models/opened_files.h"
 
 namespace oca::record {
@@ -53,7 +54,8 @@ void AddSources(const loading::LoadedDiagram& loaded, double duration,
   const std::vector<fs::path> sources = SourcesOf(loaded);
   const fs::path folder = FolderAbove(sources);
   const auto name_of = [&](const fs::path& file) {
-    return (fs::path("sources") / models::PlainPath(file).lexically_relative(folder)).string();
+    return models::internal::SpeltAsUtf8(
+        (fs::path("sources") / models::PlainPath(file).lexically_relative(folder)).native());
   };
   for (const fs::path& file : sources) {
     attachments.push_back({0, name_of(file), "application/yaml", ReadBytes(file)});

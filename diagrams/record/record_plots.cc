@@ -49,7 +49,8 @@ void WritePng(const fs::path& file, const std::string& svg) {
   close(descriptor);
   WriteText(drawing, svg);
   const int status = RunProgram({"rsvg-convert", "--zoom=2", "-o", file.string(), drawing});
-  fs::remove(drawing);
+  std::error_code ignored;
+  fs::remove(drawing, ignored);
   if (status == 127) {
     throw ConfigError(fmt::format(
         "{}: PNG needs rsvg-convert (package librsvg2-bin); or name a .svg file", file.string()));

@@ -5,6 +5,7 @@
 
 #include "oca/diagrams/record/yaml_writer.h"
 #include "oca/diagrams/runs/blind_spots.h"
+#include "oca/framework/dataflow/json_text.h"
 
 namespace oca::record {
 
@@ -25,16 +26,14 @@ McapTexts OverrideTexts(const std::vector<files::Override>& overrides) {
 }
 
 McapTexts WarningTexts(const std::vector<std::string>& warnings) {
-  using nlohmann::json;
-  const json list(warnings);
-  return {{"warnings", list.dump(-1, ' ', false, json::error_handler_t::replace)}};
+  return {{"warnings", oca::internal::JsonText(nlohmann::json(warnings))}};
 }
 
 std::vector<std::string> WarningsOf(const McapFile& record) {
   std::vector<std::string> warnings;
   const McapTexts* const texts = record.FindMetadata("oca.warnings");
   if (texts == nullptr || !texts->contains("warnings")) return warnings;
-  const auto list = nlohmann::json::parse(texts->at("warnings"), nullptr, false);
+  const auto list = oca::internal::ReadJsonTree(texts->at("warnings"));
   for (const auto& warning : list) {
     if (warning.is_string()) warnings.push_back(warning.get<std::string>());
   }
@@ -42,8 +41,7 @@ std::vector<std::string> WarningsOf(const McapFile& record) {
 }
 
 std::string NotSeenJson(const loading::LoadedDiagram& loaded) {
-  using nlohmann::json;
-  return json(runs::BlindSpots(loaded)).dump(-1, ' ', false, json::error_handler_t::replace);
+  return oca::internal::JsonText(nlohmann::json(runs::BlindSpots(loaded)));
 }
 
 }  // namespace oca::record

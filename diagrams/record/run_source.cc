@@ -7,6 +7,7 @@
 
 #include "oca/diagrams/record/run_metadata.h"
 #include "oca/diagrams/runs/chatter_check.h"
+#include "oca/framework/dataflow/error.h"
 
 namespace oca::record {
 namespace {
@@ -15,6 +16,15 @@ namespace {
 std::string WithoutPlace(const std::string& warning) {
   const std::size_t at = warning.find("warning: ");
   return at == std::string::npos ? warning : warning.substr(at);
+}
+
+/// A text whose places lie in the record, not in the folder that it was put into.
+std::string WithPlacesIn(const std::string& file, const std::string& folder, std::string text) {
+  for (std::size_t at = text.find(folder); at != std::string::npos;
+       at = text.find(folder, at + file.size())) {
+    text.replace(at, folder.size(), file);
+  }
+  return text;
 }
 
 /// While nothing is changed, the warnings that the record was made with (that nothing uses a
@@ -31,10 +41,7 @@ std::vector<std::string> AllWarnings(const McapFile& record, const std::string& 
     });
     if (!told) warnings.push_back(found);
   }
-  for (std::string& warning : warnings) {
-    const std::size_t at = warning.find(folder);
-    if (at != std::string::npos) warning.replace(at, folder.size(), file);
-  }
+  for (std::string& warning : warnings) warning = WithPlacesIn(file, folder, warning);
   return warnings;
 }
 
@@ -50,10 +57,13 @@ RunSource::RunSource(const std::filesystem::path& file,
   }
   const auto record = McapFile::Read(file);
   extracted_.emplace(record);
-  loaded_ = extracted_->Load(overrides, catalogue);
-  loaded_.warnings =
-      AllWarnings(record, file.string(), extracted_->diagram().parent_path().string(),
-                  !overrides.empty(), loaded_);
+  const std::string folder = extracted_->diagram().parent_path().string();
+  try {
+    loaded_ = extracted_->Load(overrides, catalogue);
+  } catch (const ConfigError& error) {
+    throw ConfigError(WithPlacesIn(file.string(), folder, error.what()));
+  }
+  loaded_.warnings = AllWarnings(record, file.string(), folder, !overrides.empty(), loaded_);
 }
 
 }  // namespace oca::record

@@ -8,12 +8,19 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "oca/framework/dataflow/error.h"
+#include "oca/diagrams/record/message_json.h"
+#include "oca/models/foreign_text.h"
 
 namespace oca::record {
 namespace {
 
 using nlohmann::ordered_json;
+
+/// Empty if there is none.
+std::string TextIn(const ordered_json& json, const char* key) {
+  const auto found = json.find(key);
+  return found == json.end() || !found->is_string() ? "" : found->get<std::string>();
+}
 
 /// The numbers of one message with the ends of their names.
 void Flatten(const ordered_json& json, const std::string& name,
@@ -23,8 +30,10 @@ void Flatten(const ordered_json& json, const std::string& name,
   } else if (json.is_array() && !json.empty() && json[0].is_object() &&
              json[0].contains("distance")) {
     for (const auto& pair : json) {
-      out.emplace_back("." + pair.value("link", "") + "/" + pair.value("obstacle", ""),
-                       pair.value("distance", 0.0));
+      const auto distance = pair.find("distance");
+      if (distance == pair.end() || !distance->is_number()) continue;
+      out.emplace_back("." + TextIn(pair, "link") + "/" + TextIn(pair, "obstacle"),
+                       distance->get<double>());
     }
   } else if (json.is_array()) {
     for (std::size_t i = 0; i < json.size(); ++i) {
@@ -44,15 +53,6 @@ std::string UnitOf(const McapFile& record, const McapChannel& channel) {
   return schema->data.substr(start, schema->data.find('"', start) - start);
 }
 
-ordered_json ParseMessage(const McapMessage& message, const McapChannel& channel) {
-  ordered_json json = ordered_json::parse(message.data, nullptr, false);
-  if (json.is_discarded()) {
-    throw ConfigError(
-        fmt::format("record: {}: message {}; got no JSON", channel.topic, message.sequence));
-  }
-  return json;
-}
-
 }  // namespace
 
 bool IsSignal(const McapChannel& channel) {
@@ -64,7 +64,7 @@ bool IsSignal(const McapChannel& channel) {
 std::string SignalName(const McapChannel& channel) {
   std::string name = channel.topic.substr(1);
   std::replace(name.begin(), name.end(), '/', '.');
-  return name;
+  return models::internal::Harmless(name);  // it is shown, and files are named by it
 }
 
 std::uint64_t StartOf(const McapFile& record) {
@@ -86,7 +86,7 @@ std::vector<Series> ReadSeries(const McapFile& record, const std::string& patter
     std::map<std::string, std::size_t> places;
     for (const McapMessage* const message : record.MessagesOf(channel.topic)) {
       numbers.clear();
-      Flatten(ParseMessage(*message, channel), "", numbers);
+      Flatten(internal::MessageJson(*message, channel.topic), "", numbers);
       const double time = static_cast<double>(message->log_time - start) / 1e9;
       for (const auto& [end, value] : numbers) {
         const std::string name = signal + end;

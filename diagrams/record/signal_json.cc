@@ -6,6 +6,7 @@
 
 #include "oca/diagrams/record/json_text.h"
 #include "oca/diagrams/runs/signal_table.h"
+#include "oca/framework/dataflow/json_text.h"
 #include "oca/framework/dataflow/signal_shape.h"
 #include "oca/systems/signals/signals.h"
 
@@ -109,7 +110,8 @@ std::string TopicOf(const SignalFormat& format) {
 }
 
 RecordChannel ChannelOf(const SignalFormat& format) {
-  return {TopicOf(format), format.system + "." + format.port, SchemaOf(format).dump(), format};
+  return {TopicOf(format), format.system + "." + format.port,
+          oca::internal::JsonText(SchemaOf(format)), format};
 }
 
 void AppendSignal(std::string& out, const SignalFormat& format, const void* value) {

@@ -11,6 +11,7 @@
 
 #include "oca/diagrams/foresight/motion_ahead.h"
 #include "oca/framework/dataflow/dynamic_port.h"
+#include "oca/framework/dataflow/explain.h"
 #include "oca/framework/dataflow/port_access.h"
 #include "oca/framework/simulation/simulator.h"
 #include "oca/models/robot/loop_gain.h"
@@ -282,7 +283,8 @@ std::vector<std::string> ChatterWarnings(const loading::LoadedDiagram& loaded) {
     try {
       warning = Judge(loaded, *loop);
     } catch (const std::exception& error) {
-      warning = fmt::format("the gain of its loop could not be estimated: {}", error.what());
+      warning = fmt::format("the gain of its loop could not be estimated: {}",
+                            oca::internal::Explain(error));
     }
     if (!warning) continue;
     const auto& named = loaded.BlockOf(loop->relaxation == nullptr ? *mapping : *loop->relaxation);

@@ -13,6 +13,7 @@
 
 #include "oca/framework/dataflow/dynamic_port.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/json_text.h"
 #include "oca/framework/dataflow/nearest.h"
 #include "oca/framework/simulation/simulator.h"
 
@@ -20,18 +21,6 @@ namespace oca::runs {
 namespace {
 
 using nlohmann::ordered_json;
-
-/// Writing a JSON tree recurses; no signal has that many levels.
-bool NestsTooDeep(const std::string& line) {
-  constexpr int kDeepest = 64;
-  int depth = 0;
-  for (const char c : line) {
-    if (c == '[' || c == '{') ++depth;
-    if ((c == ']' || c == '}') && depth > 0) --depth;
-    if (depth > kDeepest) return true;
-  }
-  return false;
-}
 
 }  // namespace
 
@@ -51,8 +40,7 @@ class Evaluator::Bench {
   }
 
   std::string Serve(const std::string& line) {
-    if (NestsTooDeep(line)) throw ConfigError("nested too deep; expected inputs by port name");
-    const auto given = ordered_json::parse(line, nullptr, false);
+    const auto given = oca::internal::ReadJsonTree(line);
     if (!given.is_object()) throw ConfigError("got no JSON object; expected inputs by port name");
     for (const auto& [key, value] : given.items()) {
       if (key == "time" && !HasInput("time")) continue;
@@ -155,7 +143,8 @@ class Evaluator::Bench {
             fmt::format("input '{}': missing; expected {}", input.name, input.type->name));
       }
       try {
-        FixJson(diagram_->FindInput(input.name), simulator_->context(), value->dump());
+        FixJson(diagram_->FindInput(input.name), simulator_->context(),
+                oca::internal::JsonText(*value));
       } catch (const ConfigError& error) {
         throw ConfigError(fmt::format("{}: {}", input.name, error.what()));
       }

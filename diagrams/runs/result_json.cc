@@ -3,6 +3,7 @@
 
 #include "oca/diagrams/runs/blind_spots.h"
 #include "oca/diagrams/runs/metrics_tree.h"
+#include "oca/framework/dataflow/json_text.h"
 
 namespace oca::runs {
 namespace {
@@ -86,10 +87,12 @@ std::optional<MotionMetricsValue> ReadMetrics(const ordered_json& tree) {
 }
 
 std::string MetricsJson(const std::optional<MotionMetricsValue>& metrics) {
-  return MetricsTree(metrics).dump();
+  return oca::internal::JsonText(MetricsTree(metrics));
 }
 
-std::string ExpectationsJson(const RunResult& result) { return TreeOf(result.expectations).dump(); }
+std::string ExpectationsJson(const RunResult& result) {
+  return oca::internal::JsonText(TreeOf(result.expectations));
+}
 
 std::string ResultJson(const loading::LoadedDiagram& loaded, const RunResult& result) {
   ordered_json json{{"name", loaded.name},
@@ -114,7 +117,7 @@ std::string ResultJson(const loading::LoadedDiagram& loaded, const RunResult& re
         {{"system", time.system}, {"calls", time.calls}, {"seconds", time.seconds}});
   }
   if (result.failure) json["failure"] = result.failure->message;
-  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace);
+  return oca::internal::JsonText(json, 2);
 }
 
 }  // namespace oca::runs

@@ -10,6 +10,7 @@
 #include <new>
 
 #include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/explain.h"
 
 namespace oca {
 
@@ -113,7 +114,7 @@ void Schedule::FailByException(const Context& context, const System* system,
   } catch (const SimulationError&) {
     throw;
   } catch (const std::exception& error) {
-    Fail(context, system, port, error.what());
+    Fail(context, system, port, internal::Explain(error).c_str());
   } catch (...) {
     Fail(context, system, port, "an exception of an unknown type");
   }

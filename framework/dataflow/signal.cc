@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/json_text.h"
 
 namespace oca {
 
@@ -57,14 +58,15 @@ void WriteVectorJson(const double* values, std::size_t n, std::string& out) {
 }
 
 Eigen::VectorXd ReadVectorJson(std::string_view text) {
-  const auto json = nlohmann::json::parse(text, nullptr, false);
+  const auto json = internal::ReadJsonTree(text);
   if (!json.is_array()) {
     throw ConfigError(fmt::format("got {}; expected a list of numbers", text.substr(0, 60)));
   }
   Eigen::VectorXd vector(static_cast<Eigen::Index>(json.size()));
   for (std::size_t i = 0; i < json.size(); ++i) {
     if (!json[i].is_number()) {
-      throw ConfigError(fmt::format("item {}: got {}; expected a number", i, json[i].dump()));
+      throw ConfigError(
+          fmt::format("item {}: got {}; expected a number", i, internal::JsonText(json[i])));
     }
     vector[static_cast<Eigen::Index>(i)] = json[i].get<double>();
   }

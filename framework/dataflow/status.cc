@@ -4,6 +4,7 @@
 #include <exception>
 
 #include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/explain.h"
 #include "oca/framework/dataflow/fixed_text.h"
 
 namespace oca {
@@ -24,7 +25,7 @@ Status Status::OfCurrentException(double time) noexcept {
   } catch (const SimulationError& error) {
     return Failure(error.system, error.port, error.time, error.what());
   } catch (const std::exception& error) {
-    return Failure("", "", time, error.what());
+    return Failure("", "", time, internal::Explain(error));
   } catch (...) {
     return Failure("", "", time, "an exception of an unknown type");
   }

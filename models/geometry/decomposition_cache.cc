@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "oca/models/error.h"
+#include "oca/models/file_bytes.h"
 #include "oca/models/geometry/decomposition.h"
 #include "oca/models/table_text.h"
 
@@ -63,7 +64,7 @@ namespace internal {
 DecompositionEntry::DecompositionEntry(const fs::path& cache, const fs::path& mesh,
                                        const Eigen::Vector3d& scale, double concavity) {
   if (cache.empty()) return;
-  std::string content = models::internal::ReadWhole(mesh);
+  std::string content = models::ReadFile(mesh);
   content += mesh.extension().string();
   for (const double number : {scale.x(), scale.y(), scale.z(), concavity}) {
     content += BytesOf(number);
@@ -78,7 +79,7 @@ std::vector<std::shared_ptr<const ConvexHull>> DecompositionEntry::Read(
   if (file_.empty() || !fs::is_regular_file(file_, error)) return {};
   std::vector<std::shared_ptr<const ConvexHull>> parts;
   try {
-    const std::string text = models::internal::ReadOwn(file_);
+    const std::string text = models::ReadUnnoted(file_);
     std::string_view rest = text;
     std::uint64_t sum = 0, count = 0;
     if (!rest.starts_with(kMagic)) return {};

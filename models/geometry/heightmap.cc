@@ -7,6 +7,7 @@
 
 #include "oca/models/csv_table.h"
 #include "oca/models/error.h"
+#include "oca/models/file_bytes.h"
 #include "oca/models/file_cache.h"
 #include "oca/models/geometry/point_cloud.h"
 #include "oca/models/table_text.h"
@@ -139,7 +140,7 @@ Compound LoadHeightmap(const fs::path& file, double cell, double scale) {
     models::internal::RefuseText(file, 0, "extension", "'" + kind + "'", ".pgm or .csv");
   }
   const auto read = models::ReadOnce<Grid>(file, "heightmap", [&] {
-    return kind == ".csv" ? ReadCsv(file) : ReadPgm(file, models::internal::ReadWhole(file));
+    return kind == ".csv" ? ReadCsv(file) : ReadPgm(file, models::ReadFile(file));
   });
   const Grid& grid = *read;
   if (grid.values.empty())

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oca/models/geometry/mesh.h"
 
-#include <assimp/DefaultIOSystem.h>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -14,15 +14,14 @@
 #include <cstdint>
 #include <cstring>
 #include <exception>
-#include <fstream>
-#include <iterator>
 #include <new>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "oca/models/error.h"
+#include "oca/models/file_bytes.h"
 #include "oca/models/geometry/ply_file.h"
-#include "oca/models/opened_files.h"
 #include "oca/models/table_text.h"
 
 namespace oca::geometry {
@@ -30,8 +29,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
-
-constexpr std::uintmax_t kMaxBytes = 100'000'000;
 
 [[noreturn]] void Refuse(const fs::path& file, const std::string& what) {
   throw models::ModelError(fmt::format("{}: {}", file.string(), what));
@@ -43,37 +40,21 @@ std::string LowerExtension(const fs::path& file) {
   return extension;
 }
 
-void CheckFile(const fs::path& file) {
+void CheckKind(const fs::path& file) {
   const std::string extension = LowerExtension(file);
-  if (extension != ".stl" && extension != ".obj" && extension != ".dae" && extension != ".ply") {
-    Refuse(file,
-           fmt::format("unknown kind of mesh; got extension '{}'; expected .stl, .obj, .dae, .ply",
-                       extension));
-  }
-  std::error_code error;
-  if (!fs::exists(file, error)) {
-    Refuse(file, "mesh not found; got no such file; expected a readable file");
-  }
-  if (!fs::is_regular_file(file, error)) {
-    Refuse(file, "mesh is not a file; got a folder or device; expected a readable file");
-  }
-  const std::uintmax_t bytes = fs::file_size(file, error);
-  if (error) Refuse(file, "mesh cannot be read; got " + error.message() + "; expected a file");
-  if (bytes == 0) Refuse(file, "mesh is empty; got 0 bytes; expected triangles");
-  if (bytes > kMaxBytes) {
-    Refuse(file, fmt::format("mesh too large; got {} MB; expected at most {} MB", bytes / 1'000'000,
-                             kMaxBytes / 1'000'000));
-  }
+  if (extension == ".stl" || extension == ".obj" || extension == ".dae" || extension == ".ply")
+    return;
+  Refuse(file,
+         fmt::format("unknown kind of mesh; got extension '{}'; expected .stl, .obj, .dae, .ply",
+                     extension));
 }
 
 // assimp walks Collada by recursion: a file of nothing but opening tags would exhaust the stack.
-void CheckNesting(const fs::path& file) {
+void CheckNesting(const fs::path& file, std::string_view bytes) {
   constexpr int kMaxDepth = 200;
-  std::ifstream stream(file, std::ios::binary);
   int depth = 0;
   char previous = 0, before = 0;
-  for (std::istreambuf_iterator<char> it(stream), end; it != end; ++it) {
-    const char c = *it;
+  for (const char c : bytes) {
     if (previous == '<' && c == '/') --depth;
     if (previous == '<' && (std::isalpha(static_cast<unsigned char>(c)) || c == '_')) ++depth;
     if (previous == '/' && c == '>' && before != '<') --depth;
@@ -86,28 +67,30 @@ void CheckNesting(const fs::path& file) {
   }
 }
 
-/// Lets assimp read one file and none that it names: materials and pictures have no shape.
-class OneFile final : public Assimp::DefaultIOSystem {
+/// Gives assimp the bytes of one file and none that it names: materials and pictures have no shape.
+class OneFile final : public Assimp::IOSystem {
  public:
-  explicit OneFile(std::string file) : file_(std::move(file)) {}
-  bool Exists(const char* name) const override {
-    return name == file_ && DefaultIOSystem::Exists(name);
+  OneFile(std::string name, std::string_view bytes) : name_(std::move(name)), bytes_(bytes) {}
+  bool Exists(const char* name) const override { return name == name_; }
+  char getOsSeparator() const override { return '/'; }
+  Assimp::IOStream* Open(const char* name, const char* /*mode*/) override {
+    if (name != name_) return nullptr;
+    return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes_.data()),
+                                      bytes_.size());
   }
-  Assimp::IOStream* Open(const char* name, const char* mode) override {
-    return name == file_ ? DefaultIOSystem::Open(name, mode) : nullptr;
-  }
+  void Close(Assimp::IOStream* stream) override { delete stream; }
 
  private:
-  const std::string file_;
+  const std::string name_;
+  const std::string_view bytes_;
 };
 
 // assimp computes the size of a binary STL in 32 bits, and makes room for what it announces.
-void CheckStlCount(const fs::path& file) {
+void CheckStlCount(const fs::path& file, std::string_view bytes) {
   constexpr std::uint64_t kHead = 84, kTriangle = 50;
-  const std::uint64_t size = fs::file_size(file);
-  std::string head(kHead, '\0');
-  std::ifstream stream(file, std::ios::binary);
-  if (size < kHead || !stream.read(head.data(), kHead)) return;
+  const std::uint64_t size = bytes.size();
+  if (size < kHead) return;
+  const std::string_view head = bytes.substr(0, kHead);
   std::uint32_t count = 0;
   std::memcpy(&count, head.data() + kHead - sizeof count, sizeof count);
   const std::uint64_t announced = kHead + kTriangle * count;
@@ -180,11 +163,11 @@ void DropUnused(TriangleMesh* mesh) {
   mesh->vertices = std::move(used);
 }
 
-TriangleMesh ReadByAssimp(const fs::path& file, const Vector3d& scale) {
-  if (LowerExtension(file) == ".stl") CheckStlCount(file);
-  if (LowerExtension(file) == ".dae") CheckNesting(file);
+TriangleMesh ReadByAssimp(const fs::path& file, std::string_view bytes, const Vector3d& scale) {
+  if (LowerExtension(file) == ".stl") CheckStlCount(file, bytes);
+  if (LowerExtension(file) == ".dae") CheckNesting(file, bytes);
   Assimp::Importer importer;
-  importer.SetIOHandler(new OneFile(file.string()));  // the importer deletes it
+  importer.SetIOHandler(new OneFile(file.string(), bytes));  // the importer deletes it
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = nullptr;
   std::string reason;
@@ -206,9 +189,8 @@ TriangleMesh ReadByAssimp(const fs::path& file, const Vector3d& scale) {
 }
 
 // Not by assimp, which makes room for what the header announces.
-TriangleMesh ReadPlyMesh(const fs::path& file, const Vector3d& scale) {
-  TriangleMesh mesh =
-      internal::ReadPly(file, models::internal::ReadWhole(file), internal::PlyPart::kMesh);
+TriangleMesh ReadPlyMesh(const fs::path& file, std::string_view bytes, const Vector3d& scale) {
+  TriangleMesh mesh = internal::ReadPly(file, bytes, internal::PlyPart::kMesh);
   for (Vector3d& p : mesh.vertices) p = scale.cwiseProduct(p);
   if (scale.prod() < 0.0) {
     for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
@@ -219,11 +201,12 @@ TriangleMesh ReadPlyMesh(const fs::path& file, const Vector3d& scale) {
 }  // namespace
 
 TriangleMesh LoadMesh(const fs::path& file, const Vector3d& scale) {
-  models::NoteOpened(file);
-  CheckFile(file);
+  CheckKind(file);
+  const std::string bytes = models::ReadFile(file);
+  if (bytes.empty()) Refuse(file, "mesh is empty; got 0 bytes; expected triangles");
   CheckScale(file, scale);
-  TriangleMesh mesh =
-      LowerExtension(file) == ".ply" ? ReadPlyMesh(file, scale) : ReadByAssimp(file, scale);
+  TriangleMesh mesh = LowerExtension(file) == ".ply" ? ReadPlyMesh(file, bytes, scale)
+                                                     : ReadByAssimp(file, bytes, scale);
   if (mesh.triangles.empty()) Refuse(file, "mesh is empty; got 0 triangles; expected some");
   DropUnused(&mesh);
   for (const Vector3d& p : mesh.vertices) {

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "oca/models/file_bytes.h"
 #include "oca/models/file_cache.h"
 #include "oca/models/table_text.h"
 
@@ -163,7 +164,7 @@ Compound LoadOctree(const fs::path& file) {
     models::internal::RefuseText(file, 0, "extension", "'" + kind + "'", ".bt or .ot");
   }
   return *models::ReadOnce<Compound>(file, "octree", [&] {
-    const std::string text = models::internal::ReadWhole(file);
+    const std::string text = models::ReadFile(file);
     std::string_view rest = text;
     const Head head = ReadHead(file, kind == ".bt", rest);
     return Reader(file, head, rest).Read();

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "oca/models/file_bytes.h"
 #include "oca/models/geometry/binary_scalar.h"
 #include "oca/models/geometry/lzf.h"
 #include "oca/models/table_text.h"
@@ -215,11 +216,10 @@ std::vector<Vector3d> ReadCompressed(const fs::path& file, const PcdHeader& head
                                  fmt::format("{} of compressed points", packed));
   }
   const std::uint64_t expected = header.points * layout.record;  // both are bounded above
-  if (size != expected || size > models::internal::kMostBytes) {
-    models::internal::RefuseText(
-        file, 0, "size of the points", fmt::format("{} bytes", size),
-        fmt::format("{} for {} points of {} bytes, at most {}", expected, header.points,
-                    layout.record, models::internal::kMostBytes));
+  if (size != expected || size > models::kMostFileBytes) {
+    models::internal::RefuseText(file, 0, "size of the points", fmt::format("{} bytes", size),
+                                 fmt::format("{} for {} points of {} bytes, at most {}", expected,
+                                             header.points, layout.record, models::kMostFileBytes));
   }
   const auto data = DecompressLzf(rest.substr(0, packed), size);
   if (!data) {

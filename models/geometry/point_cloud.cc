@@ -7,6 +7,7 @@
 
 #include "oca/models/csv_table.h"
 #include "oca/models/error.h"
+#include "oca/models/file_bytes.h"
 #include "oca/models/file_cache.h"
 #include "oca/models/geometry/pcd_file.h"
 #include "oca/models/geometry/ply_file.h"
@@ -37,9 +38,9 @@ std::vector<Vector3d> ReadTable(const fs::path& file) {
 std::vector<Vector3d> ReadPoints(const fs::path& file) {
   const std::string kind = models::internal::Lower(file.extension().string());
   if (kind == ".csv" || kind == ".xyz") return ReadTable(file);
-  if (kind == ".pcd") return internal::ReadPcd(file, models::internal::ReadWhole(file));
+  if (kind == ".pcd") return internal::ReadPcd(file, models::ReadFile(file));
   if (kind == ".ply") {
-    const std::string text = models::internal::ReadWhole(file);
+    const std::string text = models::ReadFile(file);
     return internal::ReadPly(file, text, internal::PlyPart::kVertices).vertices;
   }
   models::internal::RefuseText(file, 0, "extension", "'" + kind + "'", ".csv, .xyz, .ply or .pcd");

@@ -57,7 +57,7 @@ bool Holds(const TiXmlElement& root, const DisabledPair& pair) {
 // What the file holds already, without what was computed, or a new document.
 XmlDocument DocumentToFill(const std::filesystem::path& file, const std::string& robot) {
   const std::string where = file.string();
-  if (std::filesystem::exists(file)) {
+  if (std::error_code error; std::filesystem::exists(file, error)) {
     XmlDocument document = ParseXml(ReadXmlFile(file), where);
     const TiXmlElement& root = CheckedRoot(*document, where);
     if (root.FirstChildElement("link") != nullptr || root.FirstChildElement("joint") != nullptr) {

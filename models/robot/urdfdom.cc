@@ -6,6 +6,8 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include <mutex>
+#include <string>
+#include <string_view>
 
 #include "oca/models/error.h"
 
@@ -44,7 +46,10 @@ std::shared_ptr<urdf::ModelInterface> ParseWithUrdfdom(const std::string& text,
   std::shared_ptr<urdf::ModelInterface> parsed;
   std::string reason;
   try {
-    parsed = urdf::parseURDF(text);
+    // Without the mark of UTF-8, `&#233;` is a byte of Latin-1.
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    parsed = urdf::parseURDF(text.starts_with(kByteOrderMark) ? text
+                                                              : std::string(kByteOrderMark) + text);
   } catch (const std::exception& error) {
     reason = error.what();
   }

@@ -5,12 +5,14 @@
 #include <tinyxml.h>
 
 #include <algorithm>
-#include <fstream>
+#include <charconv>
+#include <cstdint>
 #include <vector>
 
 #include "oca/models/error.h"
+#include "oca/models/file_bytes.h"
 #include "oca/models/file_cache.h"
-#include "oca/models/opened_files.h"
+#include "oca/models/foreign_text.h"
 
 namespace oca::robot {
 namespace {
@@ -19,17 +21,24 @@ constexpr std::uintmax_t kMaxBytes = 50'000'000;
 constexpr std::size_t kMaxDepth = 64;
 constexpr int kMaxAttributes = 1000;  // TinyXML compares each with all before it
 constexpr std::string_view kSpace = " \t\r\n";
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+// source XML 1.0, 2.2
+constexpr std::string_view kNotInXml(
+    "\0\1\2\3\4\5\6\7\b\v\f\x0e\x0f\x10\x11\x12\x13\x14\x15\x16\x17\x18\x19\x1a\x1b\x1c\x1d\x1e"
+    "\x1f",
+    29);
 
 // Walks over XML text and refuses what TinyXML would accept or crash on: it parses recursively,
 // takes unquoted attributes and stops quietly at the end of the first root element.
 class XmlScanner {
  public:
-  XmlScanner(std::string_view text, const std::string& where) : text_(text), where_(where) {
-    if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
-  }
+  XmlScanner(std::string_view text, const std::string& where) : text_(text), where_(where) {}
 
   void Scan() {
-    if (text_.find('\0') != text_.npos) Fail("binary data", "XML text");
+    at_ = std::min(models::internal::Utf8Prefix(text_), text_.find_first_of(kNotInXml));
+    if (at_ < text_.size()) Fail("binary data, or text of another encoding", "XML text in UTF-8");
+    at_ = text_.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
+    CheckReferences();
     while (ScanText()) ScanMarkup();
     if (!open_.empty()) Fail(fmt::format("end of text inside <{}>", open_.back()), "closing tags");
     if (!rooted_) Fail("no element", "XML with a root element");
@@ -41,6 +50,28 @@ class XmlScanner {
         1 + std::count(text_.begin(), text_.begin() + std::min(at_, text_.size()), '\n');
     throw models::ModelError(
         fmt::format("{}:{}: XML; got {}; expected {}", where_, line, got, expected));
+  }
+
+  /// What `&#27;` stands for must be a character that may stand there itself.
+  void CheckReferences() {
+    const std::size_t begin = at_;
+    for (at_ = text_.find("&#"); at_ != text_.npos; at_ = text_.find("&#", at_ + 2)) {
+      const bool hexadecimal = text_.substr(at_ + 2).starts_with('x');
+      const char* const first = text_.data() + at_ + (hexadecimal ? 3 : 2);
+      std::uint32_t code = 0;
+      const auto [end, error] =
+          std::from_chars(first, text_.data() + text_.size(), code, hexadecimal ? 16 : 10);
+      const bool whole = error == std::errc() && end != text_.data() + text_.size() && *end == ';';
+      if (whole && IsCharacter(code)) continue;
+      Fail(fmt::format("the reference {:.12}", text_.substr(at_)), "one to a character of XML");
+    }
+    at_ = begin;
+  }
+
+  /// source XML 1.0, 2.2
+  static bool IsCharacter(std::uint32_t code) {
+    return code == '\t' || code == '\n' || code == '\r' || (code >= 0x20 && code < 0xd800) ||
+           (code >= 0xe000 && code < 0xfffe) || (code >= 0x10000 && code < 0x110000);
   }
 
   // To the next '<'; false at the end.
@@ -138,34 +169,13 @@ class XmlScanner {
   std::vector<std::string_view> open_;
 };
 
-std::string ReadText(const std::filesystem::path& file) {
-  models::NoteOpened(file);
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) {
-    throw models::ModelError(fmt::format(
-        "{}: file; got {}; expected a readable file", file.string(),
-        std::filesystem::exists(file, error) ? "no regular file" : "nothing of that name"));
-  }
-  const std::uintmax_t bytes = std::filesystem::file_size(file, error);
-  if (!error && bytes > kMaxBytes) {
-    throw models::ModelError(fmt::format("{}: file size; got {} bytes; expected at most {}",
-                                         file.string(), bytes, kMaxBytes));
-  }
-  std::ifstream stream(file, std::ios::binary);
-  std::string text(error ? 0 : bytes, '\0');
-  if (error || !stream.read(text.data(), static_cast<std::streamsize>(bytes))) {
-    throw models::ModelError(file.string() +
-                             ": file; got one that cannot be read; expected a readable file");
-  }
-  return text;
-}
-
 }  // namespace
 
 void XmlDeleter::operator()(TiXmlDocument* document) const { delete document; }
 
 std::string ReadXmlFile(const std::filesystem::path& file) {
-  return *models::ReadOnce<std::string>(file, "XML", [&] { return ReadText(file); });
+  return *models::ReadOnce<std::string>(file, "XML",
+                                        [&] { return models::ReadFile(file, kMaxBytes); });
 }
 
 XmlDocument ParseXml(const std::string& text, const std::string& where) {
@@ -178,7 +188,7 @@ XmlDocument ParseXml(const std::string& text, const std::string& where) {
   }
   XmlScanner(text, where).Scan();
   XmlDocument document(new TiXmlDocument);
-  document->Parse(text.c_str());
+  document->Parse(text.c_str(), nullptr, TIXML_ENCODING_UTF8);
   if (document->Error() || document->RootElement() == nullptr) {
     throw models::ModelError(fmt::format("{}:{}: XML; got '{}'; expected well-formed XML", where,
                                          document->ErrorRow(), document->ErrorDesc()));

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/json_text.h"
 #include "oca/models/robot/motion_limits.h"
 #include "oca/models/robot/robot_model.h"
 #include "oca/systems/basics/shared_params.h"
@@ -167,7 +168,7 @@ void Signal<MotionClips>::WriteJson(const MotionClips& value, std::string& out) 
                     {"yields", NameOf(clip.yields)},
                     {"amount", clip.amount}});
   }
-  out += list.dump();
+  out += oca::internal::JsonText(list);
 }
 
 }  // namespace oca

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "oca/framework/dataflow/json_text.h"
 #include "oca/systems/signals/json_fields.h"
 
 namespace oca {
@@ -17,17 +18,17 @@ Fault Signal<BandMemory>::Check(const BandMemory& value, Look /*look*/) {
 }
 
 void Signal<BandMemory>::WriteJson(const BandMemory& value, std::string& out) {
-  out += Json{{"plans", value.plans},
-              {"start", planning::kBandStartNames[static_cast<std::size_t>(value.start)]},
-              {"clear", value.clear},
-              {"stuck", value.stuck},
-              {"nearest", value.nearest},
-              {"link", value.link.text()},
-              {"obstacle", value.obstacle.text()},
-              {"time", value.time},
-              {"cost", value.cost},
-              {"evaluations", value.evaluations}}
-             .dump();
+  out += oca::internal::JsonText(
+      Json{{"plans", value.plans},
+           {"start", planning::kBandStartNames[static_cast<std::size_t>(value.start)]},
+           {"clear", value.clear},
+           {"stuck", value.stuck},
+           {"nearest", value.nearest},
+           {"link", value.link.text()},
+           {"obstacle", value.obstacle.text()},
+           {"time", value.time},
+           {"cost", value.cost},
+           {"evaluations", value.evaluations}});
 }
 
 }  // namespace oca

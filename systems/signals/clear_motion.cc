@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "oca/framework/dataflow/fixed_text.h"
+#include "oca/framework/dataflow/json_text.h"
 #include "oca/systems/signals/json_fields.h"
 
 namespace oca {
@@ -21,12 +22,12 @@ Fault Signal<ClearMotion>::Check(const ClearMotion& value, Look look) {
 void Signal<ClearMotion>::WriteJson(const ClearMotion& value, std::string& out) {
   Json bodies = Json::array();
   for (const models::Name body : value.bodies) bodies.push_back(body.text());
-  out += Json{{"clear_for", value.clear_for}, {"bodies", bodies}, {"own_links", value.own_links}}
-             .dump();
+  out += oca::internal::JsonText(
+      Json{{"clear_for", value.clear_for}, {"bodies", bodies}, {"own_links", value.own_links}});
 }
 
 ClearMotion Signal<ClearMotion>::ReadJson(std::string_view text) {
-  const Json json = systems::ParseJson(text);
+  const Json json = oca::internal::ReadJsonTree(text);
   const JsonReader reader(json, "clear");
   reader.CheckKeys({"clear_for", "bodies", "own_links"});
   ClearMotion value;
@@ -34,7 +35,7 @@ ClearMotion Signal<ClearMotion>::ReadJson(std::string_view text) {
   reader.At("bodies").ForEach(
       [&](const JsonReader& body) { value.bodies.emplace_back(body.Label()); });
   if (!json["own_links"].is_boolean()) {
-    reader.At("own_links").Fail(json["own_links"].dump(), "true or false");
+    reader.At("own_links").Fail(oca::internal::JsonText(json["own_links"]), "true or false");
   }
   value.own_links = json["own_links"].get<bool>();
   return value;

@@ -2,6 +2,7 @@
 #include "oca/systems/signals/contact_slopes.h"
 
 #include "oca/framework/dataflow/fixed_text.h"
+#include "oca/framework/dataflow/json_text.h"
 #include "oca/systems/signals/json_fields.h"
 #include "oca/systems/signals/signal_limits.h"
 
@@ -55,11 +56,11 @@ void Signal<ContactSlopes>::WriteJson(const ContactSlopes& value, std::string& o
                     {"slope", systems::ToJson(s.slope)},
                     {"damping", systems::ToJson(s.damping)}});
   }
-  out += list.dump();
+  out += oca::internal::JsonText(list);
 }
 
 ContactSlopes Signal<ContactSlopes>::ReadJson(std::string_view text) {
-  const systems::Json json = systems::ParseJson(text);
+  const systems::Json json = oca::internal::ReadJsonTree(text);
   ContactSlopes value;
   systems::JsonReader(json, "slopes").ForEach([&](const systems::JsonReader& item) {
     item.CheckKeys({"link", "point_on_link", "point_on_obstacle", "normal", "slope", "damping"});

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "oca/framework/dataflow/json_text.h"
 #include "oca/systems/signals/json_fields.h"
 
 namespace oca::systems {
@@ -61,7 +62,7 @@ void Signal<FilterActivity>::WriteJson(const FilterActivity& value, std::string&
                         {"bounds", systems::Json::array()}};
   for (int i = 0; i < value.num_bounds; ++i)
     json["bounds"].push_back(systems::BoundToJson(value.bounds[i]));
-  out += json.dump();
+  out += oca::internal::JsonText(json);
 }
 
 }  // namespace oca

@@ -9,22 +9,12 @@
 #include <vector>
 
 #include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/json_text.h"
 #include "oca/framework/dataflow/nearest.h"
 #include "oca/models/geometry/rotation.h"
 #include "oca/systems/signals/config_errors.h"
 
 namespace oca::systems {
-
-Json ParseJson(std::string_view text) {
-  try {
-    return Json::parse(text);
-  } catch (const Json::parse_error& error) {
-    throw ConfigError(fmt::format("JSON: syntax error at byte {}; got {}; expected valid JSON",
-                                  error.byte, text.substr(0, 60)));
-  } catch (const Json::out_of_range&) {
-    throw ConfigError("JSON: got a number beyond 1.8e308; expected finite numbers");
-  }
-}
 
 void JsonReader::Fail(const std::string& got, const std::string& expected) const {
   throw ConfigError(fmt::format("{}: got {}; expected {}", where_, got, expected));
@@ -35,7 +25,7 @@ void JsonReader::CheckKeys(std::initializer_list<const char*> required,
   std::vector<std::string> known(required.begin(), required.end());
   known.insert(known.end(), optional.begin(), optional.end());
   if (!json_.is_object()) {
-    Fail(json_.dump(), fmt::format("an object with {}", fmt::join(known, ", ")));
+    Fail(oca::internal::JsonText(json_), fmt::format("an object with {}", fmt::join(known, ", ")));
   }
   for (const auto& [key, value] : json_.items()) {
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
@@ -50,20 +40,20 @@ void JsonReader::CheckKeys(std::initializer_list<const char*> required,
 JsonReader JsonReader::At(const char* key) const { return {json_.at(key), where_ + "." + key}; }
 
 void JsonReader::CheckList() const {
-  if (!json_.is_array()) Fail(json_.dump(), "a list");
+  if (!json_.is_array()) Fail(oca::internal::JsonText(json_), "a list");
 }
 
 std::string JsonReader::ItemName(std::size_t i) const { return fmt::format("{}[{}]", where_, i); }
 
 double JsonReader::Number() const {
-  if (!json_.is_number()) Fail(json_.dump(), "a number");
+  if (!json_.is_number()) Fail(oca::internal::JsonText(json_), "a number");
   const auto number = json_.get<double>();
   if (!std::isfinite(number)) Fail(fmt::format("{}", number), "a finite number");
   return number;
 }
 
 std::string JsonReader::Text() const {
-  if (!json_.is_string()) Fail(json_.dump(), "a text");
+  if (!json_.is_string()) Fail(oca::internal::JsonText(json_), "a text");
   return json_.get<std::string>();
 }
 
@@ -74,7 +64,8 @@ std::string JsonReader::Label() const {
 }
 
 Eigen::Vector3d JsonReader::Vector3() const {
-  if (!json_.is_array() || json_.size() != 3) Fail(json_.dump(), "a list of 3 numbers");
+  if (!json_.is_array() || json_.size() != 3)
+    Fail(oca::internal::JsonText(json_), "a list of 3 numbers");
   Eigen::Vector3d vector;
   for (int i = 0; i < 3; ++i) vector[i] = JsonReader(json_[i], ItemName(i)).Number();
   return vector;
@@ -96,7 +87,7 @@ Eigen::Isometry3d JsonReader::Pose() const {
 
   const JsonReader quaternion = At("quaternion");
   if (!quaternion.json_.is_array() || quaternion.json_.size() != 4) {
-    quaternion.Fail(quaternion.json_.dump(), "a list of 4 numbers [x, y, z, w]");
+    quaternion.Fail(oca::internal::JsonText(quaternion.json_), "a list of 4 numbers [x, y, z, w]");
   }
   Eigen::Vector4d xyzw;
   for (int i = 0; i < 4; ++i) {

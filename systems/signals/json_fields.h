@@ -8,14 +8,10 @@
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <string_view>
 
 namespace oca::systems {
 
 using Json = nlohmann::ordered_json;
-
-/// throws ConfigError naming the place of a syntax error
-Json ParseJson(std::string_view text);
 
 /// One JSON value that knows where it stands, for strict reading. All members throw ConfigError
 /// `where: what; got X; expected Y`.

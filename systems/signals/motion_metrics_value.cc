@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "oca/framework/dataflow/json_text.h"
 #include "oca/systems/signals/json_fields.h"
 
 namespace oca {
@@ -143,7 +144,7 @@ void Signal<MotionMetricsValue>::WriteJson(const MotionMetricsValue& value, std:
   for (const systems::Metric& metric : systems::MetricsIn(value)) {
     json[std::string(metric.name)] = ToJson(metric.value);
   }
-  out += json.dump();
+  out += oca::internal::JsonText(json);
 }
 
 }  // namespace oca

@@ -2,6 +2,7 @@
 #include "oca/systems/signals/request_ahead.h"
 
 #include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/json_text.h"
 #include "oca/systems/signals/config_errors.h"
 #include "oca/systems/signals/json_fields.h"
 
@@ -24,11 +25,11 @@ void Signal<RequestAhead>::WriteJson(const RequestAhead& value, std::string& out
       points.push_back(std::move(point));
     }
   }
-  out += Json{{"points", std::move(points)}}.dump();
+  out += oca::internal::JsonText(Json{{"points", std::move(points)}});
 }
 
 RequestAhead Signal<RequestAhead>::ReadJson(std::string_view text) {
-  const Json json = systems::ParseJson(text);
+  const Json json = oca::internal::ReadJsonTree(text);
   const JsonReader reader(json, "ahead");
   reader.CheckKeys({"points"});
   std::vector<motion::KeyPoint> points;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/json_text.h"
 #include "oca/systems/sensing/geometry_params.h"
 #include "oca/systems/signals/json_fields.h"
 
@@ -145,7 +146,7 @@ LinkWrench ReadWrench(const JsonReader& json) {
 /// Calls read_item(reader) for the items of the list in `text`.
 template <class ReadItem>
 void ReadList(std::string_view text, const char* what, const ReadItem& read_item) {
-  const Json json = ParseJson(text);
+  const Json json = oca::internal::ReadJsonTree(text);
   JsonReader(json, what).ForEach(read_item);
 }
 
@@ -153,7 +154,7 @@ template <class Items, class ItemToJson>
 void WriteList(const Items& items, std::string& out, const ItemToJson& item_to_json) {
   Json list = Json::array();
   for (const auto& item : items) list.push_back(item_to_json(item));
-  out += list.dump();
+  out += oca::internal::JsonText(list);
 }
 
 }  // namespace
@@ -191,7 +192,7 @@ void Signal<LinkPoses>::WriteJson(const LinkPoses& value, std::string& out) {
   for (std::size_t i = 0; i < value.size(); ++i) {
     list.push_back({{"link", value.links[i].text()}, {"pose", ToJson(value.poses[i])}});
   }
-  out += list.dump();
+  out += oca::internal::JsonText(list);
 }
 
 LinkPoses Signal<LinkPoses>::ReadJson(std::string_view text) {

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "oca/diagrams/files/catalogue.h"
@@ -76,7 +75,7 @@ int DescribeCommand(const std::string& type, const files::Catalogue& catalogue) 
 }
 
 int SchemaCommand(const files::Catalogue& catalogue) {
-  std::cout << loading::DiagramSchema(catalogue) << '\n';
+  WriteData(loading::DiagramSchema(catalogue) + "\n");
   return kFine;
 }
 

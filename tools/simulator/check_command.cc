@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstddef>
+#include <cstdio>
 #include <exception>
-#include <iostream>
 
 #include "oca/diagrams/loading/loader.h"
 #include "oca/diagrams/runs/chatter_check.h"
+#include "oca/framework/dataflow/explain.h"
 #include "oca/systems/signals/roles.h"
 #include "tools/simulator/commands.h"
 #include "tools/simulator/terminal.h"
@@ -41,13 +42,13 @@ int CheckCommand(const std::vector<std::string>& files, const std::vector<std::s
       for (const std::string& text : texts) overrides.push_back(files::Override::Parse(text));
       auto loaded = loading::LoadDiagram(file, overrides, catalogue);
       runs::AddChatterWarnings(loaded);
-      for (const std::string& warning : loaded.warnings) std::cerr << warning << '\n';
-      std::cout << file << ": fine, " << loaded.systems.size() << " systems, "
-                << CountConnections(*loaded.diagram) << " connections\n"
-                << std::flush;
+      for (const std::string& warning : loaded.warnings) Tell("{}\n", warning);
+      Print("{}: fine, {} systems, {} connections\n", file, loaded.systems.size(),
+            CountConnections(*loaded.diagram));
+      std::fflush(stdout);
       PrintNotes(*loaded.diagram);
     } catch (const std::exception& error) {
-      std::cerr << error.what() << '\n';
+      Tell("{}\n", oca::internal::Explain(error));
       status = kBadInput;
     }
   }

@@ -12,6 +12,8 @@
 #include "oca/diagrams/files/package_paths.h"
 #include "oca/diagrams/runs/evaluator.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/explain.h"
+#include "oca/framework/dataflow/json_text.h"
 #include "oca/models/robot/urdf.h"
 #include "tools/simulator/commands.h"
 #include "tools/simulator/terminal.h"
@@ -62,7 +64,7 @@ int EvalCommand(const EvalArguments& arguments, const files::Catalogue& catalogu
     try {
       answer = evaluator.Serve(line);
     } catch (const std::exception& error) {
-      answer = nlohmann::json{{"error", error.what()}}.dump();
+      answer = oca::internal::JsonText(nlohmann::json{{"error", oca::internal::Explain(error)}});
     }
     out << answer << std::endl;
     if (!out) return kRunFailed;  // nobody reads any more

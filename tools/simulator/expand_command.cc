@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <fstream>
-#include <iostream>
 
 #include "oca/diagrams/files/package_paths.h"
 #include "oca/diagrams/runs/output_files.h"
@@ -24,7 +23,7 @@ int ExpandCommand(const ExpandArguments& arguments) {
   const robot::ExpandedXacro expanded =
       robot::ExpandXacro(files::ResolvePath(arguments.xacro, {}, {}), options);
   if (arguments.output.empty()) {
-    std::cout << expanded.urdf;
+    WriteData(expanded.urdf);
     return kFine;
   }
   runs::CheckOutputs({{"--output", arguments.output}},

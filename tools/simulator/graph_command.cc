@@ -143,9 +143,9 @@ int GraphCommand(const GraphArguments& arguments, const files::Catalogue& catalo
   }
   const loading::LoadedDiagram loaded = loading::LoadDiagram(arguments.file, overrides, catalogue);
   if (arguments.format == "mermaid") {
-    std::cout << Mermaid(loaded);
+    WriteData(Mermaid(loaded));
   } else if (arguments.format == "dot") {
-    std::cout << Dot(loaded);
+    WriteData(Dot(loaded));
   } else {
     if (!HasGraphviz()) {
       throw ConfigError("graph: svg needs the program `dot` (apt-get install graphviz)");

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <chrono>
+#include <cstdio>
 #include <exception>
-#include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "oca/diagrams/foresight/foresight.h"
 #include "oca/diagrams/loading/loader.h"
 #include "oca/diagrams/runs/blind_spots.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/explain.h"
+#include "oca/framework/dataflow/json_text.h"
 #include "oca/models/error.h"
 #include "oca/models/planning/clairvoyant.h"
 #include "tools/simulator/commands.h"
+#include "tools/simulator/terminal.h"
 
 namespace oca::tools {
 namespace {
@@ -54,7 +57,7 @@ ordered_json Plan(const PlanArguments& arguments, const files::Catalogue& catalo
   if (seed >= 0) overrides.push_back({"simulator.seed", std::to_string(seed)});
   const auto loaded = loading::LoadDiagram(arguments.file, overrides, catalogue);
   if (first) {
-    for (const std::string& warning : loaded.warnings) std::cerr << warning << '\n';
+    for (const std::string& warning : loaded.warnings) Tell("{}\n", warning);
   }
   const double duration = arguments.duration.value_or(loaded.simulator.duration);
   const foresight::Foresight scene(*loaded.diagram, loaded.models, arguments.model, duration);
@@ -106,11 +109,12 @@ int PlanCommand(const PlanArguments& arguments, const files::Catalogue& catalogu
     const int first = arguments.seed.value_or(-1);
     for (int i = 0; i < arguments.samples; ++i) {
       const auto plan = Plan(arguments, catalogue, first < 0 ? first : first + i, i == 0);
-      std::cout << plan.dump(-1, ' ', false, ordered_json::error_handler_t::replace) << std::endl;
+      WriteData(oca::internal::JsonText(plan) + "\n");
+      std::fflush(stdout);
       all_clear = all_clear && plan.at("clear").get<bool>();
     }
   } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
+    Tell("{}\n", oca::internal::Explain(error));
     return kBadInput;
   }
   return all_clear ? kFine : kExpectationNotMet;

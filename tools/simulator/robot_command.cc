@@ -3,13 +3,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "oca/diagrams/files/package_paths.h"
 #include "oca/diagrams/runs/output_files.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/json_text.h"
 #include "oca/models/opened_files.h"
 #include "oca/models/robot/collision_check.h"
 #include "oca/models/robot/srdf.h"
@@ -120,9 +120,9 @@ int CheckCollisionsCommand(const CheckCollisionsArguments& arguments) {
                              DisabledPairs(model, pairs));
   }
   if (arguments.json) {
-    std::cout << ToJson(model, pairs, sampling).dump(2) << '\n';
+    WriteData(oca::internal::JsonText(ToJson(model, pairs, sampling), 2) + "\n");
   } else {
-    std::cout << Table(model, pairs, sampling);
+    WriteOutput(Table(model, pairs, sampling));
     if (!arguments.write_srdf.empty()) Tell("wrote {}\n", arguments.write_srdf);
   }
   return kFine;

@@ -4,7 +4,6 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +13,7 @@
 #include "oca/diagrams/runs/result_json.h"
 #include "oca/diagrams/runs/run.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/models/foreign_text.h"
 #include "tools/simulator/commands.h"
 #include "tools/simulator/interrupt.h"
 #include "tools/simulator/live_commands.h"
@@ -33,7 +33,7 @@ class StderrLog final : public Log {
   }
   bool enabled(LogLevel level) const override { return logger_.should_log(Map(level)); }
   void Write(LogLevel level, double time, std::string_view text) override {
-    logger_.log(Map(level), "t={:.4f} {}", time, text);
+    logger_.log(Map(level), "t={:.4f} {}", time, models::internal::Harmless(text));
   }
 
  private:
@@ -59,9 +59,9 @@ ExitStatus StatusOf(const runs::RunResult& result) {
 void PrintResult(const RunArguments& arguments, const loading::LoadedDiagram& loaded,
                  const runs::RunResult& result) {
   if (arguments.json) {
-    std::cout << runs::ResultJson(loaded, result) << '\n';
+    WriteData(runs::ResultJson(loaded, result) + "\n");
   } else {
-    std::cout << RunSummary(loaded, result, WantsColour(STDOUT_FILENO)) << ProfileTable(result);
+    WriteOutput(RunSummary(loaded, result, WantsColour(STDOUT_FILENO)) + ProfileTable(result));
   }
   if (result.failure) Tell("error: {}\n", result.failure->message);
 }

@@ -12,9 +12,10 @@
 #include <iostream>
 
 #include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/explain.h"
 #include "oca/framework/dataflow/nearest.h"
+#include "oca/models/foreign_text.h"
 #include "oca/models/geometry/decomposition.h"
-#include "oca/models/table_text.h"
 #include "oca/version.h"
 #include "tools/simulator/commands.h"
 #include "tools/simulator/file_name.h"
@@ -64,7 +65,7 @@ class CommandLine {
     const geometry::DecompositionListener listener([&](std::string_view mesh, double share) {
       const std::string file = std::filesystem::path(mesh).filename().string();
       progress.Show(fmt::format("decomposing '{}' into convex parts, which are kept",
-                                models::internal::Shown(file)),
+                                models::internal::AsUtf8(file)),
                     share);
     });
     try {
@@ -310,7 +311,7 @@ int SimulatorMain(int argc, char** argv, const files::Catalogue& catalogue) {
   try {
     return CommandLine(catalogue).Main(argc, argv);
   } catch (const std::exception& error) {
-    Tell("error: {}\n", error.what());
+    Tell("error: {}\n", oca::internal::Explain(error));
   } catch (...) {  // of a block of somebody else's
     Tell("error: an exception of an unknown type\n");
   }

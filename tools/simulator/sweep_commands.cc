@@ -10,8 +10,6 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,6 +23,7 @@
 #include "oca/diagrams/sweep/summary_json.h"
 #include "oca/diagrams/sweep/sweep_run.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/models/file_bytes.h"
 #include "oca/models/opened_files.h"
 #include "oca/version.h"
 #include "tools/simulator/commands.h"
@@ -130,11 +129,11 @@ enum class Form { kTable, kJson, kMarkdown };
 int Report(const Results& results, Form form, bool colour) {
   const sweep::Summary summary = sweep::Summarize(results);
   if (form == Form::kJson) {
-    std::cout << sweep::SummaryJson(results, summary) << '\n';
+    WriteData(sweep::SummaryJson(results, summary) + "\n");
   } else if (form == Form::kMarkdown) {
-    std::cout << SweepMarkdown(results, summary);
+    WriteData(SweepMarkdown(results, summary));
   } else {
-    std::cout << SweepTable(results, summary, colour);
+    WriteOutput(SweepTable(results, summary, colour));
   }
   if (summary.unfinished > 0) return kRunFailed;
   return summary.unmet > 0 ? kExpectationNotMet : kFine;
@@ -195,9 +194,8 @@ int SweepCommand(const SweepArguments& arguments, const files::Catalogue& catalo
 void RequireDatabase(const fs::path& file) {
   std::error_code error;
   if (!fs::exists(file, error) || fs::file_size(file, error) == 0) return;
-  std::string head(15, '\0');
-  std::ifstream(file, std::ios::binary).read(head.data(), std::ssize(head));
-  if (head == "SQLite format 3") return;
+  constexpr std::string_view kMagic = "SQLite format 3";
+  if (models::BeginningOf(file, kMagic.size()) == kMagic) return;
   throw ConfigError(
       fmt::format("-o: {}; got a file that is no database; expected a new one, or one to replace",
                   file.string()));

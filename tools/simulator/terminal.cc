@@ -11,11 +11,44 @@
 #include <cstdlib>
 #include <iostream>
 
+#include "oca/models/foreign_text.h"
+
 namespace oca::tools {
 namespace {
 
-std::string Paint(const std::string& text, const char* code, bool colour) {
-  return colour ? fmt::format("\033[{}m{}\033[0m", code, text) : text;
+constexpr std::string_view kGood = "\033[1;32m", kBad = "\033[1;31m", kDim = "\033[2m",
+                           kPlain = "\033[0m", kRedraw = "\r\033[K";
+
+std::string Paint(const std::string& text, std::string_view colour, bool wanted) {
+  return wanted ? fmt::format("{}{}{}", colour, text, kPlain) : text;
+}
+
+void Write(std::string_view text, std::FILE* stream) {
+  std::fwrite(text.data(), 1, text.size(), stream);
+}
+
+/// Harmless, with our own colours.
+std::string Shown(std::string_view text) {
+  std::string shown;
+  while (!text.empty()) {
+    const std::size_t escape = std::min(text.find('\033'), text.size());
+    shown += models::internal::Harmless(text.substr(0, escape));
+    text.remove_prefix(escape);
+    std::string_view own = text.substr(0, 1);
+    for (const std::string_view colour : {kGood, kBad, kDim, kPlain}) {
+      if (text.starts_with(colour)) own = colour;
+    }
+    shown += own.size() > 1 ? std::string(own) : models::internal::Harmless(own);
+    text.remove_prefix(own.size());
+  }
+  return shown;
+}
+
+/// Draws a line of progress over the one before.
+void Redraw(std::string_view line) {
+  Write(kRedraw, stderr);
+  Write(Shown(line), stderr);
+  std::fflush(stderr);
 }
 
 }  // namespace
@@ -30,11 +63,16 @@ void PrepareTerminal() {
 }
 
 void WriteError(std::string_view text) {
-  std::fwrite(text.data(), 1, text.size(), stderr);
+  Write(Shown(text), stderr);
   std::fflush(stderr);
 }
 
-void WriteOutput(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
+void WriteOutput(std::string_view text) { Write(Shown(text), stdout); }
+
+void WriteData(std::string_view text) {
+  if (isatty(STDOUT_FILENO) != 0) return WriteOutput(text);
+  Write(text, stdout);
+}
 
 bool FlushOutput() {
   errno = 0;
@@ -56,12 +94,12 @@ bool WantsColour(int descriptor) {
   return IsTerminal(descriptor) && (no_colour == nullptr || *no_colour == '\0');
 }
 
-std::string Good(const std::string& text, bool colour) { return Paint(text, "1;32", colour); }
-std::string Bad(const std::string& text, bool colour) { return Paint(text, "1;31", colour); }
-std::string Dim(const std::string& text, bool colour) { return Paint(text, "2", colour); }
+std::string Good(const std::string& text, bool colour) { return Paint(text, kGood, colour); }
+std::string Bad(const std::string& text, bool colour) { return Paint(text, kBad, colour); }
+std::string Dim(const std::string& text, bool colour) { return Paint(text, kDim, colour); }
 
 ProgressBar::~ProgressBar() {
-  if (visible_) WriteError("\r\033[K");
+  if (visible_) Redraw("");
 }
 
 void ProgressBar::Show(double time) {
@@ -79,9 +117,8 @@ void ProgressBar::Show(double time) {
   const double share = end_ > 0.0 ? std::clamp(time / end_, 0.0, 1.0) : 1.0;
   const int filled = static_cast<int>(share * kWidth);
   const double seconds = std::chrono::duration<double>(now - start_).count();
-  Tell("\r\033[K[{:#<{}}{:.<{}}] {:.1f} of {:g} s, {:.0f} times real time", "", filled, "",
-       kWidth - filled, time, end_, time / seconds);
-  std::fflush(stderr);
+  Redraw(fmt::format("[{:#<{}}{:.<{}}] {:.1f} of {:g} s, {:.0f} times real time", "", filled, "",
+                     kWidth - filled, time, end_, time / seconds));
 }
 
 void TaskProgress::Show(const std::string& task, double share) {
@@ -100,12 +137,13 @@ void TaskProgress::Show(const std::string& task, double share) {
   if (now - start_ < patience_ || now - shown_ < (terminal ? Seconds(0.1) : interval_)) return;
   shown_ = now;
   visible_ = terminal;
-  Tell("{}{}: {:.0f} % after {:.0f} s{}", terminal ? "\r\033[K" : "", task, 100.0 * share,
-       Seconds(now - start_).count(), terminal ? "" : "\n");
+  const std::string line = fmt::format("{}: {:.0f} % after {:.0f} s", task, 100.0 * share,
+                                       Seconds(now - start_).count());
+  terminal ? Redraw(line) : WriteError(line + '\n');
 }
 
 void TaskProgress::Clear() {
-  if (visible_) WriteError("\r\033[K");
+  if (visible_) Redraw("");
   visible_ = false;
 }
 

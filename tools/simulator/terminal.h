@@ -15,15 +15,18 @@ namespace oca::tools {
 /// not the end of the program.
 void PrepareTerminal();
 
-/// Writes to standard error and to standard output. Neither fails, so that a run goes on and its
-/// record is complete when nobody reads: what cannot be written is lost.
+/// Write to standard error and to standard output. None fails, so that a run goes on and its record
+/// is complete when nobody reads: what cannot be written is lost. Names of others are in the text,
+/// so nothing of it is obeyed by a terminal but the colours of Good, Bad and Dim.
 void WriteError(std::string_view text);
 void WriteOutput(std::string_view text);
+/// What another program reads, or a file takes: as it is, unless standard output is a terminal.
+void WriteData(std::string_view text);
 /// At the end: whether all that was written to standard output, in any way, has got there. Says so
 /// on standard error if not, unless the reader has gone.
 bool FlushOutput();
 
-/// The same with formatting.
+/// The first two with formatting.
 template <class... Values>
 void Tell(fmt::format_string<Values...> format, Values&&... values) {
   WriteError(fmt::format(format, std::forward<Values>(values)...));

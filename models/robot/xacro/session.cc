@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "oca/models/error.h"
+#include "oca/models/file_bytes.h"
 #include "oca/models/file_cache.h"
 #include "oca/models/nearest_name.h"
 #include "oca/models/robot/xacro/scope.h"
@@ -210,8 +211,7 @@ Value Session::LoadYaml(const std::string& name) {
   if (found != yaml_.end()) return found->second;
   std::string text;
   try {
-    text = *models::ReadOnce<std::string>(file, "YAML",
-                                          [&] { return models::internal::ReadWhole(file); });
+    text = *models::ReadOnce<std::string>(file, "YAML", [&] { return models::ReadFile(file); });
   } catch (const models::ModelError& error) {
     throw Mistake(error.what());
   }

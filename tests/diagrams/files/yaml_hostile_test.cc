@@ -46,7 +46,7 @@ TEST(YamlHostileTest, AFileLargerThanTheMemoryIsRefusedUnread) {
   const fs::path file = folder.Write("large.yaml", "a: 1\n");
   fs::resize_file(file, 1'000'000'000'000);  // a hole
   EXPECT_THAT(Refusal(file),
-              HasSubstr("large.yaml: error: got 1000000000000 bytes; expected at most"));
+              HasSubstr("large.yaml: error: too large; got 1000000000000 bytes; expected at most"));
 }
 
 TEST(YamlHostileTest, TheLargestFileIsReadAndAByteMoreIsNot) {
@@ -59,9 +59,10 @@ TEST(YamlHostileTest, TheLargestFileIsReadAndAByteMoreIsNot) {
 
 TEST(YamlHostileTest, WhatIsNoTextFileIsRefused) {
   const test::TemporaryFolder folder;
-  EXPECT_THAT(Refusal(folder.path()), HasSubstr("is a folder; expected a file"));
-  EXPECT_THAT(Refusal(folder.path() / "missing.yaml"), HasSubstr("No such file"));
-  EXPECT_THAT(Refusal("/dev/zero"), HasSubstr("cannot be read"));
+  EXPECT_THAT(Refusal(folder.path()), HasSubstr("not a regular file; got a folder"));
+  EXPECT_THAT(Refusal(folder.path() / "missing.yaml"),
+              HasSubstr("cannot be read; got no such file"));
+  EXPECT_THAT(Refusal("/dev/zero"), HasSubstr("not a regular file"));
   for (const char control : {'\0', '\1', '\x1b', '\x7f', '\b'}) {
     const fs::path file = folder.Write("junk.yaml", std::string("a: ") + control + "\n");
     EXPECT_THAT(Refusal(file), HasSubstr("control characters")) << static_cast<int>(control);

@@ -224,7 +224,8 @@ TEST(YamlReaderTest, JsonThatIsWrongIsRefusedByName) {
   EXPECT_THAT(refusal("{\"a\": null}"), HasSubstr("null; expected a value"));
   EXPECT_THAT(refusal("{\"a\": 1, \"a\": 2}"), HasSubstr("duplicate key"));
   EXPECT_THAT(refusal(std::string(100000, '[')), StartsWith("--params: error: "));
-  EXPECT_THAT(refusal(std::string(1000, '[') + std::string(1000, ']')), HasSubstr("nested deeper"));
+  EXPECT_THAT(refusal(std::string(1000, '[') + std::string(1000, ']')),
+              HasSubstr("nested too deep"));
 }
 
 }  // namespace yaml_reader_test

@@ -95,10 +95,13 @@ TEST(SignalTest, ReadingRefusesWhatIsNoListOfFiniteNumbers) {
     }
     return "";
   };
-  for (const char* bad : {"", "7", "{}", "null", "\"[1]\"", "[1,", "[1,]", "[NaN]", "[1e999]",
-                          "[01]", "[1] 2", "nonsense"}) {
+  for (const char* bad : {"7", "{}", "null", "\"[1]\""}) {
     EXPECT_THAT(text_of(bad), HasSubstr("expected a list of numbers")) << bad;
   }
+  for (const char* bad : {"", "[1,", "[1,]", "[NaN]", "[01]", "[1] 2", "nonsense"}) {
+    EXPECT_THAT(text_of(bad), HasSubstr("expected valid JSON")) << bad;
+  }
+  EXPECT_THAT(text_of("[1e999]"), HasSubstr("expected finite numbers"));
   EXPECT_EQ(text_of("[1, \"2\"]"), "item 1: got \"2\"; expected a number");
   EXPECT_EQ(text_of("[null]"), "item 0: got null; expected a number");
   EXPECT_EQ(text_of("[1, 2, true]"), "item 2: got true; expected a number");

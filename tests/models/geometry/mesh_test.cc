@@ -151,10 +151,10 @@ TEST(MeshTest, VerticesThatNoTriangleUsesAreLeftOut) {
 
 TEST(MeshTest, RefusesAFileThatIsMissingEmptyOrAFolder) {
   const test::TemporaryFolder folder;
-  EXPECT_THAT(RefusalOf(folder.path() / "no.stl"), HasSubstr("mesh not found"));
+  EXPECT_THAT(RefusalOf(folder.path() / "no.stl"), HasSubstr("cannot be read; got no such file"));
   EXPECT_THAT(RefusalOf(folder.Write("e.stl", "")), HasSubstr("got 0 bytes"));
   std::filesystem::create_directory(folder.path() / "d.stl");
-  EXPECT_THAT(RefusalOf(folder.path() / "d.stl"), HasSubstr("not a file"));
+  EXPECT_THAT(RefusalOf(folder.path() / "d.stl"), HasSubstr("not a regular file"));
 }
 
 TEST(MeshTest, RefusesAnUnknownExtension) {
@@ -167,7 +167,8 @@ TEST(MeshTest, RefusesAFileAboveAHundredMegabytes) {
   const test::TemporaryFolder folder;
   const auto file = folder.Write("big.stl", "solid");
   std::filesystem::resize_file(file, 100'000'001);
-  EXPECT_THAT(RefusalOf(file), HasSubstr("mesh too large; got 100 MB; expected at most 100 MB"));
+  EXPECT_THAT(RefusalOf(file),
+              HasSubstr("too large; got 100000001 bytes; expected at most 100000000"));
 }
 
 TEST(MeshTest, RefusesBinaryJunkOfEveryKind) {

@@ -84,7 +84,7 @@ TEST(XmlTest, RefusesFilesThatCannotBeRead) {
   EXPECT_THAT([] { ReadXmlFile("/nowhere/robot.urdf"); },
               ThrowsMessage<models::ModelError>(HasSubstr("/nowhere/robot.urdf")));
   EXPECT_THAT([] { ReadXmlFile(testing::TempDir()); },
-              ThrowsMessage<models::ModelError>(HasSubstr("no regular file")));
+              ThrowsMessage<models::ModelError>(HasSubstr("not a regular file")));
 }
 
 TEST(XmlTest, RefusesFilesAbove50Megabytes) {

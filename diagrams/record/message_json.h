@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "oca/diagrams/record/mcap_reader.h"
+
+namespace oca::record::internal {
+
+/// A message of a record as a tree. throws ConfigError `record: TOPIC: message N: JSON: ...`
+nlohmann::ordered_json MessageJson(const McapMessage& message, std::string_view topic);
+
+}  // namespace oca::record::internal
