@@ -4,17 +4,32 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
+#include <cstdint>
+#include <limits>
 
 #include "oca/diagrams/record/mcap_bytes.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/models/file_bytes.h"
+#include "oca/systems/signals/config_errors.h"
 
 namespace oca::record {
+namespace {
+
+constexpr std::uintmax_t kMostBytes = std::uintmax_t{4} << 30;  // of a file
+
+/// All chunks of a file together unpack to no more: a record of a run takes a tenth of that, but
+/// zeros can be packed to less than a ten thousandth.
+std::uint64_t MostUnpacked(std::uint64_t bytes) {
+  constexpr std::uint64_t kAlways = std::uint64_t{256} << 20, kRatio = 64;
+  return kAlways + kRatio * bytes;
+}
+
+}  // namespace
 
 class McapParser {
  public:
-  McapParser(McapFile& file, std::string_view bytes) : file_(file), bytes_(bytes) {}
+  McapParser(McapFile& file, std::string_view bytes)
+      : file_(file), bytes_(bytes), left_(MostUnpacked(bytes.size())) {}
 
   void Parse() {
     ByteReader reader(bytes_);
@@ -68,19 +83,22 @@ class McapParser {
     }
   }
 
+  /// Each is looked up among the others.
+  static void CheckNumber(const char* what, std::size_t before) {
+    constexpr std::size_t kMost = 10'000;
+    if (before < kMost) return;
+    throw ConfigError(fmt::format("{}: got more than {}; expected fewer", what, kMost));
+  }
+
   void AddSchema(ByteReader& reader) {
     McapSchema schema;
     schema.id = reader.Number<std::uint16_t>();
     schema.name = reader.Text();
     schema.encoding = reader.Text();
     schema.data = reader.Text();
-    if (file_.FindSchema(schema.id) == nullptr) file_.schemas_.push_back(std::move(schema));
-  }
-
-  const McapChannel* ChannelOf(std::uint16_t id) const {
-    const auto found = std::find_if(file_.channels_.begin(), file_.channels_.end(),
-                                    [id](const auto& channel) { return channel.id == id; });
-    return found == file_.channels_.end() ? nullptr : &*found;
+    if (file_.FindSchema(schema.id) != nullptr) return;
+    CheckNumber("schemas", file_.schemas_.size());
+    file_.schemas_.push_back(std::move(schema));
   }
 
   void AddChannel(ByteReader& reader) {
@@ -90,7 +108,10 @@ class McapParser {
     channel.topic = reader.Text();
     channel.encoding = reader.Text();
     channel.metadata = reader.Texts();
-    if (ChannelOf(channel.id) == nullptr) file_.channels_.push_back(std::move(channel));
+    if (known_[channel.id]) return;
+    CheckNumber("channels", file_.channels_.size());
+    known_[channel.id] = true;
+    file_.channels_.push_back(std::move(channel));
   }
 
   void AddMessage(ByteReader& reader) {
@@ -100,7 +121,7 @@ class McapParser {
     message.log_time = reader.Number<std::uint64_t>();
     message.publish_time = reader.Number<std::uint64_t>();
     message.data = reader.Take(reader.left());
-    if (ChannelOf(message.channel) == nullptr) {
+    if (!known_[message.channel]) {
       throw ConfigError(
           fmt::format("message: got channel {}; expected a known one", message.channel));
     }
@@ -114,6 +135,11 @@ class McapParser {
     const auto crc = reader.Number<std::uint32_t>();
     const std::string_view compression = reader.Text();
     const std::string_view packed = reader.Take(reader.Number<std::uint64_t>());
+    if (size > left_) {
+      throw ConfigError(fmt::format(
+          "chunk: got {} bytes after those before it; expected at most {}", size, left_));
+    }
+    left_ -= size;
     std::string records = Decompress(compression, packed, size);
     if (crc != 0 && crc != Crc32(0, records)) throw ConfigError("chunk: wrong CRC");
     file_.memory_.push_back(std::move(records));
@@ -169,6 +195,8 @@ class McapParser {
 
   McapFile& file_;
   std::string_view bytes_;
+  std::uint64_t left_;  ///< that chunks may unpack to
+  std::vector<bool> known_ = std::vector<bool>(std::numeric_limits<std::uint16_t>::max() + 1);
 };
 
 McapFile McapFile::Parse(std::string bytes, const std::string& name) {
@@ -178,19 +206,15 @@ McapFile McapFile::Parse(std::string bytes, const std::string& name) {
   McapFile file;
   file.memory_.push_back(std::move(bytes));
   McapParser(file, file.memory_.front()).Parse();
+  for (std::size_t i = 0; i < file.messages_.size(); ++i) {
+    file.by_channel_[file.messages_[i].channel].push_back(i);
+  }
   return file;
 }
 
 McapFile McapFile::Read(const std::filesystem::path& path) {
-  std::error_code error;
-  std::ifstream stream(path, std::ios::binary);
-  if (!std::filesystem::is_regular_file(path, error) || !stream) {
-    throw ConfigError(fmt::format("{}: cannot be read; expected an MCAP file", path.string()));
-  }
-  std::string bytes(std::filesystem::file_size(path), '\0');
-  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<std::size_t>(stream.gcount()));
-  return Parse(std::move(bytes), path.string());
+  return Parse(systems::WithConfigErrors([&] { return models::ReadUnnoted(path, kMostBytes); }),
+               path.string());
 }
 
 const McapChannel* McapFile::FindChannel(std::string_view topic) const {
@@ -221,9 +245,9 @@ std::vector<const McapMessage*> McapFile::MessagesOf(std::string_view topic) con
   std::vector<const McapMessage*> found;
   const McapChannel* const channel = FindChannel(topic);
   if (channel == nullptr) return found;
-  for (const McapMessage& message : messages_) {
-    if (message.channel == channel->id) found.push_back(&message);
-  }
+  const auto own = by_channel_.find(channel->id);
+  if (own == by_channel_.end()) return found;
+  for (const std::size_t i : own->second) found.push_back(&messages_[i]);
   return found;
 }
 

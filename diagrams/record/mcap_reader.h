@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -55,6 +58,7 @@ class McapFile {
   std::vector<McapSchema> schemas_;
   std::vector<McapChannel> channels_;
   std::vector<McapMessage> messages_;
+  std::map<std::uint16_t, std::vector<std::size_t>> by_channel_;  ///< places in messages_
   std::vector<McapAttachment> attachments_;
   std::vector<McapMetadata> metadata_;
   std::deque<std::string> memory_;  ///< what messages point into; a deque never moves its items

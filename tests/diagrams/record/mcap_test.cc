@@ -13,6 +13,7 @@ namespace oca::record {
 namespace mcap_test {
 
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr std::uint64_t kEpoch = 1'700'000'000'000'000'000;
 
@@ -138,6 +139,56 @@ TEST(McapTest, RefusesALengthThatNoMemoryHolds) {
 TEST(McapTest, RefusesAnUnknownCompression) {
   EXPECT_EQ(ParseCompression("lz4"), Compression::kLz4);
   EXPECT_THROW(ParseCompression("gzip"), ConfigError);
+}
+
+/// A zstd frame of blocks of one zero byte each that is repeated; 131072 zeros take four bytes.
+/// source RFC 8878, 3.1.1
+std::string FrameOfZeros(std::uint32_t blocks) {
+  constexpr std::uint32_t kBlock = 128 * 1024, kRepeats = 1;
+  std::string frame("\x28\xB5\x2F\xFD\xE0", 5);
+  AppendNumber(frame, std::uint64_t{kBlock} * blocks);
+  for (std::uint32_t i = 0; i < blocks; ++i) {
+    const std::uint32_t header = (i + 1 == blocks ? 1 : 0) | kRepeats << 1 | kBlock << 3;
+    frame += std::string_view(reinterpret_cast<const char*>(&header), 3);
+    frame += '\0';
+  }
+  return frame;
+}
+
+TEST(McapTest, UnpacksNoMoreThanAMultipleOfItsSize) {
+  constexpr std::uint32_t kBlocks = 640;  // 80 MiB a chunk
+  const std::string frame = FrameOfZeros(kBlocks);
+  std::string chunk;
+  AppendNumber(chunk, std::uint64_t{0});
+  AppendNumber(chunk, std::uint64_t{0});
+  AppendNumber(chunk, std::uint64_t{kBlocks} * 128 * 1024);
+  AppendNumber(chunk, std::uint32_t{0});
+  AppendText(chunk, "zstd");
+  AppendNumber(chunk, std::uint64_t{frame.size()});
+  chunk += frame;
+  std::string bytes(kMcapMagic);
+  for (int i = 0; i < 3; ++i) AppendRecord(bytes, Opcode::kChunk, chunk);
+  EXPECT_THAT(McapFile::Parse(bytes, "zeros").problem(), Not(HasSubstr("chunk")));
+  AppendRecord(bytes, Opcode::kChunk, chunk);
+  EXPECT_THAT(McapFile::Parse(bytes, "zeros").problem(), HasSubstr("after those before it"));
+}
+
+TEST(McapTest, TakesTenThousandChannels) {
+  std::string bytes(kMcapMagic);
+  for (std::uint16_t id = 0; id <= 10'000; ++id) {
+    AppendChannel(bytes, {id, 0, "/a/" + std::to_string(id), "json", {}});
+  }
+  const McapFile file = McapFile::Parse(bytes, "many");
+  EXPECT_EQ(file.channels().size(), 10'000u);
+  EXPECT_THAT(file.problem(), HasSubstr("channels: got more than 10000"));
+}
+
+TEST(McapTest, HoldsOnlyUtf8) {
+  std::string bytes;
+  AppendTexts(bytes, {{"caf\xE9", "\x1b\xFF"}});
+  ByteReader reader(bytes);
+  EXPECT_THAT(reader.Texts(),
+              testing::ElementsAre(testing::Pair("caf\xEF\xBF\xBD", "\x1b\xEF\xBF\xBD")));
 }
 
 }  // namespace mcap_test
