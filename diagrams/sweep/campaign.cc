@@ -12,6 +12,7 @@
 #include "oca/diagrams/record/record_files.h"
 #include "oca/diagrams/sweep/campaign_tree.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/json_text.h"
 #include "oca/models/random.h"
 
 namespace oca::sweep {
@@ -52,6 +53,24 @@ class Hash {
  private:
   std::uint64_t hash_{0xCBF29CE484222325u};
 };
+
+constexpr std::int64_t kMostSamples = 1'000'000'000;
+
+void CheckCombinations(const std::vector<Variation>& variations) {
+  constexpr std::size_t kMostCombinations = 10000;
+  std::size_t combinations = 1;
+  for (const Variation& variation : variations) {
+    if (variation.listed()) combinations *= variation.values().size();
+    if (combinations > kMostCombinations) {
+      throw ConfigError(fmt::format("vary: got more than {0} combinations; expected at most {0}",
+                                    kMostCombinations));
+    }
+  }
+}
+
+ConfigError NoHeader(std::string_view line) {
+  return ConfigError(fmt::format("got '{:.60}'; expected the line of a campaign", line));
+}
 
 }  // namespace
 
@@ -147,7 +166,7 @@ void Campaign::Check() const {
   };
   for (const std::string& text : overrides) take(Override::Parse(text).path);
   for (const Variation& variation : variations) take(variation.path());
-  if (samples < 1 || samples > 1'000'000'000) {
+  if (samples < 1 || samples > kMostSamples) {
     throw ConfigError(fmt::format("samples: got {}; expected in [1, 1e9]", samples));
   }
   if (!(arrival > 0.0 && arrival <= 1e6)) {
@@ -156,26 +175,18 @@ void Campaign::Check() const {
   if (duration && !(*duration >= 0.0 && *duration <= 1e7)) {
     throw ConfigError(fmt::format("duration: got {} s; expected in [0, 1e7]", *duration));
   }
-  constexpr std::size_t kMostCombinations = 10000;
-  std::size_t combinations = 1;
-  for (const Variation& variation : variations) {
-    if (variation.listed()) combinations *= variation.values().size();
-    if (combinations > kMostCombinations) {
-      throw ConfigError(fmt::format("vary: got more than {0} combinations; expected at most {0}",
-                                    kMostCombinations));
-    }
-  }
+  CheckCombinations(variations);
 }
 
 std::string Campaign::Header() const {
   ordered_json json;
   json["campaign"] = CampaignTree(*this);
-  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  return oca::internal::JsonText(json);
 }
 
 Campaign Campaign::FromHeader(const std::string& line) {
   try {
-    const ordered_json json = ordered_json::parse(line).at("campaign");
+    const ordered_json json = oca::internal::ReadJsonTree(line).at("campaign");
     Campaign campaign;
     campaign.file = json.at("file");
     campaign.name = json.at("name");
@@ -184,14 +195,16 @@ Campaign Campaign::FromHeader(const std::string& line) {
     for (const std::string text : json.at("vary")) {
       campaign.variations.push_back(Variation::Parse(text));
     }
+    if (!json.at("seed").is_number_unsigned()) throw NoHeader(line);
     campaign.seed = json.at("seed");
-    campaign.samples = json.at("samples");
+    campaign.samples = oca::internal::WholeNumber(json.at("samples"), 0, kMostSamples);
     if (!json.at("duration").is_null()) campaign.duration = json.at("duration").get<double>();
     campaign.arrival = json.at("arrival");
     campaign.version = json.at("version");
+    CheckCombinations(campaign.variations);
     return campaign;
   } catch (const ordered_json::exception&) {
-    throw ConfigError(fmt::format("got '{:.60}'; expected the line of a campaign", line));
+    throw NoHeader(line);
   }
 }
 
@@ -201,8 +214,9 @@ std::string Campaign::DifferenceTo(const Campaign& other) const {
   std::string differences;
   for (const auto& [key, value] : mine.items()) {
     if (key == "file" || value == its.at(key)) continue;
-    differences += fmt::format("{}{}: {} against {}", differences.empty() ? "" : ", ", key,
-                               value.dump(), its.at(key).dump());
+    differences +=
+        fmt::format("{}{}: {} against {}", differences.empty() ? "" : ", ", key,
+                    oca::internal::JsonText(value), oca::internal::JsonText(its.at(key)));
   }
   return differences;
 }

@@ -100,10 +100,16 @@ class Merger {
       }
       Append(std::move(shard));
     }
-    if (files_.empty()) merged_ = ReadResults(whole_);
+    if (files_.empty()) ReadAll();
     const auto in_order = [](const auto& a, const auto& b) { return a.key() < b.key(); };
     std::sort(merged_.rows.begin(), merged_.rows.end(), in_order);
     std::sort(merged_.timings.begin(), merged_.timings.end(), in_order);
+  }
+
+  void ReadAll() {
+    std::size_t end = 0;
+    merged_ = ReadResults(whole_, &end);
+    if (end == 0) Problem("{}: got no line of a campaign", whole_.filename().string());
   }
 
   void Append(Results&& shard) {
@@ -122,28 +128,31 @@ class Merger {
       if (!known) foreign.push_back(NameOf(row.sample, row.combination));
       if (known) there.insert(row.key());
     }
-    for (std::int64_t sample = 0; sample < campaign.samples; ++sample) {
+    const std::int64_t count =
+        campaign.samples * combinations - static_cast<std::int64_t>(there.size());
+    for (std::int64_t sample = 0; std::ssize(missing) < std::min(count, kTold); ++sample) {
       for (int combination = 0; combination < combinations; ++combination) {
         if (there.contains({sample, combination})) continue;
         missing.push_back(NameOf(sample, combination));
       }
     }
-    Tell("are missing", missing);
-    Tell("are none of this campaign", foreign);
+    Tell("are missing", missing, count);
+    Tell("are none of this campaign", foreign, std::ssize(foreign));
   }
 
   static std::string NameOf(std::int64_t sample, int combination) {
     return fmt::format("{}.{}", sample, combination);
   }
 
-  void Tell(const char* what, const std::vector<std::string>& runs) {
+  /// The first of `count` runs.
+  void Tell(const char* what, std::vector<std::string> runs, std::int64_t count) {
     if (runs.empty()) return;
-    constexpr std::size_t most = 10;
-    std::vector<std::string> told = runs;
-    told.resize(std::min(most, runs.size()));
-    Problem("{} runs (sample.combination) {}: {}{}", runs.size(), what, fmt::join(told, ", "),
-            runs.size() > most ? ", ..." : "");
+    runs.resize(static_cast<std::size_t>(std::min(std::ssize(runs), kTold)));
+    Problem("{} runs (sample.combination) {}: {}{}", count, what, fmt::join(runs, ", "),
+            count > kTold ? ", ..." : "");
   }
+
+  static constexpr std::ptrdiff_t kTold = 10;
 
   fs::path folder_;
   std::map<std::pair<int, int>, fs::path> files_, parts_;  ///< by count and index

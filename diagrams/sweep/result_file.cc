@@ -10,13 +10,14 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <set>
 #include <string_view>
 #include <tuple>
 
 #include "oca/framework/dataflow/error.h"
+#include "oca/models/file_bytes.h"
+#include "oca/systems/signals/config_errors.h"
 
 namespace oca::sweep {
 namespace {
@@ -24,16 +25,14 @@ namespace {
 namespace fs = std::filesystem;
 
 const char* const kTimings = ".timings.jsonl";
+constexpr std::uintmax_t kMostBytes = std::uintmax_t{4} << 30;
 
 ConfigError CannotWrite(const fs::path& file) {
   return ConfigError(fmt::format("{}: cannot be written: {}", file.string(), std::strerror(errno)));
 }
 
 std::string ReadText(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream) throw ConfigError(fmt::format("{}: cannot be read", file.string()));
-  return text;
+  return systems::WithConfigErrors([&] { return models::ReadUnnoted(file, kMostBytes); });
 }
 
 /// One write, so that another thread's line cannot come between.
@@ -77,7 +76,7 @@ fs::path TimingsOf(fs::path file) {
 
 std::vector<SampleTiming> ReadTimings(const fs::path& file) {
   std::vector<SampleTiming> timings;
-  if (!fs::exists(file)) return timings;
+  if (std::error_code error; !fs::exists(file, error)) return timings;
   const std::string text = ReadText(file);
   std::set<std::tuple<std::int64_t, int>> known;
   ForEachLine(text, file, [&](int, const std::string& line) {
@@ -117,6 +116,10 @@ Results ReadResults(const fs::path& file, std::size_t* end) {
   });
   if (end != nullptr) *end = stop;
   results.timings = ReadTimings(TimingsOf(file));
+  const std::int64_t combinations = std::ssize(results.campaign.Combinations());
+  std::erase_if(results.timings, [&](const SampleTiming& timing) {  // as for those that are none
+    return timing.combination < 0 || timing.combination >= combinations;
+  });
   SortRows(results.rows);
   SortRows(results.timings);
   return results;
@@ -141,7 +144,7 @@ ResultFile::ResultFile(const fs::path& folder, const Campaign& campaign, const S
   if (error) {
     throw ConfigError(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
   }
-  if (fs::exists(final_file_)) {
+  if (fs::exists(final_file_, error)) {
     TakeOver(final_file_, campaign, shard);
     fs::remove(part_file_, error);
     return;
@@ -163,7 +166,8 @@ void ResultFile::OpenPart(const Campaign& campaign, const Shard& shard) {
   }
   std::size_t end = 0;
   try {
-    if (fs::file_size(part_file_) > 0) {
+    std::error_code error;
+    if (fs::file_size(part_file_, error) > 0) {
       const Results left = ReadResults(part_file_, &end);
       if (end > 0) TakeOver(part_file_, campaign, shard);
     }
@@ -185,7 +189,14 @@ void ResultFile::TakeOver(const fs::path& file, const Campaign& campaign, const 
                     "removed",
                     file.string(), difference));
   }
+  const std::int64_t combinations = std::ssize(campaign.Combinations());
   for (const SampleRow& row : results_.rows) {
+    const bool known = row.sample >= 0 && row.sample < campaign.samples && row.combination >= 0 &&
+                       row.combination < combinations;
+    if (!known) {
+      throw ConfigError(fmt::format("{}: got the run {}.{}; expected those of the campaign",
+                                    file.string(), row.sample, row.combination));
+    }
     if (row.sample % shard.count == shard.index) continue;
     throw ConfigError(fmt::format("{}: got sample {}; expected those of shard {} of {}",
                                   file.string(), row.sample, shard.index, shard.count));

@@ -15,6 +15,7 @@
 #include "oca/diagrams/sweep/campaign_tree.h"
 #include "oca/diagrams/sweep/summary.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/json_text.h"
 
 namespace oca::sweep {
 namespace {
@@ -100,7 +101,7 @@ class Insertion {
   }
   /// A pair of names as a JSON list.
   void Bind(const std::array<models::Name, 2>& pair) {
-    Bind(ordered_json{pair[0].text(), pair[1].text()}.dump());
+    Bind(oca::internal::JsonText(ordered_json{pair[0].text(), pair[1].text()}));
   }
 
   const Database& database_;
@@ -112,7 +113,8 @@ void AddCampaign(const Database& database, const Campaign& campaign) {
   Insertion properties(database, "campaign", 2);
   const ordered_json tree = CampaignTree(campaign);
   for (const auto& [key, value] : tree.items()) {
-    properties.Add(key, value.is_string() ? value.get<std::string>() : value.dump());
+    properties.Add(key,
+                   value.is_string() ? value.get<std::string>() : oca::internal::JsonText(value));
   }
   Insertion settings(database, "setting", 3);
   int combination = 0;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "oca/diagrams/sweep/campaign_tree.h"
+#include "oca/framework/dataflow/json_text.h"
 
 namespace oca::sweep {
 namespace {
@@ -98,7 +99,7 @@ std::string SummaryJson(const Results& results, const Summary& summary) {
                                 {"why", failure.why},
                                 {"command", failure.command}});
   }
-  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace);
+  return oca::internal::JsonText(json, 2);
 }
 
 }  // namespace oca::sweep

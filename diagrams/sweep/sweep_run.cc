@@ -14,6 +14,7 @@
 
 #include "oca/diagrams/runs/run.h"
 #include "oca/diagrams/sweep/crash_guard.h"
+#include "oca/framework/dataflow/explain.h"
 
 namespace oca::sweep {
 namespace {
@@ -215,7 +216,7 @@ std::optional<SampleRow> RunSample(const Campaign& campaign, const loading::Blue
       row.error = fmt::format("took longer than {} s", *options.timeout);
     }
   } catch (const std::exception& error) {
-    row.error = error.what();
+    row.error = oca::internal::Explain(error);
   }
   return row;
 }
