@@ -9,6 +9,7 @@
 #include <array>
 #include <chrono>
 
+#include "oca/diagrams/live/client_request.h"
 #include "oca/diagrams/live/live_server_state.h"
 #include "oca/framework/dataflow/error.h"
 
@@ -17,22 +18,27 @@ namespace oca::live {
 inline constexpr std::size_t kLargestAnswers =
     256 * 1024;  // bytes of answers that wait for one client
 inline constexpr auto kTellAgainAfter = std::chrono::seconds(1);
+inline constexpr auto kHttpTimeout = std::chrono::seconds(10);
 
 /// One WebSocket client: what it subscribed to and what waits for it.
 class LiveServer::Server::Client : public std::enable_shared_from_this<Client> {
  public:
-  Client(Server& server, tcp::socket socket) : server_(server), stream_(std::move(socket)) {}
+  Client(Server& server, tcp::socket socket) : server_(server), stream_(std::move(socket)) {
+    ++server_.sockets_;
+  }
+  ~Client() { --server_.sockets_; }
 
   void Start(const http::request<http::string_body>& request) {
     auto timeout = websocket::stream_base::timeout::suggested(beast::role_type::server);
-    timeout.idle_timeout = std::chrono::seconds(60);
+    timeout.handshake_timeout = kHttpTimeout;
+    timeout.idle_timeout = std::chrono::seconds(60);  // pings are answered within, or it is gone
     stream_.set_option(timeout);
     stream_.read_message_max(kLargestRequest);
     stream_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
       response.set(http::field::sec_websocket_protocol, kProtocol);
     }));
     stream_.async_accept(request, [self = shared_from_this()](const Error& error) {
-      if (!error) self->Greet();
+      if (!error) self->Guarded([&self] { self->Greet(); });
     });
   }
 
@@ -70,6 +76,10 @@ class LiveServer::Server::Client : public std::enable_shared_from_this<Client> {
 
   void Forget() { subscriptions_.clear(); }
   bool watches() const { return watches_; }
+  /// Whether it ever said anything.
+  bool heard() const { return heard_; }
+  /// The number of its connection.
+  std::uint64_t number() const { return number_; }
   bool idle() const { return !writing_ && queue_.empty(); }
 
  private:
@@ -87,85 +97,101 @@ class LiveServer::Server::Client : public std::enable_shared_from_this<Client> {
   void Read() {
     stream_.async_read(buffer_, [self = shared_from_this()](const Error& error, std::size_t) {
       if (error) return self->Close();
-      self->Handle(beast::buffers_to_string(self->buffer_.data()), self->stream_.got_text());
-      self->buffer_.consume(self->buffer_.size());
-      if (!self->closed_) self->Read();
+      self->Guarded([&self] {
+        self->heard_ = true;
+        self->Handle(beast::buffers_to_string(self->buffer_.data()), self->stream_.got_text());
+        self->buffer_.consume(self->buffer_.size());
+        if (!self->closed_) self->Read();
+      });
     });
   }
 
+  /// Whatever goes wrong ends this connection and nothing else.
+  template <class Work>
+  void Guarded(const Work& work) {
+    try {
+      work();
+    } catch (const std::exception&) {
+      ++server_.faults_;
+      Close();
+    }
+  }
+
   void Handle(const std::string& text, bool is_text) {
+    using Kind = internal::ClientRequest::Kind;
     try {
       if (!is_text) throw ConfigError("binary messages are not expected");
-      const auto json = ordered_json::parse(text);
-      const std::string op = json.at("op").get<std::string>();
-      if (op == "subscribe") {
-        for (const auto& item : json.at("subscriptions")) Subscribe(item);
-      } else if (op == "unsubscribe") {
-        for (const auto& id : json.at("subscriptionIds")) {
-          std::erase_if(subscriptions_, [number = id.get<std::uint32_t>()](const auto& one) {
-            return one.second == number;
+      const auto request = internal::ReadRequest(text, server_.channels_.size());
+      switch (request.kind) {
+        case Kind::kSubscribe:
+          return Subscribe(request);
+        case Kind::kUnsubscribe:
+          std::erase_if(subscriptions_, [&request](const auto& one) {
+            return std::find(request.ids.begin(), request.ids.end(), one.second) !=
+                   request.ids.end();
           });
-        }
-      } else if (op == "getParameters") {
-        AnswerParameters(json);
-      } else if (op == "setParameters") {
-        ChangeParameters(json);
-      } else if (op == "subscribeParameterUpdates" || op == "unsubscribeParameterUpdates") {
-        watches_ = op == "subscribeParameterUpdates";
-      } else {
-        throw ConfigError("unknown op");
+          return;
+        case Kind::kGetParameters:
+          return AnswerParameters(request);
+        case Kind::kSetParameters:
+          return ChangeParameters(request);
+        default:
+          watches_ = request.kind == Kind::kWatchParameters;
       }
-    } catch (const std::exception& error) {
+    } catch (const ConfigError& error) {
       ++server_.malformed_;
       Tell(StatusLevel::kError, fmt::format("not understood: {:.200}", error.what()));
     }
   }
 
-  void Subscribe(const ordered_json& item) {
-    const auto id = item.at("id").get<std::uint32_t>();
-    const int channel = item.at("channelId").get<int>();
-    if (channel < 0 || static_cast<std::size_t>(channel) >= server_.channels_.size()) {
-      throw ConfigError("no such channel");
+  /// A channel has one subscription of a client, an id stands for one.
+  void Subscribe(const internal::ClientRequest& request) {
+    for (const auto& [id, channel] : request.subscriptions) {
+      for (const auto& [taken_by, taken] : subscriptions_) {
+        if (taken != id || taken_by == channel) continue;
+        throw ConfigError(fmt::format("id: got {}, that of a subscription; expected another", id));
+      }
     }
-    const bool fresh = subscriptions_.insert_or_assign(channel, id).second;
-    if (!fresh) return;
-    for (const SharedMessage& message : server_.kept_) {
-      if (message->channel == channel) Send(message);
+    for (const auto& one : request.subscriptions) {
+      if (!subscriptions_.insert_or_assign(one.channel, one.id).second) continue;
+      for (const SharedMessage& message : server_.kept_) {
+        if (message->channel == one.channel) Send(message);
+      }
     }
   }
 
-  void AnswerParameters(const ordered_json& json) {
-    const auto names = json.value("parameterNames", std::vector<std::string>{});
+  void AnswerParameters(const internal::ClientRequest& request) {
+    const auto& names = request.names;
     std::vector<LiveParameter> asked;
     for (LiveParameter& parameter : server_.Parameters()) {
       if (names.empty() || std::find(names.begin(), names.end(), parameter.name) != names.end()) {
         asked.push_back(std::move(parameter));
       }
     }
-    Send(ParameterValues(asked, json.value("id", ordered_json())));
+    Send(ParameterValues(asked, request.id));
   }
 
   /// Says what cannot be done; the answer has the values that count either way.
-  void ChangeParameters(const ordered_json& json) {
-    for (const auto& item : json.at("parameters")) {
+  void ChangeParameters(const internal::ClientRequest& request) {
+    for (const auto& [name, value] : request.values) {
       try {
-        server_.Change(item.at("name").get<std::string>(), item.at("value"));
-      } catch (const std::exception& error) {
+        server_.Change(name, value);
+      } catch (const ConfigError& error) {
         ++server_.malformed_;
         Tell(StatusLevel::kError, fmt::format("change refused: {:.200}", error.what()));
       }
     }
-    AnswerChange(json);
+    AnswerChange(request);
   }
 
   /// All that watch see the change, and the one that set it if it asked for an answer.
-  void AnswerChange(const ordered_json& json) {
+  void AnswerChange(const internal::ClientRequest& request) {
     const std::string values = ParameterValues(server_.Parameters(), {});
     const auto clients = server_.clients_;  // one that is closed leaves the set
     for (const auto& client : clients) {
       if (client->watches_ && client.get() != this) client->Send(values);
     }
-    if (json.contains("id")) Send(ParameterValues(server_.Parameters(), json["id"]));
+    if (!request.id.is_null()) Send(ParameterValues(server_.Parameters(), request.id));
   }
 
   void Tell(StatusLevel level, const std::string& text) { Send(StatusText(level, text)); }
@@ -186,9 +212,11 @@ class LiveServer::Server::Client : public std::enable_shared_from_this<Client> {
       self->queued_bytes_ -= self->current_.size();
       if (!self->current_.message) self->text_bytes_ -= self->current_.text.size();
       if (error) return self->Close();
-      self->ConfessDrops();
-      self->writing_ = false;
-      self->WriteNext();
+      self->Guarded([&self] {
+        self->ConfessDrops();
+        self->writing_ = false;
+        self->WriteNext();
+      });
     };
     stream_.binary(current_.message != nullptr);
     if (current_.message) {
@@ -218,7 +246,8 @@ class LiveServer::Server::Client : public std::enable_shared_from_this<Client> {
   std::size_t queued_bytes_{0}, text_bytes_{0}, greeting_bytes_{0};
   std::uint64_t dropped_{0}, confessed_{0};
   std::chrono::steady_clock::time_point last_confession_{};
-  bool writing_{false}, closed_{false}, watches_{false};
+  bool writing_{false}, closed_{false}, watches_{false}, heard_{false};
+  const std::uint64_t number_{++server_.greeted_};
 };
 
 }  // namespace oca::live

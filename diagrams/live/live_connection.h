@@ -6,21 +6,25 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <list>
 #include <tuple>
 
+#include "oca/diagrams/live/http_claims.h"
 #include "oca/diagrams/live/live_client.h"
 
 namespace oca::live {
-
-inline constexpr auto kHttpTimeout = std::chrono::seconds(10);
 
 /// One TCP connection until it is answered, or becomes a Client.
 class LiveServer::Server::Connection : public std::enable_shared_from_this<Connection> {
  public:
   Connection(Server& server, tcp::socket socket) : server_(server), stream_(std::move(socket)) {
-    ++server_.connections_;
+    ++server_.sockets_;
+    place_ = server_.waiting_.insert(server_.waiting_.end(), this);
   }
-  ~Connection() { --server_.connections_; }
+  ~Connection() {
+    --server_.sockets_;
+    server_.waiting_.erase(place_);
+  }
 
   void Start() {
     stream_.expires_after(kHttpTimeout);
@@ -31,10 +35,17 @@ class LiveServer::Server::Connection : public std::enable_shared_from_this<Conne
                      });
   }
 
+  /// Ends it, in favour of another.
+  void Drop() {
+    Error ignored;
+    stream_.socket().close(ignored);
+  }
+  bool open() const { return stream_.socket().is_open(); }
+
  private:
   void Answer() {
     const auto& request = parser_.get();
-    if (const auto refusal = server_.access_->Judge(ClaimsOf(request))) {
+    if (const auto refusal = server_.access_->Judge(internal::ClaimsOf(request, Reached()))) {
       server_.Forbid(refusal->why);
       refusal_ = fmt::format("Refused: {}.\n", refusal->why);
       return Reply(static_cast<http::status>(refusal->status), "text/plain", refusal_);
@@ -58,17 +69,10 @@ class LiveServer::Server::Connection : public std::enable_shared_from_this<Conne
     }
   }
 
-  Claims ClaimsOf(const http::request<http::string_body>& request) const {
-    const auto all = [&request](http::field name) {
-      std::vector<std::string> values;
-      const auto [begin, end] = request.equal_range(name);
-      for (auto field = begin; field != end; ++field) values.emplace_back(field->value());
-      return values;
-    };
+  /// The address of this machine that it came in by.
+  std::string Reached() const {
     Error ignored;
-    const auto reached = stream_.socket().local_endpoint(ignored).address();
-    return {all(http::field::host), all(http::field::origin), std::string(request.target()),
-            reached.to_string()};
+    return stream_.socket().local_endpoint(ignored).address().to_string();
   }
 
   /// `body` must outlive the connection.
@@ -102,6 +106,7 @@ class LiveServer::Server::Connection : public std::enable_shared_from_this<Conne
   inline static const std::string kNothingHere = "Nothing here; the page is at /.\n";
 
   Server& server_;
+  std::list<Connection*>::iterator place_;
   beast::tcp_stream stream_;
   beast::flat_buffer buffer_{kLargestRequest};
   http::request_parser<http::string_body> parser_;

@@ -46,7 +46,7 @@ LiveServer::Server::Server(LiveOptions options)
   }
   access_.emplace(AccessOptions{options_.address, port(), options_.origins, token_});
   Accept();
-  thread_ = std::jthread([this] { io_.run(); });
+  thread_ = std::jthread([this] { Serve(); });
 }
 
 LiveServer::Server::~Server() {
@@ -54,6 +54,18 @@ LiveServer::Server::~Server() {
   io_.stop();
   thread_.join();
   clients_.clear();
+}
+
+/// What a handler throws ends the connection that it served, and nothing else.
+void LiveServer::Server::Serve() {
+  while (true) {
+    try {
+      io_.run();
+      return;
+    } catch (...) {
+      ++faults_;
+    }
+  }
 }
 
 /// What was said last reaches whoever reads it soon: how the run ended.
@@ -71,11 +83,28 @@ void LiveServer::Server::Drain() {
   }
 }
 
+/// Whoever has not asked for anything, or not ended to ask, goes first; then clients that never said
+/// anything: none of them keeps others out.
+bool LiveServer::Server::MakeRoom() {
+  for (Connection* const waiting : waiting_) {
+    if (!waiting->open()) continue;
+    waiting->Drop();
+    return true;
+  }
+  std::shared_ptr<Client> silent;
+  for (const auto& client : clients_) {
+    const bool older = silent == nullptr || client->number() < silent->number();
+    if (!client->heard() && older) silent = client;
+  }
+  if (silent) silent->Close();
+  return silent != nullptr;
+}
+
 void LiveServer::Server::Accept() {
   acceptor_.async_accept([this](const Error& error, tcp::socket socket) {
     if (!acceptor_.is_open()) return;
     if (!error) {
-      if (connections_ + client_count_ < options_.max_clients) {
+      if (sockets_ < options_.max_clients || MakeRoom()) {
         Error ignored;
         socket.set_option(tcp::no_delay(true), ignored);
         std::make_shared<Connection>(*this, std::move(socket))->Start();
@@ -215,7 +244,7 @@ std::vector<LiveParameter> LiveServer::Server::TakeChanges() {
 }
 
 LiveStatistics LiveServer::Server::statistics() const {
-  return {client_count_, sent_, dropped_, refused_, forbidden_, malformed_};
+  return {client_count_, sent_, dropped_, refused_, forbidden_, malformed_, faults_};
 }
 
 LiveServer::LiveServer(LiveOptions options)

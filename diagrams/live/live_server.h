@@ -26,8 +26,8 @@ struct LiveOptions {
   std::string page{};                ///< HTML, served at `/`
   std::string record{};              ///< MCAP, served at `/record.mcap` unless empty
   std::size_t queue_bytes{std::size_t{4} << 20};  ///< of messages that wait for one client
-  int max_clients{64};                            ///< connections at a time
-  std::vector<std::string> origins{};             ///< of other pages that may connect, see Access
+  int max_clients{64};  ///< connections at a time; one that is silent goes for a new one
+  std::vector<std::string> origins{};  ///< of other pages that may connect, see Access
   /// Told why a request was refused, each reason once and some only; on the server's own thread.
   std::function<void(const std::string& why)> forbidden{};
 };
@@ -38,9 +38,10 @@ struct LiveStatistics {
   int clients{0};              ///< WebSocket clients now
   std::uint64_t sent{0};       ///< messages to all clients
   std::uint64_t dropped{0};    ///< messages that a slow client, or all of them, did not get
-  std::uint64_t refused{0};    ///< connections beyond max_clients
+  std::uint64_t refused{0};    ///< connections beyond max_clients, all of them in use
   std::uint64_t forbidden{0};  ///< requests that Access refused
   std::uint64_t malformed{0};  ///< client messages that made no sense
+  std::uint64_t faults{0};     ///< connections that ended since something went wrong here
 };
 
 /// Shows a run while it goes on: the page over HTTP and the messages over foxglove.websocket.v1, on
@@ -48,6 +49,10 @@ struct LiveStatistics {
 ///
 /// Write never waits: what a slow client cannot take is dropped, counted, and told to it. Messages
 /// on /scene/robots and /scene/obstacles are kept for clients that come later.
+///
+/// At most max_clients connections are open. A new one takes the place of the oldest that has not
+/// asked for anything within 10 s at most, else of the oldest client that never said anything; else
+/// it is refused. An exception on the server's thread ends the connection that it is about.
 ///
 /// Access decides who is answered. On an address that others reach, a request needs the token that
 /// stands in url(). Its session is one that no other server has, so that clients see a new run.

@@ -13,6 +13,7 @@
 #include <boost/beast/websocket.hpp>
 #include <cstdint>
 #include <deque>
+#include <list>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -79,6 +80,8 @@ class LiveServer::Server {
   // On the server's own thread.
   void Drain();
   void Accept();
+  bool MakeRoom();
+  void Serve();
   void Publish(const SharedMessage& message);
   void ToAll(const std::string& text);
   void TellAbout();
@@ -91,8 +94,9 @@ class LiveServer::Server {
   const std::string run_{RandomToken()};
   const std::string token_;  ///< empty: none is needed
   std::optional<Access> access_;
-  std::set<std::string> told_;  ///< why requests were refused
-  int connections_{0};          // outlives the handlers that io_ holds
+  std::set<std::string> told_;      ///< why requests were refused
+  int sockets_{0};                  // outlives, as the next, the handlers that io_ holds
+  std::list<Connection*> waiting_;  ///< those that are no clients yet, the oldest first
   asio::io_context io_;
   tcp::acceptor acceptor_{io_};
   asio::steady_timer pause_{io_};
@@ -101,11 +105,13 @@ class LiveServer::Server {
   std::deque<SharedMessage> kept_;
   std::map<std::string, std::string> about_, told_about_;
   int session_{0};
+  std::uint64_t greeted_{0};
 
   std::atomic<int> posts_{0};
   std::atomic<std::size_t> posted_bytes_{0};
   std::atomic<int> client_count_{0};
-  std::atomic<std::uint64_t> sent_{0}, dropped_{0}, refused_{0}, forbidden_{0}, malformed_{0};
+  std::atomic<std::uint64_t> sent_{0}, dropped_{0}, refused_{0}, forbidden_{0}, malformed_{0},
+      faults_{0};
   std::vector<char> keep_;  ///< by channel; of the writing thread
   mutable std::mutex mutex_;
   std::vector<LiveParameter> parameters_, changes_;  ///< under mutex_

@@ -3,14 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <string>
-#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -20,6 +15,7 @@
 #include "oca/diagrams/record/extracted_record.h"
 #include "oca/diagrams/record/page.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/models/file_bytes.h"
 #include "tools/simulator/interrupt.h"
 #include "tools/simulator/terminal.h"
 
@@ -45,13 +41,10 @@ void SayWhere(const std::string& what, const live::LiveServer& server, const std
 void SayForbidden(const std::string& why) { Tell("warning: a request was refused: {}\n", why); }
 
 std::string RecordBytes(const std::string& file) {
-  constexpr std::string_view kMagic("\x89MCAP", 5);
-  std::ifstream stream(file, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream || !bytes.starts_with(kMagic)) {
+  if (!record::IsRecord(file)) {
     throw ConfigError(fmt::format("view: file; got {}; expected a record (.mcap)", file));
   }
-  return bytes;
+  return models::ReadUnnoted(file, std::uintmax_t{4} << 30);
 }
 
 live::LiveOptions ServerOptions(const RunArguments& arguments) {
@@ -68,9 +61,6 @@ live::LiveOptions ServerOptions(const RunArguments& arguments) {
   options.forbidden = SayForbidden;
   return options;
 }
-
-std::atomic<bool> ended{false};
-void End(int) { ended = true; }
 
 }  // namespace
 
@@ -106,7 +96,7 @@ int RunLiveCommand(const RunArguments& arguments, const std::vector<files::Overr
   if (statistics.dropped > 0) {
     Tell("warning: {} messages left out for clients that were too slow\n", statistics.dropped);
   }
-  if (!result.run.failure) return kFine;
+  if (!result.run.failure) return result.run.interrupted ? kInterrupted : kFine;
   Tell("error: {}\n", result.run.failure->message);
   return kRunFailed;
 }
@@ -119,12 +109,11 @@ int ViewCommand(const ViewArguments& arguments) {
   options.page = record::PageWithSource(record::LoadPage(), "record.mcap");
   options.forbidden = SayForbidden;
   const live::LiveServer server(options);
-  std::signal(SIGINT, End);
-  std::signal(SIGTERM, End);
+  CatchInterrupts();
   SayWhere(arguments.file + ", in a browser; Ctrl-C ends it", server, arguments.address,
            "read the record");
-  while (!ended) std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  return kFine;
+  while (!Interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  return kInterrupted;
 }
 
 }  // namespace oca::tools

@@ -8,9 +8,12 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/core.hpp>
 #include <chrono>
+#include <deque>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "oca/diagrams/live/live_server.h"
 #include "tests/diagrams/live/server_bench.h"
@@ -23,6 +26,7 @@ using server_bench::AnyPort;
 using server_bench::Eventually;
 using server_bench::kChannels;
 using testing::HasSubstr;
+using testing::Not;
 using namespace std::chrono_literals;
 
 TEST(LiveServerClientsTest, OutlivesGarbage) {
@@ -138,6 +142,104 @@ TEST(LiveServerClientsTest, RefusesMoreConnectionsThanItWants) {
   EXPECT_TRUE(Eventually([&] { return server.statistics().clients == 1; }));
   Client three(server.port());
   three.Settle();
+}
+
+TEST(LiveServerClientsTest, IdleSocketsKeepNobodyOut) {
+  LiveOptions options = AnyPort();
+  options.max_clients = 4;
+  LiveServer server(options);
+  asio::io_context io;
+  std::vector<tcp::socket> idle;
+  for (int i = 0; i < 8; ++i) {
+    idle.push_back(Connect(io, server.port()));
+    if (i % 2 == 0) asio::write(idle.back(), asio::buffer("GET / HTTP/1.1\r\nHo", 18));
+  }
+  Client client(server.port());
+  client.Settle();
+  for (int i = 0; i < 8; ++i) idle.push_back(Connect(io, server.port()));
+  client.Settle();  // what is in use stays
+  EXPECT_EQ(server.statistics().refused, 0u);
+}
+
+TEST(LiveServerClientsTest, ClientsThatNeverSayAnythingKeepNobodyOut) {
+  LiveOptions options = AnyPort();
+  options.max_clients = 3;
+  LiveServer server(options);
+  Client busy(server.port());
+  busy.Settle();
+  std::deque<Client> silent;
+  for (int i = 0; i < 5; ++i) silent.emplace_back(server.port()).ReadOp("serverInfo");
+  Client another(server.port());
+  another.Settle();
+  busy.Settle();
+  EXPECT_THROW(for (;;) silent.front().Read(), boost::system::system_error);
+  EXPECT_EQ(server.statistics().refused, 0u);
+}
+
+TEST(LiveServerClientsTest, TakesIdsThatAreOnesAndEachOnce) {
+  LiveServer server(AnyPort());
+  server.Begin(kChannels);
+  Client client(server.port());
+  client.ReadOp("advertise");
+  for (const char* const bad :
+       {R"({"id": -1, "channelId": 0})", R"({"id": 4294967296, "channelId": 0})",
+        R"({"id": 1e30, "channelId": 0})", R"({"id": 1.5, "channelId": 0})",
+        R"({"id": "1", "channelId": 0})", R"({"channelId": 0})", R"({"id": 1, "channelId": 3})",
+        R"({"id": 1, "channelId": -1})", R"({"id": 1, "channelId": 4294967296})",
+        R"({"id": 1, "channelId": 0.5})", R"({"id": 1, "channelId": 0}, {"id": 1, "channelId": 1})",
+        "7", "null"}) {
+    client.Send(std::string(R"({"op": "subscribe", "subscriptions": [)") + bad + "]}");
+    const json status = client.ReadOp("status");
+    EXPECT_EQ(status["level"], 2) << bad;
+    EXPECT_THAT(status["message"].get<std::string>(), HasSubstr("; expected")) << bad;
+  }
+  client.Subscribe(0, 1);
+  client.Subscribe(0, 1);
+  client.Subscribe(2, 1);  // the id of the other
+  EXPECT_THAT(client.ReadOp("status")["message"].get<std::string>(), HasSubstr("got 1"));
+  client.Send(R"({"op": "unsubscribe", "subscriptionIds": [-1]})");
+  EXPECT_EQ(client.ReadOp("status")["level"], 2);
+  client.Subscribe(2, 4294967295);
+  client.Settle();
+  server.Write(0, {"{}", 1});
+  server.Write(2, {R"({"a1": 1})", 1});
+  EXPECT_THAT(client.Read(), HasSubstr("{}"));
+  EXPECT_THAT(client.Read(), HasSubstr("\xFF\xFF\xFF\xFF"));
+}
+
+TEST(LiveServerClientsTest, SaysInItsOwnWordsWhatItDoesNotUnderstand) {
+  LiveServer server(AnyPort());
+  Client client(server.port());
+  const std::string deep = std::string(30000, '[') + std::string(30000, ']');
+  for (const std::string& bad :
+       {std::string("{"), std::string("7"), std::string(R"({"op": 7})"),
+        std::string(R"({"op": "getParameters", "parameterNames": [7]})"),
+        R"({"op": "getParameters", "id": )" + deep + "}", R"({"op": "dance"})" + std::string(),
+        std::string("{\"op\": \"\xE9\"}")}) {
+    client.Send(bad);
+    const std::string what = client.ReadOp("status")["message"].get<std::string>();
+    EXPECT_THAT(what, HasSubstr("; expected")) << bad.substr(0, 60);
+    EXPECT_THAT(what, Not(HasSubstr("exception"))) << bad.substr(0, 60);
+  }
+}
+
+TEST(LiveServerClientsTest, AnExceptionOnItsThreadEndsTheConnectionAlone) {
+  LiveOptions options = AnyPort();
+  options.forbidden = [](const std::string&) { throw std::runtime_error("not mine"); };
+  LiveServer server(options);
+  Client before(server.port());
+  before.Settle();
+  asio::io_context io;
+  tcp::socket foreign = Connect(io, server.port());
+  asio::write(foreign, asio::buffer(std::string("GET / HTTP/1.1\r\nHost: evil.example\r\n\r\n")));
+  char byte = 0;
+  beast::error_code error;
+  asio::read(foreign, asio::buffer(&byte, 1), error);
+  EXPECT_TRUE(error);
+  EXPECT_EQ(server.statistics().faults, 1u);
+  before.Settle();
+  Client after(server.port());
+  after.Settle();
 }
 
 }  // namespace live_server_clients_test

@@ -60,7 +60,7 @@ class Client {
     stream_.binary(true);
     stream_.write(asio::buffer(bytes));
   }
-  void Subscribe(int channel, int id) {
+  void Subscribe(int channel, std::uint32_t id) {
     Send(json{{"op", "subscribe"}, {"subscriptions", {{{"id", id}, {"channelId", channel}}}}}
              .dump());
   }
