@@ -6,14 +6,16 @@
 
 namespace oca::test {
 
-/// A reader of bytes that anyone may have written. It may refuse them by the errors that it
-/// documents; anything else that leaves it, and whatever a sanitizer finds, is a fault.
+/// A reader of bytes that anyone may have written. It may refuse them by an exception of ours,
+/// which says why; anything else that leaves it, and whatever a sanitizer finds, is a fault.
 struct Reader {
+  enum class Kind { kBinary, kText };
   const char* name;
+  Kind kind;  ///< of text fewer inputs tell something new, and take longer
   bool (*read)(std::string_view bytes);  ///< whether it accepted them
 };
 
-/// All of them, by name.
+/// All of them.
 std::span<const Reader> Readers();
 
 }  // namespace oca::test
