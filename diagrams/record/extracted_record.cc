@@ -13,6 +13,7 @@
 #include "oca/diagrams/files/yaml_reader.h"
 #include "oca/diagrams/record/file_collector.h"
 #include "oca/diagrams/record/mcap_bytes.h"
+#include "oca/diagrams/record/temporary_name.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/file_bytes.h"
 #include "oca/models/foreign_text.h"
@@ -141,7 +142,7 @@ void ExtractFiles(const McapFile& record, const fs::path& folder) {
 }
 
 ExtractedRecord::ExtractedRecord(const McapFile& record) {
-  std::string name = (fs::temp_directory_path() / "oca_record_XXXXXX").string();
+  std::string name = internal::TemporaryName("oca_record");
   if (mkdtemp(name.data()) == nullptr) {
     throw ConfigError(fmt::format("{}: cannot be made", name));
   }

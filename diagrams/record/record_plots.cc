@@ -13,6 +13,7 @@
 
 #include "oca/diagrams/record/mcap_reader.h"
 #include "oca/diagrams/record/series.h"
+#include "oca/diagrams/record/temporary_name.h"
 #include "oca/framework/dataflow/error.h"
 
 namespace oca::record {
@@ -43,7 +44,7 @@ void WriteText(const fs::path& file, const std::string& text) {
 
 /// librsvg's rsvg-convert makes the pixels, two a unit.
 void WritePng(const fs::path& file, const std::string& svg) {
-  std::string drawing = (fs::temp_directory_path() / "oca_plot_XXXXXX").string();
+  std::string drawing = internal::TemporaryName("oca_plot");
   const int descriptor = mkstemp(drawing.data());
   if (descriptor < 0) throw ConfigError(fmt::format("{}: cannot be made", drawing));
   close(descriptor);

@@ -59,7 +59,7 @@ void PrepareTerminal() {
     // The least number that is free, hence this one; opened the wrong way round.
     open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
   }
-  std::signal(SIGPIPE, SIG_IGN);
+  for (const int failure_of_a_write : {SIGPIPE, SIGXFSZ}) std::signal(failure_of_a_write, SIG_IGN);
 }
 
 void WriteError(std::string_view text) {

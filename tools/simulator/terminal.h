@@ -11,8 +11,8 @@
 namespace oca::tools {
 
 /// To be called first. Standard streams that are closed get a descriptor that cannot be used, lest
-/// a file of ours takes its number and gets our messages; a closed pipe is an error of the write,
-/// not the end of the program.
+/// a file of ours takes its number and gets our messages; a closed pipe, or a file at its limit,
+/// is an error of the write, not the end of the program.
 void PrepareTerminal();
 
 /// Write to standard error and to standard output. None fails, so that a run goes on and its record

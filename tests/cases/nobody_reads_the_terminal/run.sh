@@ -14,3 +14,6 @@ s=0; $run --record e.mcap --json >&- 2>&- <&- || s=$?; expect 1 $s 'all closed';
 s=0; { $run --record f.mcap --json 2> err || echo $? > status; } | true; expect 1 "$(cat status)" 'a pipe'; whole f.mcap 'a pipe'
 s=0; "$SIMULATOR" frobnicate 2>&- || s=$?; expect 64 $s usage
 s=0; "$SIMULATOR" run none.yaml 2> /dev/full || s=$?; expect 2 $s 'no file'
+# A file that may grow no more, and no folder for temporary files, are told like any mistake.
+s=0; (ulimit -f 1; $run --record g.mcap > out 2> err) || s=$?; expect 1 $s 'a file at its limit'; grep -q 'g.mcap: could not be written' err
+s=0; TMPDIR=$PWD/none "$SIMULATOR" run a.mcap 2> err || s=$?; expect 2 $s 'no temporary folder'; grep -q '^TMPDIR: got .*/none; expected' err
