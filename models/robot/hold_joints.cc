@@ -227,8 +227,8 @@ class Holder {
     if (moving.empty()) {
       throw models::ModelError(
           fmt::format("group: got '{}', of which no joint moves; expected a group of joints to "
-                      "move: {}",
-                      held_.group, OneOf(NamesOf(srdf_.groups), held_.group)));
+                      "move, of {}",
+                      held_.group, fmt::join(NamesOf(srdf_.groups), ", ")));
     }
     for (int column = 0; column < robot_.num_positions(); ++column) {
       if (moving.contains(column) || At(column)) continue;

@@ -96,24 +96,18 @@ class UrdfReader {
                                 joint.name, joint.mimic));
     }
     if (!softened_.empty()) {
-      options_.warn(
-          fmt::format("joints whose soft limits, of their safety_controller, are the limits "
-                      "that count: {}",
-                      fmt::join(softened_, ", ")));
+      options_.warn(fmt::format(
+          "joint{} '{}': soft limits of a safety_controller, narrower than <limit>, are "
+          "not looked at; joint_limits can narrow the range",
+          softened_.size() > 1 ? "s" : "", fmt::join(softened_, "', '")));
     }
     for (const std::string& line : LimitWarnings(model)) options_.warn(line);
   }
 
-  /// A controller that slows down at soft limits never lets the joint go beyond. Two that are equal
-  /// are none, as they are 0 where they are left out.
-  void NarrowToSoftLimits(const urdf::JointSafety& soft, Joint& joint) {
-    const double lower = std::max(joint.lower_limit, soft.soft_lower_limit);
-    const double upper = std::min(joint.upper_limit, soft.soft_upper_limit);
-    const bool narrower = lower > joint.lower_limit || upper < joint.upper_limit;
-    if (joint.type == JointType::kContinuous || !narrower || !(lower < upper)) return;
-    joint.lower_limit = lower;
-    joint.upper_limit = upper;
-    softened_.push_back(fmt::format("'{}' [{:.9g}, {:.9g}]", joint.name.text(), lower, upper));
+  /// Two soft limits that are equal are none, as they are 0 where they are left out.
+  static bool SlowsDownWithin(const urdf::JointSafety& soft, const Joint& joint) {
+    return joint.type != JointType::kContinuous && soft.soft_lower_limit < soft.soft_upper_limit &&
+           (soft.soft_lower_limit > joint.lower_limit || soft.soft_upper_limit < joint.upper_limit);
   }
 
   Joint ReadJoint(std::size_t index) {
@@ -138,7 +132,9 @@ class UrdfReader {
         joint.upper_limit = from.limits->upper;
       }
     }
-    if (from.safety != nullptr && entry.mimic.empty()) NarrowToSoftLimits(*from.safety, joint);
+    if (from.safety != nullptr && SlowsDownWithin(*from.safety, joint)) {
+      softened_.push_back(joint.name.text());
+    }
     joint.acceleration_limit = entry.acceleration.value_or(kUnlimited);
     joint.jerk_limit = entry.jerk.value_or(kUnlimited);
     if (!entry.mimic.empty()) {
