@@ -82,7 +82,7 @@ TEST_F(OwnLinksCheckTest, AnArmThatStandsNearItselfByDesignArrivesClear) {
        {"report", "report_limited", "relaxed", "velocity_aware", "vortex", "task_priority",
         "flacco", "safety_filter", "recommended"}) {
     const auto loaded = Load(0.005, {{"parameters.avoidance", method}});
-    const RunResult result = Run(loaded, {});
+    const RunResult result = runs::Run(loaded, {});
     ASSERT_TRUE(result.metrics.has_value()) << method;
     EXPECT_LT(result.metrics->final_error.value_or(1.0), 0.01) << method;
     EXPECT_NEAR(result.metrics->min_distance.value_or(0.0), 0.005, 1e-6) << method;
