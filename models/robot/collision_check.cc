@@ -118,14 +118,15 @@ void RequireFinite(const RobotModel& model, const LinkPairCheck& pair) {
 }
 
 PairKind KindOf(const LinkPairCheck& pair, const CollisionSampling& sampling) {
-  if (pair.collisions == sampling.samples) return PairKind::kAlways;
+  if (pair.collisions >= kAlwaysShare * sampling.samples) return PairKind::kAlways;
+  if (pair.at_zero) return PairKind::kDefault;
   return pair.least_distance > sampling.margin ? PairKind::kNever : PairKind::kSometimes;
 }
 
 }  // namespace
 
 std::string_view ToString(PairKind kind) {
-  constexpr std::string_view kNames[] = {"Adjacent", "Always", "Never", "Sometimes"};
+  constexpr std::string_view kNames[] = {"Adjacent", "Always", "Default", "Never", "Sometimes"};
   return kNames[static_cast<int>(kind)];
 }
 
@@ -155,7 +156,9 @@ std::vector<LinkPairCheck> CheckCollisions(const RobotModel& model,
           DistanceWithin(solids[pair.link_a], X_WL[pair.link_a], solids[pair.link_b],
                          X_WL[pair.link_b], pair.least_distance);
       pair.least_distance = std::min(pair.least_distance, distance);
-      if (distance <= 0.0) ++pair.collisions;
+      if (distance > 0.0) continue;
+      ++pair.collisions;
+      pair.at_zero |= sample == 0;
     }
   }
   for (LinkPairCheck& pair : pairs) {

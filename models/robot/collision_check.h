@@ -9,14 +9,18 @@
 
 namespace oca::robot {
 
-/// Why a pair of links need not be checked for collision, or that it must be.
+/// Why a pair of links need not be checked for collision, or that it must be; the first that holds.
+/// source MoveIt Setup Assistant, compute_default_collisions.cpp, whose shares and reasons they are;
+///        there what always collides counts as kDefault
 enum class PairKind {
   kAdjacent,  ///< see RobotModel::adjacent
-  kAlways,    ///< in collision at every sample: their solids overlap by design
+  kAlways,    ///< in collision at kAlwaysShare of the samples or more: by design
+  kDefault,   ///< in collision at the posture 0, where an arm stands first: taken for by design
   kNever,     ///< no sample came nearer than the margin
   kSometimes  ///< must be checked
 };
-/// As SRDF files write it: "Adjacent", "Always", "Never", "Sometimes".
+inline constexpr double kAlwaysShare = 0.95;
+/// As SRDF files write it: "Adjacent", "Always", "Default", "Never", "Sometimes".
 std::string_view ToString(PairKind kind);
 
 struct CollisionSampling {
@@ -32,6 +36,7 @@ struct LinkPairCheck {
   PairKind kind{PairKind::kSometimes};
   double least_distance{0.0};  // m, signed, over all samples
   int collisions{0};           // samples with distance <= 0
+  bool at_zero{false};         // whether the posture 0 is one of them
 };
 
 /// Looks at every pair of links with solids, adjacent ones too, at the posture 0 (or what is

@@ -28,7 +28,7 @@ const TiXmlElement& CheckedRoot(const TiXmlDocument& document, const std::string
 }
 
 bool Computed(const std::string& reason) {
-  return reason == "Adjacent" || reason == "Always" || reason == "Never";
+  return reason == "Adjacent" || reason == "Always" || reason == "Default" || reason == "Never";
 }
 
 std::string TextOf(const TiXmlElement& element, const char* attribute) {

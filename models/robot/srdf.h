@@ -34,7 +34,7 @@ struct DisabledPair {
 };
 
 /// Writes an SRDF file that disables `pairs`, in their order. Of a file that exists the pairs with
-/// the reasons Adjacent, Always and Never are replaced, and all else is kept: groups, states,
+/// the reasons Adjacent, Always, Default and Never are replaced, and all else is kept: groups, states,
 /// comments, and pairs that a person disabled for a reason of his own. The new file replaces the
 /// old one at once or not at all.
 /// throws ModelError if the file exists and is no SRDF of the robot `robot` (a URDF, say), or

@@ -30,6 +30,21 @@ const std::string& NameOf(const robot::RobotModel& model, int link) {
   return model.links()[link].name.text();
 }
 
+/// Names the pairs that the posture 0 has in contact, which a person should look at; empty if none.
+std::string InContactAtZero(const robot::RobotModel& model,
+                            const std::vector<LinkPairCheck>& pairs) {
+  std::vector<std::string> names;
+  for (const LinkPairCheck& pair : pairs) {
+    if (pair.kind != PairKind::kDefault) continue;
+    names.push_back(NameOf(model, pair.link_a) + " " + NameOf(model, pair.link_b));
+  }
+  if (names.empty()) return "";
+  return fmt::format(
+      "  in collision at the zero posture: {}; taken for by design (Default) and disabled: enable "
+      "by hand what is not\n",
+      fmt::join(names, ", "));
+}
+
 std::string Table(const robot::RobotModel& model, const std::vector<LinkPairCheck>& pairs,
                   const robot::CollisionSampling& sampling) {
   std::size_t width = 4;
@@ -48,9 +63,10 @@ std::string Table(const robot::RobotModel& model, const std::vector<LinkPairChec
                         width, NameOf(model, pair.link_b), width, robot::ToString(pair.kind),
                         pair.least_distance, pair.collisions);
   }
-  return text + fmt::format("  to check: {}; not: {} adjacent, {} always, {} never in collision\n",
-                            counts[PairKind::kSometimes], counts[PairKind::kAdjacent],
-                            counts[PairKind::kAlways], counts[PairKind::kNever]);
+  text += fmt::format("  to check: {}; not: {} adjacent, {} always, {} never in collision\n",
+                      counts[PairKind::kSometimes], counts[PairKind::kAdjacent],
+                      counts[PairKind::kAlways], counts[PairKind::kNever]);
+  return text + InContactAtZero(model, pairs);
 }
 
 ordered_json ToJson(const robot::RobotModel& model, const std::vector<LinkPairCheck>& pairs,
@@ -73,7 +89,8 @@ ordered_json ToJson(const robot::RobotModel& model, const std::vector<LinkPairCh
 std::vector<robot::DisabledPair> DisabledPairs(const robot::RobotModel& model,
                                                const std::vector<LinkPairCheck>& pairs) {
   std::vector<robot::DisabledPair> disabled;
-  for (const PairKind kind : {PairKind::kAdjacent, PairKind::kAlways, PairKind::kNever}) {
+  for (const PairKind kind :
+       {PairKind::kAdjacent, PairKind::kAlways, PairKind::kDefault, PairKind::kNever}) {
     for (const LinkPairCheck& pair : pairs) {
       if (pair.kind != kind) continue;
       disabled.push_back({NameOf(model, pair.link_a), NameOf(model, pair.link_b),

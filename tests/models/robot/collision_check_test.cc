@@ -106,6 +106,48 @@ TEST(CollisionCheckTest, SolidsThatNeverPartAreAlwaysInCollision) {
   EXPECT_EQ(pairs[1].collisions, 100);
 }
 
+/// The far ball 1 m before the mast's at 0, in contact with it from x = -1.2 to -0.8; the near one
+/// far above.
+RobotModel Passing(double low, double high) {
+  const RobotModel model = Slides(low, high);
+  std::vector<Link> links = model.links();
+  links[1].collisions[0].X_LC.translation().z() = 5.0;
+  links[2].collisions[0].X_LC.translation().x() = 1.0;
+  std::vector<Joint> joints = model.joints();
+  joints[1].lower_limit = joints[1].upper_limit = 0.0;
+  return RobotModel(models::Name("passing"), std::move(links), std::move(joints));
+}
+
+LinkPairCheck MastAndFar(double low, double high, int samples) {
+  for (const auto& pair : CheckCollisions(Passing(low, high), {.samples = samples})) {
+    if (pair.link_a == 0 && pair.link_b == 2) return pair;
+  }
+  return {};
+}
+
+TEST(CollisionCheckTest, WhatTheZeroPostureHasInContactIsByDesign) {
+  // Limits that have -1.1, in contact, nearest to 0, and -0.7, clear of it.
+  const LinkPairCheck touching = MastAndFar(-3.0, -1.1, 400);
+  EXPECT_TRUE(touching.at_zero);
+  EXPECT_GT(touching.collisions, 0);
+  EXPECT_LT(touching.collisions, 380);
+  EXPECT_EQ(touching.kind, PairKind::kDefault);
+  const LinkPairCheck clear = MastAndFar(-3.0, -0.7, 400);
+  EXPECT_FALSE(clear.at_zero);
+  EXPECT_GT(clear.collisions, 0);
+  EXPECT_EQ(clear.kind, PairKind::kSometimes);
+}
+
+// An eighth of the draws lies on either limit.
+TEST(CollisionCheckTest, AlwaysMeansNearlyAlways) {
+  const LinkPairCheck all = MastAndFar(-1.15, -0.85, 400);
+  EXPECT_EQ(all.collisions, 400);
+  EXPECT_EQ(all.kind, PairKind::kAlways);
+  const LinkPairCheck most = MastAndFar(-1.21, -0.85, 400);
+  EXPECT_LT(most.collisions, 380) << "an eighth stands at -1.21";
+  EXPECT_EQ(most.kind, PairKind::kDefault);
+}
+
 TEST(CollisionCheckTest, ASeedGivesTheSameAnswerTwiceAndAnotherSeedAnotherOne) {
   const RobotModel model = LoadUrdf(ProductFile("robots/lwr4/lwr4.urdf"));
   const auto least = [&](std::uint64_t seed) {
