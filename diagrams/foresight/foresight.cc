@@ -201,6 +201,9 @@ planning::ClairvoyantTask Foresight::Task() const {
   task.start = start_;
   task.bodies = bodies_;
   task.self_collision = distances_->own_links;
+  if (task.self_collision) {
+    task.own = robot::OwnRangesAlong(model_, request_.get(), distances_->self_distance);
+  }
   task.ignored = ignored_;
   return task;
 }

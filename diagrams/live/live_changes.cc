@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "oca/diagrams/record/run_metadata.h"
-#include "oca/diagrams/runs/chatter_check.h"
+#include "oca/diagrams/runs/run_warnings.h"
 #include "oca/framework/dataflow/port_access.h"
 
 namespace oca::live {
@@ -35,7 +35,7 @@ LiveChanges::LiveChanges(const LiveRunOptions& options, LiveServer& server)
       blueprint_(options.file, options.catalogue),
       overrides_(options.overrides) {
   LoadedDiagram loaded = blueprint_.Build(overrides_, {.movable = true});
-  runs::AddChatterWarnings(loaded);
+  runs::AddRunWarnings(loaded);
   for (const std::string& warning : loaded.warnings) Warn(warning);
   told_ = loaded.warnings;
   loaded_ = judged_ = std::make_shared<const LoadedDiagram>(std::move(loaded));
@@ -82,7 +82,7 @@ void LiveChanges::BeginJudging() {
   judged_ = loaded_;
   judgement_ = std::async(std::launch::async, [loaded = judged_] {
     std::vector<std::string> warnings = loaded->warnings;
-    for (std::string& one : runs::ChatterWarnings(*loaded)) warnings.push_back(std::move(one));
+    for (std::string& one : runs::RunWarnings(*loaded)) warnings.push_back(std::move(one));
     return warnings;
   });
 }

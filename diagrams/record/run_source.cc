@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "oca/diagrams/record/run_metadata.h"
-#include "oca/diagrams/runs/chatter_check.h"
+#include "oca/diagrams/runs/run_warnings.h"
 
 namespace oca::record {
 namespace {
@@ -25,7 +25,7 @@ std::vector<std::string> AllWarnings(const McapFile& record, const std::string& 
                                      const loading::LoadedDiagram& loaded) {
   const bool own = changed || record.FindMetadata("oca.warnings") == nullptr;
   std::vector<std::string> warnings = own ? loaded.warnings : WarningsOf(record);
-  for (const std::string& found : runs::ChatterWarnings(loaded)) {
+  for (const std::string& found : runs::RunWarnings(loaded)) {
     const bool told = std::any_of(warnings.begin(), warnings.end(), [&](const auto& other) {
       return WithoutPlace(other) == WithoutPlace(found);
     });
@@ -45,7 +45,7 @@ RunSource::RunSource(const std::filesystem::path& file,
                      const files::Catalogue& catalogue) {
   if (!IsRecord(file)) {
     loaded_ = loading::LoadDiagram(file, overrides, catalogue);
-    runs::AddChatterWarnings(loaded_);
+    runs::AddRunWarnings(loaded_);
     return;
   }
   const auto record = McapFile::Read(file);

@@ -293,10 +293,4 @@ std::vector<std::string> ChatterWarnings(const loading::LoadedDiagram& loaded) {
   return warnings;
 }
 
-void AddChatterWarnings(loading::LoadedDiagram& loaded) {
-  for (std::string& warning : ChatterWarnings(loaded)) {
-    loaded.warnings.push_back(std::move(warning));
-  }
-}
-
 }  // namespace oca::runs

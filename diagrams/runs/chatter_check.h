@@ -20,7 +20,5 @@ namespace oca::runs {
 /// stable. What adapts to its gain and what is not `enabled` gives no warning; neither
 /// does a loop of other make.
 std::vector<std::string> ChatterWarnings(const loading::LoadedDiagram& loaded);
-/// Puts them beside those of the file, where whoever runs, records or shows it finds all.
-void AddChatterWarnings(loading::LoadedDiagram& loaded);
 
 }  // namespace oca::runs

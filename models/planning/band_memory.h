@@ -19,6 +19,7 @@ struct BandMemory {
   BandCurve next{};                                     ///< from then on; empty: held goes on
   double change{0.0};                                   ///< s
   std::shared_ptr<const motion::Trajectory> request{};  ///< that next was made for
+  robot::OwnRanges own{};                               ///< of that request
   std::vector<geometry::Obstacle> seen{};
   double seen_at{0.0};     ///< s
   double sure_from{0.0};   ///< s; from then on the bands were made for what is seen
@@ -32,9 +33,10 @@ struct BandMemory {
   std::uint64_t plans{0};  ///< that were made so far
   BandStart start{BandStart::kRequest};
   bool clear{true};
-  bool stuck{false};    ///< no progress to the goal for stuck_time; link and obstacle say why
-  double nearest{0.0};  ///< m; the least distance foreseen, or the margin
-  models::Name link{};  ///< the pair, empty if it is the margin
+  bool stuck{false};     ///< no progress to the goal for stuck_time; link and obstacle say why
+  double nearest{0.0};   ///< m; the least distance foreseen, as it counts, or the margin
+  double distance{0.0};  ///< m; the same as it is
+  models::Name link{};   ///< the pair, empty if it is the margin
   models::Name obstacle{};
   double time{0.0};  ///< s; of the nearest
   double cost{0.0};

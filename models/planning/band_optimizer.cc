@@ -32,11 +32,13 @@ bool Moves(std::span<const BandBody> bodies) {
 }
 
 BandOptimizer::BandOptimizer(std::shared_ptr<const robot::RobotModel> model,
-                             const BandSettings& settings, bool self_collision)
+                             const BandSettings& settings, bool self_collision,
+                             const robot::OwnRanges& own)
     : model_(std::move(model)),
       settings_(settings),
       self_collision_(self_collision),
       clearance_(model_, self_collision) {
+  clearance_.KeepOwn(own, settings_.clear_distance);
   const Eigen::Index n = model_->num_positions();
   q_.setZero(n);
   row_.setZero(n);
@@ -266,7 +268,7 @@ bool BandOptimizer::Touches(double nearest) {
 }
 
 BandCheck BandOptimizer::Check(const BandCurve& curve) {
-  BandCheck check{.min_distance = settings_.margin};
+  BandCheck check{.min_distance = settings_.margin, .distance = settings_.margin};
   if (!something_near_) return check;
   Eigen::VectorXd x(q_.size()), before;
   for (const Sample& sample : checks_) {
@@ -277,6 +279,7 @@ BandCheck BandOptimizer::Check(const BandCurve& curve) {
     const robot::NearPair pair = clearance_.Nearest(settings_.margin);
     if (pair.distance < check.min_distance) {
       check.min_distance = pair.distance;
+      check.distance = pair.distance / pair.scale;
       check.time = sample.time;
       check.link = model_->links()[pair.link].name;
       check.body = pair.body >= 0 ? bodies_[pair.body].name : model_->links()[pair.other_link].name;

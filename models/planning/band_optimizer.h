@@ -44,7 +44,8 @@ struct BandSettings {
 
 /// What is true of a band on a grid of times that is finer than that of its optimisation.
 struct BandCheck {
-  double min_distance;  ///< m; or the margin, if all is farther
+  double min_distance;  ///< m, as it counts; or the margin, if all is farther
+  double distance;      ///< m; of the same pair, as it is
   double time{0.0};     ///< s, of the nearest
   models::Name link{};  ///< the nearest pair
   models::Name body{};  ///< of no meaning if min_distance is the margin
@@ -67,15 +68,18 @@ struct BandCheck {
 ///
 /// where rho is the distance of a link and a body at request + x and at that time, and excess what
 /// positions exceed of their limits less 0.02, in units of 0.1 rad or m, and what velocities and
-/// accelerations exceed of limit_share of their limits, in shares of these. Solved by
+/// accelerations exceed of limit_share of their limits, in shares of these. Distances of own links
+/// count so that each pair is asked for its range where others are for clear_distance
+/// (robot::Clearance::KeepOwn). Solved by
 /// damped Gauss-Newton steps with the analytic rows n^T J of the distances; the normal equations
 /// are banded and solved in blocks. The state at the start is fixed, the end fixed or free.
 /// source Quinlan, Khatib, Elastic bands, ICRA 1993; Ratliff et al., CHOMP, ICRA 2009;
 ///        Madsen, Nielsen, Tingleff, Methods for non-linear least squares problems, 2004
 class BandOptimizer {
  public:
+  /// `own`: the ranges of own links, if these are looked at.
   BandOptimizer(std::shared_ptr<const robot::RobotModel> model, const BandSettings& settings,
-                bool self_collision = false);
+                bool self_collision = false, const robot::OwnRanges& own = {});
 
   const robot::RobotModel& model() const { return *model_; }
   const BandSettings& settings() const { return settings_; }

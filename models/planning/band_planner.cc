@@ -40,10 +40,13 @@ double Window(double time, double first, double last, double ramp) {
 }  // namespace
 
 BandPlanner::BandPlanner(std::shared_ptr<const robot::RobotModel> model,
-                         const BandPlannerSettings& settings, bool self_collision)
+                         const BandPlannerSettings& settings, bool self_collision,
+                         const robot::OwnRanges& own)
     : settings_(settings),
-      band_(model, settings.band, self_collision),
-      standing_(std::make_unique<robot::Clearance>(std::move(model), self_collision)) {}
+      band_(model, settings.band, self_collision, own),
+      standing_(std::make_unique<robot::Clearance>(std::move(model), self_collision)) {
+  standing_->KeepOwn(own, settings.band.clear_distance);
+}
 
 double BandPlanner::HorizonOf(const BandTask& task, bool moving) const {
   double horizon =

@@ -76,7 +76,7 @@ inline constexpr double kMarginWay = 10.0;  ///< rad/m
 class BandPlanner {
  public:
   BandPlanner(std::shared_ptr<const robot::RobotModel> model, const BandPlannerSettings& settings,
-              bool self_collision = false);
+              bool self_collision = false, const robot::OwnRanges& own = {});
 
   const robot::RobotModel& model() const { return band_.model(); }
   /// `last` may be null.

@@ -129,7 +129,10 @@ void BandReplanner::Plan(const BandSituation& now, double start,
   }
   const std::vector<BandBody> bodies = MakeBodies(now);
   const BandTask task = MakeTask(now, start, bodies, rate, memory);
-  BandPlanner planner(model_, settings_.planner, settings_.self_collision);
+  if (settings_.self_collision && now.request != memory.request) {
+    memory.own = robot::OwnRangesAlong(model_, now.request.get(), settings_.self_distance);
+  }
+  BandPlanner planner(model_, settings_.planner, settings_.self_collision, memory.own);
   BandPlan found = planner.Plan(task, memory.held.empty() ? nullptr : &memory.held);
   memory.next = std::move(found.curve);
   memory.change = task.start;
@@ -144,6 +147,7 @@ void BandReplanner::Plan(const BandSituation& now, double start,
   memory.clear = found.check.clear();
   memory.failures = memory.clear ? 0 : memory.failures + 1;
   memory.nearest = found.check.min_distance;
+  memory.distance = found.check.distance;
   memory.link = found.check.link;
   memory.obstacle = found.check.body;
   memory.time = found.check.time;

@@ -24,6 +24,7 @@ struct ReplanSettings {
   double stuck_time{2.0};        ///< s; without progress, after which the arm is stuck
   double stuck_motion{0.01};     ///< rad, m; what counts as progress
   bool self_collision{false};
+  double self_distance{robot::kSelfDistance};  ///< m; that own links keep; 0: as from obstacles
   std::uint64_t seed{0};
 };
 

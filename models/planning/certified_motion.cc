@@ -55,16 +55,17 @@ double CertifiedMotion::FreeShare() {
   // A share of the path costs at most that share of its travel: the bound grows faster than the
   // path.
   double share = 1.0;
-  const auto limit = [&](double distance, double travel) {
-    const double room = std::max(distance - margin_, 0.0);
+  const auto limit = [&](double distance, double margin, double travel) {
+    const double room = std::max(distance - margin, 0.0);
     if (travel > room) share = std::min(share, room / travel);
   };
   for (std::size_t link = 0; link < travel_.size(); ++link) {
-    limit(distances_[link], travel_[link]);
+    limit(distances_[link], margin_, travel_[link]);
   }
   for (std::size_t i = 0; i < own_distances_.size(); ++i) {
     const auto& pair = clearance_.own_pairs()[i];
-    limit(own_distances_[i], travel_[pair.first] + travel_[pair.second]);
+    limit(own_distances_[i], margin_ / clearance_.own_scales()[i],
+          travel_[pair.first] + travel_[pair.second]);
   }
   return share;
 }

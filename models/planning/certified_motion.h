@@ -17,7 +17,8 @@ namespace oca::planning {
 /// source conservative advancement: Mirtich 1996; the bound: TravelBound
 class CertifiedMotion {
  public:
-  /// Every pair has to stay more than `margin` (m) apart. The clearance must outlive this.
+  /// Every pair has to stay more than `margin` (m) apart, as the clearance counts it. The clearance
+  /// must outlive this.
   CertifiedMotion(robot::Clearance& clearance, double margin);
 
   /// Whether the position itself is clear.

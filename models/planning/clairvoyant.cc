@@ -78,8 +78,8 @@ class Search {
     task.request(task.duration, 0, goal);
     goal_free_ = judge_.Distance(goal, task.duration) > 0.0;
     for (const Prices& prices : kPrices) {
-      bands_.push_back(
-          std::make_unique<BandOptimizer>(model, SettingsOf(prices), task.self_collision));
+      bands_.push_back(std::make_unique<BandOptimizer>(model, SettingsOf(prices),
+                                                       task.self_collision, task.own));
     }
     FixEnd(goal_free_);
   }
@@ -191,7 +191,7 @@ class Search {
   }
 
   bool TryPlanner() {
-    BandPlanner planner(model_, PlannerSettings(task_), task_.self_collision);
+    BandPlanner planner(model_, PlannerSettings(task_), task_.self_collision, task_.own);
     BandPlan found = planner.Plan(Task(), nullptr);
     const BandStart kind = found.start == BandStart::kLast ? BandStart::kRequest : found.start;
     return Keep(found.curve, kind) || Improve(std::move(found.curve), kind);

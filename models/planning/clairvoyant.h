@@ -19,6 +19,7 @@ struct ClairvoyantTask {
   Eigen::VectorXd start{};  ///< where the arm rests at time 0; empty: at the request
   std::span<const BandBody> bodies{};
   bool self_collision{false};
+  robot::OwnRanges own{};  ///< what the search asks of own links; the judgement asks for no contact
   /// Links and bodies, by their numbers, that may touch. The search keeps them apart where it can,
   /// the judgement does not look at them.
   std::span<const std::pair<int, int>> ignored{};

@@ -182,7 +182,7 @@ void BarrierFilter::FillRows(const Tick& tick, Solution& result) const {
   for (std::size_t i = 0; i < set.proximities.size(); ++i) {
     const Proximity& proximity = set.proximities[i];
     DistanceRow(*model_, tick.X_WL, proximity, work.row);
-    const double headroom = proximity.distance - settings_.safe_distance;
+    const double headroom = proximity.distance - std::min(settings_.safe_distance, proximity.range);
     const double rest = proximity.normal.dot(proximity.obstacle_velocity);
     double bound = rest - Approach(headroom);
     const bool known =

@@ -33,6 +33,14 @@ Clearance::Clearance(std::shared_ptr<const RobotModel> model, bool self_collisio
       own_places_.emplace_back(i, j);
     }
   }
+  own_scales_.assign(own_pairs_.size(), 1.0);
+}
+
+void Clearance::KeepOwn(const OwnRanges& ranges, double reference) {
+  for (std::size_t i = 0; i < own_pairs_.size(); ++i) {
+    own_scales_[i] =
+        std::max(reference / ranges.of(own_pairs_[i].first, own_pairs_[i].second), 1.0);
+  }
 }
 
 void Clearance::MoveTo(const Eigen::Ref<const Eigen::VectorXd>& q) {
@@ -44,8 +52,7 @@ bool Clearance::Ignored(int link, int body) const {
          std::find(ignored_.begin(), ignored_.end(), std::pair(link, body)) != ignored_.end();
 }
 
-// Calls visit(distance, link, body, other link) for each pair within the limit, which visit returns
-// anew: below 0 ends the walk.
+// Calls visit(pair) for each pair within the limit, which visit returns anew: below 0 ends the walk.
 template <class Visit>
 void Clearance::ForEach(double max_distance, const Visit& visit) const {
   double limit = max_distance;
@@ -57,14 +64,18 @@ void Clearance::ForEach(double max_distance, const Visit& visit) const {
       const geometry::SignedDistance found =
           DistanceToBody(link, X_WL_[link.number], *other.collider, other.X_WO, limit);
       if (found.status == geometry::DistanceStatus::kBeyond) continue;
-      limit = visit(found, link.number, body, -1);
+      limit = visit(PairOf(found, link.number, body, -1));
       if (limit < 0.0) return;
     }
   }
   for (std::size_t i = 0; i < own_pairs_.size(); ++i) {
-    const geometry::SignedDistance found = OwnDistance(i, limit);
+    const double scale = own_scales_[i];
+    const geometry::SignedDistance found = OwnDistance(i, limit / scale);
     if (found.status == geometry::DistanceStatus::kBeyond) continue;
-    limit = visit(found, own_pairs_[i].second, -1, own_pairs_[i].first);
+    NearPair pair = PairOf(found, own_pairs_[i].second, -1, own_pairs_[i].first);
+    pair.distance *= scale;
+    pair.scale = scale;
+    limit = visit(pair);
     if (limit < 0.0) return;
   }
 }
@@ -77,8 +88,8 @@ geometry::SignedDistance Clearance::OwnDistance(std::size_t pair, double max_dis
 
 bool Clearance::NearerThan(double margin) const {
   bool nearer = false;
-  ForEach(std::max(margin, 0.0), [&](const geometry::SignedDistance& found, int, int, int) {
-    nearer = found.distance < margin || nearer;
+  ForEach(std::max(margin, 0.0), [&](const NearPair& pair) {
+    nearer = pair.distance < margin || nearer;
     return nearer ? -1.0 : std::max(margin, 0.0);
   });
   return nearer;
@@ -86,21 +97,19 @@ bool Clearance::NearerThan(double margin) const {
 
 NearPair Clearance::Nearest(double max_distance) const {
   NearPair nearest;
-  ForEach(max_distance,
-          [&](const geometry::SignedDistance& found, int link, int body, int other_link) {
-            if (found.distance < nearest.distance) nearest = PairOf(found, link, body, other_link);
-            return std::clamp(nearest.distance, 0.0, max_distance);
-          });
+  ForEach(max_distance, [&](const NearPair& pair) {
+    if (pair.distance < nearest.distance) nearest = pair;
+    return std::clamp(nearest.distance, 0.0, max_distance);
+  });
   return nearest;
 }
 
 void Clearance::Collect(double max_distance, std::vector<NearPair>& pairs) const {
   pairs.clear();
-  ForEach(max_distance,
-          [&](const geometry::SignedDistance& found, int link, int body, int other_link) {
-            pairs.push_back(PairOf(found, link, body, other_link));
-            return max_distance;
-          });
+  ForEach(max_distance, [&](const NearPair& pair) {
+    pairs.push_back(pair);
+    return max_distance;
+  });
 }
 
 void Clearance::LinkDistances(double max_distance, std::span<double> least) const {
@@ -128,6 +137,7 @@ void Clearance::OwnDistances(double max_distance, std::span<double> least) const
 void Clearance::Gradient(const NearPair& pair, Eigen::Ref<Eigen::VectorXd> row) const {
   DistanceRow(*model_, X_WL_, pair.link, pair.point_on_link, pair.other_link, pair.point_on_other,
               pair.normal, row);
+  row *= pair.scale;
 }
 
 }  // namespace oca::robot

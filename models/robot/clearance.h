@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "oca/models/robot/link_colliders.h"
+#include "oca/models/robot/own_ranges.h"
 #include "oca/models/robot/robot_model.h"
 
 namespace oca::robot {
@@ -21,13 +22,14 @@ struct PlacedBody {
 
 /// A link and what is near it: a body, or another link of the robot.
 struct NearPair {
-  double distance{kUnlimited};  ///< signed, m; unlimited: nothing is that near
+  double distance{kUnlimited};  ///< signed, m, as it counts; unlimited: nothing is that near
   int link{-1};                 ///< number in the model
   int body{-1};                 ///< place in the list of bodies; -1: `other_link` it is
   int other_link{-1};
   Eigen::Vector3d point_on_link{Eigen::Vector3d::Zero()};  ///< world axes
   Eigen::Vector3d point_on_other{Eigen::Vector3d::Zero()};
   Eigen::Vector3d normal{Eigen::Vector3d::UnitX()};  ///< from the other to the link
+  double scale{1.0};  ///< of the distance as it counts to what it is: see Clearance::KeepOwn
 };
 
 /// Signed distances of a robot at given joint positions to bodies in the world, for planners.
@@ -53,6 +55,11 @@ class Clearance {
   /// Moves body number `body`, of a scene in which time goes on.
   void MoveBody(int body, const Eigen::Isometry3d& X_WO) { bodies_[body].X_WO = X_WO; }
 
+  /// From now on the distance of a pair of own links counts `reference` / range times, where its
+  /// range is less than `reference` (m): who asks all pairs for `reference` asks this one for its
+  /// range, and what he looks at beyond is nearer too in that proportion.
+  void KeepOwn(const OwnRanges& ranges, double reference);
+
   /// Brings the robot to q (num_positions()); all else speaks of this position.
   void MoveTo(const Eigen::Ref<const Eigen::VectorXd>& q);
   std::span<const Eigen::Isometry3d> X_WL() const { return X_WL_; }
@@ -66,11 +73,14 @@ class Clearance {
   /// The least distance of each link to any body, or `max_distance` where that is less; `least`
   /// has num_links().
   void LinkDistances(double max_distance, std::span<double> least) const;
-  /// The same of the pairs of own links; `least` has an entry a pair.
+  /// The same of the pairs of own links, in m whatever they count; `least` has an entry a pair.
   void OwnDistances(double max_distance, std::span<double> least) const;
   /// The pairs of own links that count, as numbers of links.
   const std::vector<std::pair<int, int>>& own_pairs() const { return own_pairs_; }
-  /// The derivative of the pair's distance by the joint positions: row has num_positions().
+  /// How many times the distance of each counts.
+  const std::vector<double>& own_scales() const { return own_scales_; }
+  /// The derivative of the pair's distance, as it counts, by the joint positions: row has
+  /// num_positions().
   void Gradient(const NearPair& pair, Eigen::Ref<Eigen::VectorXd> row) const;
 
  private:
@@ -83,6 +93,7 @@ class Clearance {
   std::vector<LinkCollider> links_;
   std::vector<std::pair<int, int>> own_pairs_;   // numbers of links
   std::vector<std::pair<int, int>> own_places_;  // the same as places in links_
+  std::vector<double> own_scales_;               // one a pair
   std::vector<PlacedBody> bodies_;
   std::vector<std::pair<int, int>> ignored_;  // link, body
   std::vector<Eigen::Isometry3d> X_WL_;

@@ -18,6 +18,8 @@ constexpr double kArrived = 0.01;
 // An arm that turns no joint by more than kStill, rad or m, in kPatience seconds stands.
 constexpr double kStill = 0.02;
 constexpr double kPatience = 2.0;
+// What is nearer may be in the way, m; own links, which stand near by design, at their range.
+constexpr double kInTheWay = 0.1;
 // What rounding may take a joint beyond its limits: rad or m, and shares of the others.
 constexpr double kTallyRounding = 1e-6;
 
@@ -164,9 +166,12 @@ void MotionTally::AddStandstill(const MotionSample& sample) {
   // What blocked may be gone by the time that the arm goes on.
   if (sample.proximities == nullptr || sample.proximities->proximities.empty()) return;
   const auto& near = sample.proximities->proximities;
+  const auto counted = [](const Proximity& pair) {
+    return pair.distance / RangeShare(pair, kInTheWay);
+  };
   const auto nearest = std::min_element(
       near.begin(), near.end(),
-      [](const Proximity& a, const Proximity& b) { return a.distance < b.distance; });
+      [&](const Proximity& a, const Proximity& b) { return counted(a) < counted(b); });
   stuck_link_ = nearest->link;
   stuck_obstacle_ = nearest->obstacle;
 }

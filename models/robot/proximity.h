@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -29,7 +31,16 @@ struct Proximity {
   models::Name own_link{};
   /// Bound on the speed of all points of the obstacle, m/s; 0 for an own link.
   double obstacle_speed{0.0};
+  /// The most that may be asked of this distance, m, of own links: OwnRanges. Who keeps a distance
+  /// keeps no more than this here, and what begins to act at one begins here, in proportion.
+  double range{std::numeric_limits<double>::infinity()};
 };
+
+/// What all distances shrink by at a pair, at most 1: its range as a share of `reach` (m), from
+/// where on it would count.
+inline double RangeShare(const Proximity& proximity, double reach) {
+  return std::min(proximity.range / reach, 1.0);
+}
 
 /// What is not listed is farther than `max_distance` (m; 0: unknown) and no faster than `fastest`
 /// (m/s). `compared` says whether any pair was looked at, listed or not: if none was, the set tells

@@ -37,6 +37,13 @@ P WithRange(const P& params) {
                                 params.min_distance, params.max_distance));
 }
 
+/// The distance as a field of that max_distance sees it: own links begin to count at their range,
+/// and up to contact with the same forces as others from max_distance on. Slopes by the distance
+/// are those by the seen one, divided by the share.
+inline double SeenDistance(const Proximity& proximity, double max_distance) {
+  return proximity.distance / robot::RangeShare(proximity, max_distance);
+}
+
 /// One force a proximity, in the same order, at its point on the link: force_of(proximity), N.
 template <class ForceOf>
 void ForcePerProximity(const ProximitySet& set, LinkForceSet& result, const ForceOf& force_of) {

@@ -36,7 +36,7 @@ double RepulsiveField::Slope(double distance) const {
 
 void RepulsiveField::CalcForces(const ProximitySet& proximity_set, LinkForceSet& force_set) const {
   ForcePerProximity(proximity_set, force_set, [&](const Proximity& proximity) -> Eigen::Vector3d {
-    return Magnitude(proximity.distance) * proximity.normal;
+    return Magnitude(SeenDistance(proximity, params_.max_distance)) * proximity.normal;
   });
 }
 
@@ -44,8 +44,10 @@ void RepulsiveField::CalcSlopes(const ProximitySet& proximity_set,
                                 ContactSlopes& contact_slopes) const {
   SlopePerProximity(proximity_set, contact_slopes,
                     [&](const Proximity& proximity) -> std::optional<ContactSlope> {
-                      if (proximity.distance > params_.max_distance) return std::nullopt;
-                      return SlopeAt(proximity, Slope(proximity.distance) * proximity.normal);
+                      const double share = robot::RangeShare(proximity, params_.max_distance);
+                      const double seen = proximity.distance / share;
+                      if (seen > params_.max_distance) return std::nullopt;
+                      return SlopeAt(proximity, Slope(seen) / share * proximity.normal);
                     });
 }
 

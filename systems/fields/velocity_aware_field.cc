@@ -92,12 +92,12 @@ Eigen::Vector3d VelocityAwareField::Force(double distance, const Eigen::Vector3d
   return common * (params_.exponent * s / p * sideways + approach * minus_ds * normal);
 }
 
-Eigen::Vector3d VelocityAwareField::SlopeOf(const Proximity& proximity,
+Eigen::Vector3d VelocityAwareField::SlopeOf(const Proximity& proximity, double distance,
                                             const Eigen::Vector3d& v) const {
   const double approach = -v.dot(proximity.normal);
   const double rho0 = params_.max_distance;
   if (approach <= 0.0) return Eigen::Vector3d::Zero();
-  const double p = std::max(proximity.distance, params_.min_distance);
+  const double p = std::max(distance, params_.min_distance);
   const double s = (1.0 - p / rho0) * (1.0 - p / rho0) / p;
   const double minus_ds = 1.0 / (p * p) - 1.0 / (rho0 * rho0);
   const Eigen::Vector3d sideways = v + approach * proximity.normal;
@@ -112,7 +112,7 @@ void VelocityAwareField::CalcForces(const ProximitySet& set, const LinkPoses& po
   int hint = 0;
   ForcePerProximity(set, result, [&](const Proximity& proximity) {
     const Eigen::Vector3d v = RelativeVelocity(proximity, poses, hint);
-    return Force(proximity.distance, proximity.normal, v);
+    return Force(SeenDistance(proximity, params_.max_distance), proximity.normal, v);
   });
 }
 
@@ -120,12 +120,14 @@ void VelocityAwareField::CalcSlopes(const ProximitySet& set, const LinkPoses& po
                                     ContactSlopes& result) const {
   int hint = 0;
   SlopePerProximity(set, result, [&](const Proximity& proximity) -> std::optional<ContactSlope> {
-    if (proximity.distance >= params_.max_distance) return std::nullopt;
+    const double share = robot::RangeShare(proximity, params_.max_distance);
+    const double seen = proximity.distance / share;
+    if (seen >= params_.max_distance) return std::nullopt;
     const Eigen::Vector3d v = RelativeVelocity(proximity, poses, hint);
-    const double p = std::max(proximity.distance, params_.min_distance);
+    const double p = std::max(seen, params_.min_distance);
     const double rate = params_.velocity_gain * worst_ *
                         (1.0 / (p * p) - 1.0 / (params_.max_distance * params_.max_distance));
-    return SlopeAt(proximity, SlopeOf(proximity, v), rate * proximity.normal);
+    return SlopeAt(proximity, SlopeOf(proximity, seen, v) / share, rate * proximity.normal);
   });
 }
 

@@ -58,7 +58,9 @@ class VelocityAwareField final : public System {
  private:
   const Params params_;
   const double worst_;  ///< the largest over c of d(|v| (-c)^(exponent)) / d(-v . n)
-  Eigen::Vector3d SlopeOf(const Proximity& proximity, const Eigen::Vector3d& v) const;
+  /// By the seen distance.
+  Eigen::Vector3d SlopeOf(const Proximity& proximity, double distance,
+                          const Eigen::Vector3d& v) const;
   void CalcForces(const ProximitySet& set, const LinkPoses& poses, LinkForceSet& result) const;
   void CalcSlopes(const ProximitySet& set, const LinkPoses& poses, ContactSlopes& result) const;
 

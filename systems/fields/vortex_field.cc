@@ -75,8 +75,9 @@ double VortexField::Angle(double distance) const {
 }
 
 Eigen::Vector3d VortexField::Force(const Proximity& proximity, const Eigen::Vector3d& axis) const {
-  const double phi = Angle(proximity.distance);
-  return field_.Magnitude(proximity.distance) *
+  const double seen = SeenDistance(proximity, params_.max_distance);
+  const double phi = Angle(seen);
+  return field_.Magnitude(seen) *
          (std::cos(phi) * proximity.normal + std::sin(phi) * axis.cross(proximity.normal));
 }
 
@@ -98,9 +99,12 @@ void VortexField::CalcAxes(const ProximitySet& set, const LinkPoses& poses, Vect
   result.J_v.resize(3, model_->num_positions());
   result.nearest.assign(model_->links().size(), nullptr);
   for (const Proximity& proximity : set.proximities) {
-    if (proximity.distance > params_.max_distance) continue;
+    const double seen = SeenDistance(proximity, params_.max_distance);
+    if (seen > params_.max_distance) continue;
     const Proximity*& nearest = result.nearest[LinkNumber(*model_, proximity.link, "proximities")];
-    if (nearest == nullptr || proximity.distance < nearest->distance) nearest = &proximity;
+    if (nearest == nullptr || seen < SeenDistance(*nearest, params_.max_distance)) {
+      nearest = &proximity;
+    }
   }
   result.wish = (request - measured) / kCatchUp;
   if (rate) result.wish += *rate;
@@ -130,17 +134,19 @@ void VortexField::CalcForces(const ProximitySet& set, const Axes& about,
 void VortexField::CalcSlopes(const ProximitySet& set, const Axes& about,
                              ContactSlopes& result) const {
   SlopePerProximity(set, result, [&](const Proximity& proximity) -> std::optional<ContactSlope> {
-    if (proximity.distance > params_.max_distance) return std::nullopt;
+    const double share = robot::RangeShare(proximity, params_.max_distance);
+    const double seen = proximity.distance / share;
+    if (seen > params_.max_distance) return std::nullopt;
     const Eigen::Vector3d axis = about.axes.col(LinkNumber(*model_, proximity.link, "proximities"));
     const Eigen::Vector3d& n = proximity.normal;
     const Eigen::Vector3d t = axis.cross(n);
-    const double phi = Angle(proximity.distance);
-    const bool turning = proximity.distance > 0.0 && phi < params_.turn;
+    const double phi = Angle(seen);
+    const bool turning = seen > 0.0 && phi < params_.turn;
     const double dphi = turning ? 2.0 * params_.turn / params_.max_distance : 0.0;
-    return SlopeAt(
-        proximity,
-        field_.Slope(proximity.distance) * (std::cos(phi) * n + std::sin(phi) * t) -
-            field_.Magnitude(proximity.distance) * dphi * (std::cos(phi) * t - std::sin(phi) * n));
+    const Eigen::Vector3d slope =
+        field_.Slope(seen) * (std::cos(phi) * n + std::sin(phi) * t) -
+        field_.Magnitude(seen) * dphi * (std::cos(phi) * t - std::sin(phi) * n);
+    return SlopeAt(proximity, slope / share);
   });
 }
 

@@ -98,6 +98,10 @@ void ElasticBand::Params::Describe(Fields<Params>& fields) {
       .Above(0.0);
   fields.Add("stuck_motion", &Params::stuck_motion, "rad", "what counts as progress").Above(0.0);
   fields.Add("self_collision", &Params::self_collision, "", "keeps own links apart too");
+  fields
+      .Add("self_distance", &Params::self_distance, "m",
+           "most distance that own links keep, where the request leaves it; 0: as from obstacles")
+      .AtLeast(0.0);
   fields.Add("seed", &Params::seed, "", "of the random starts");
   fields.Add("enabled", &Params::enabled, "", "false: the request as it is");
 }
@@ -124,6 +128,7 @@ planning::ReplanSettings ElasticBand::SettingsOf(const Params& params) {
   settings.stuck_time = params.stuck_time;
   settings.stuck_motion = params.stuck_motion;
   settings.self_collision = params.self_collision;
+  settings.self_distance = params.self_distance;
   settings.seed = static_cast<std::uint64_t>(params.seed);
   return settings;
 }
@@ -194,7 +199,7 @@ void ElasticBand::Report(double time, const BandMemory& memory, Log& log) const 
   const std::string pair = memory.link.empty()
                                ? "nothing near"
                                : fmt::format("{} to {}, {:.3f} m", memory.link.text(),
-                                             memory.obstacle.text(), memory.nearest);
+                                             memory.obstacle.text(), memory.distance);
   log.Write(LogLevel::kWarning, time,
             fmt::format("the arm is stuck: no progress to its goal for {} s; what blocks: {}",
                         params_.stuck_time, pair));

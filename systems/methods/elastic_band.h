@@ -36,6 +36,9 @@ namespace oca::systems {
 ///
 /// Control samples are those of the end of each period, held, as from a sampled SplineGenerator.
 ///
+/// Own links are asked for their own distance, robot::OwnRangesAlong of self_distance and the
+/// request: clear_distance stands for it, and margin and trust_distance for as many times it.
+///
 /// The arm counts as stuck if the request rests, the goal is not reached to 0.01 and nothing moved
 /// by stuck_motion for stuck_time; `plan` then names the pair that is nearest, and a warning is
 /// logged.
@@ -85,6 +88,7 @@ class ElasticBand final : public System {
     double stuck_time{2.0};
     double stuck_motion{0.01};
     bool self_collision{false};
+    double self_distance{robot::kSelfDistance};
     int seed{0};
     bool enabled{true};
     static void Describe(Fields<Params>& fields);

@@ -48,6 +48,10 @@ FlaccoDeLucaLaw::FlaccoDeLucaLaw(const Params& params, const ModelSet& models)
       tip_(TipNumber(*model_, params.tip)),
       damping_{params.most_damping, params.damping_threshold} {}
 
+double FlaccoDeLucaLaw::Seen(const Proximity& proximity) const {
+  return proximity.distance / robot::RangeShare(proximity, params_.influence_distance);
+}
+
 double FlaccoDeLucaLaw::Risk(double distance) const {
   return 1.0 / (1.0 + std::exp(params_.alpha * (2.0 * distance / params_.influence_distance - 1)));
 }
@@ -64,12 +68,12 @@ void FlaccoDeLucaLaw::AddLink(const ProximitySet& set, std::size_t first, int li
   for (std::size_t i = first; i < set.proximities.size(); ++i) {
     const Proximity& proximity = set.proximities[i];
     if (proximity.link != nearest->link) continue;
-    if (proximity.distance < nearest->distance) nearest = &proximity;
-    if (proximity.distance > params_.influence_distance) continue;
-    direction += Risk(proximity.distance) * proximity.normal;
+    if (Seen(proximity) < Seen(*nearest)) nearest = &proximity;
+    if (Seen(proximity) > params_.influence_distance) continue;
+    direction += Risk(Seen(proximity)) * proximity.normal;
   }
-  if (nearest->distance > params_.influence_distance) return;
-  const double risk = Risk(nearest->distance);
+  if (Seen(*nearest) > params_.influence_distance) return;
+  const double risk = Risk(Seen(*nearest));
   if (Repulsed(link)) {
     Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, robot::kMostFilteredJoints> J(
         3, model_->num_positions());
@@ -102,8 +106,8 @@ void FlaccoDeLucaLaw::Choose(const ProximitySet& set, std::span<const Eigen::Iso
   result.rows = 0;
   const auto& all = set.proximities;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all[i].distance <= params_.influence_distance) {
-      result.share = std::max(result.share, Risk(all[i].distance));
+    if (Seen(all[i]) <= params_.influence_distance) {
+      result.share = std::max(result.share, Risk(Seen(all[i])));
       ++result.rows;
     }
     const auto same = [&](const Proximity& before) { return before.link == all[i].link; };

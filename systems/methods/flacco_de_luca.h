@@ -92,6 +92,8 @@ class FlaccoDeLucaLaw {
   const int tip_;
   const robot::Damping damping_;
 
+  /// The distance as it counts: of own links so that they begin to at their range.
+  double Seen(const Proximity& proximity) const;
   bool Repulsed(int link) const;
   void AddLink(const ProximitySet& set, std::size_t first, int link,
                std::span<const Eigen::Isometry3d> X_WL, VectorView wish, Motion& motion) const;

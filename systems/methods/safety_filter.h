@@ -29,7 +29,7 @@ namespace oca::systems {
 ///         within ten times the joint's velocity limit, for slack has a price
 ///     w_j = weights_j (1 + progress_weight l_j / (max_k l_k + 0.05))
 ///     a_i = n_i^T (J at point_on_link), less that of the other link within one arm
-///     h_i = distance_i - safe_distance,   v_i the obstacle's velocity at its point
+///     h_i = distance_i - min(safe_distance, range_i),   v_i the obstacle's velocity at its point
 ///     approach = approach_gain h                             form linear
 ///                LargestStoppableVelocity(h, deceleration)   form braking
 ///                0                                           h < 0

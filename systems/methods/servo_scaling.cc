@@ -65,8 +65,8 @@ ServoScaling::ServoScaling(const Params& params, const ModelSet& models)
                      .period = params_.period});
 }
 
-double ServoScaling::Law(double distance, bool own) const {
-  const double slow = own ? params_.own_slow_distance : params_.slow_distance;
+double ServoScaling::Law(double distance, bool own, double range) const {
+  const double slow = std::min(own ? params_.own_slow_distance : params_.slow_distance, range);
   if (distance >= slow) return 1.0;
   return distance > 0.0 ? std::exp(kFallOff * (distance / slow - 1.0)) : 0.0;
 }
@@ -88,7 +88,7 @@ void ServoScaling::CalcSlowed(const ProximitySet& set, const LinkPoses& poses,
   if (known != nullptr) known->Evaluate(s[0], 1, rate);
   double least = known != nullptr ? 1.0 : 0.0;
   for (const Proximity& proximity : set.proximities) {
-    const double law = Law(proximity.distance, !proximity.own_link.empty());
+    const double law = Law(proximity.distance, !proximity.own_link.empty(), proximity.range);
     if (law >= 1.0) continue;
     double counts = 1.0;
     if (params_.approach_only) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -22,7 +23,7 @@ namespace oca::systems {
 ///     s_next = s + scale period,   delta = request(s) - position
 ///
 /// d is the nearest distance of all proximities (`slow_distance`) or of two links of the arm
-/// (`own_slow_distance`), the lesser scale counts. The arm never leaves the way that was requested,
+/// (the lesser of `own_slow_distance` and the pair's range), the lesser scale counts. The arm never leaves the way that was requested,
 /// so it stays clear of what stands, because it stops; it cannot evade, does not look at the
 /// velocity of obstacles, and arrives only if they go away. As in Servo the scale slows a motion
 /// that leads away from an obstacle too, and once in contact the arm stays there. With
@@ -62,8 +63,10 @@ class ServoScaling final : public System {
 
   ServoScaling(const Params& params, const ModelSet& models);
 
-  /// The law at a distance from an obstacle, or with `own` from another link of the arm.
-  double Law(double distance, bool own) const;
+  /// The law at a distance from an obstacle, or with `own` from another link of the arm, of which
+  /// no more than `range` is asked.
+  double Law(double distance, bool own,
+             double range = std::numeric_limits<double>::infinity()) const;
 
  private:
   const Params params_;

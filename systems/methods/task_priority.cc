@@ -74,14 +74,15 @@ robot::JointMatrix TaskPriorityLaw::TipTaskMatrix(std::span<const Eigen::Isometr
 
 void TaskPriorityLaw::AddRow(const Proximity& proximity, std::span<const Eigen::Isometry3d> X_WL,
                              VectorView wish, Rows& sums) const {
-  const double d = proximity.distance;
+  const double share = robot::RangeShare(proximity, params_.activation_distance);
+  const double d = proximity.distance / share;
   sums.swap = std::max(sums.swap, robot::Fade(d, params_.contact_distance, params_.swap_distance));
   const double near =
       robot::Fade(d, kFullShare * params_.activation_distance, params_.activation_distance);
   if (near <= 0.0) return;
   const robot::JointVector J = RowOf(*model_, X_WL, proximity);
   const double speed =
-      std::min(params_.approach_gain * (params_.safe_distance - d), params_.retreat_speed);
+      std::min(params_.approach_gain * share * (params_.safe_distance - d), params_.retreat_speed);
   const double asked = proximity.normal.dot(proximity.obstacle_velocity) + speed;
   const double e = asked - J.dot(wish);
   if (e <= 0.0) return;

@@ -36,6 +36,8 @@ namespace oca::systems {
 ///     a_i = fade(d_i, activation_distance / 2, activation_distance) min(1, e_i / 0.1 m/s)
 ///           (1 + (0.05 m / (max(d_i, 0) + 0.01 m))^2)
 ///
+/// (of own links all distances shrink in proportion, so that a row counts from its range on)
+///
 /// in both (weighted, damped) pseudo-inverses, so that the answer is continuous as rows enter and
 /// leave, of any number. Rows that contradict each other share what cannot be had, the nearest has
 /// most of it: an average, where a SafetyFilter keeps each row. fade goes from 1 at its second

@@ -40,6 +40,7 @@ Proximity Mirrored(const Proximity& pair, models::Name obstacle) {
   mirrored.point_on_obstacle = pair.point_on_link;
   mirrored.normal = -pair.normal;
   mirrored.own_link = pair.link;
+  mirrored.range = pair.range;
   return mirrored;
 }
 
@@ -64,6 +65,11 @@ void BulletDistance::Params::Describe(Fields<Params>& fields) {
   fields.Add("self_collision", &Params::self_collision, "",
              "whether links of the robot itself count as obstacles, but for adjacent ones and "
              "those disabled in the SRDF");
+  fields
+      .Add("self_distance", &Params::self_distance, "m",
+           "most that is asked of the distance of own links, where the request leaves it; 0: as "
+           "much as of obstacles")
+      .AtLeast(0.0);
   fields.Add("others", &Params::others, "",
              "models whose links count as obstacles; [\"*\"]: all others in sight of the file");
 }
@@ -73,6 +79,7 @@ BulletDistance::BulletDistance(const Params& params, const ModelSet& models)
       model_(MovableModel(models, params.model)),
       max_distance_(params.max_distance),
       self_collision_(params.self_collision),
+      self_distance_(params.self_distance),
       link_forces_(params.calculate_link_forces),
       movable_(MakeMovable()),
       own_(self_collision_ ? MakeNeighbours(name_, *model_) : std::vector<Neighbour>()),
@@ -84,9 +91,11 @@ BulletDistance::BulletDistance(const Params& params, const ModelSet& models)
       at_links_(LooksAtLinks()),
       links(DeclareInput<LinkPoses>("links")),
       obstacles(DeclareInput<ObstacleSet>("obstacles")),
+      ahead(DeclareOptionalInput<RequestAhead>("ahead")),
       links_of_others(DeclareOtherLinks()),
       scene_(DeclareCached<&BulletDistance::CalcScene>(obstacles)),
       near_(DeclareCached<&BulletDistance::CalcNear>(links, scene_)),
+      asked_(DeclareCached<&BulletDistance::CalcAsked>(ahead)),
       proximities(DeclareProximities(link_forces_ ? moving_others_ : 0)) {
   DeclareRoles(params, models);
 }
@@ -95,7 +104,8 @@ void BulletDistance::DeclareRoles(const Params& params, const ModelSet& models) 
   MeasuresDistances measures{.proximities = proximities,
                              .obstacles = obstacles,
                              .model = name_,
-                             .own_links = self_collision_};
+                             .own_links = self_collision_,
+                             .self_distance = self_distance_};
   const auto add = [&](const std::string& name) {
     std::size_t i = 0;
     while (others_[i].name != name) ++i;
@@ -142,9 +152,19 @@ Output<ProximitySet> BulletDistance::DeclareProximities(std::size_t moving) {
   }
   return [this]<std::size_t... I>(std::index_sequence<I...>) {
     return DeclareOutput<ProximitySet, &BulletDistance::CalcProximities<PosesOfOne<I>...>>(
-        "proximities", {}, links, obstacles, scene_, near_, links_of_others[I]...);
+        "proximities", {}, links, obstacles, scene_, near_, asked_, links_of_others[I]...);
   }
   (std::make_index_sequence<kMoving>());
+}
+
+void BulletDistance::CalcAsked(const RequestAhead* request, Asked& result) const {
+  const auto trajectory = request == nullptr ? nullptr : request->trajectory;
+  if (!self_collision_ || (result.known && result.request == trajectory)) return;
+  try {
+    result = {trajectory, robot::OwnRangesAlong(model_, trajectory.get(), self_distance_), true};
+  } catch (const models::ModelError& error) {
+    throw ConfigError(fmt::format("ahead: {}", error.what()));
+  }
 }
 
 void BulletDistance::CalcNear(const LinkPoses& poses, const ObstacleScene& of,
@@ -164,15 +184,16 @@ void BulletDistance::CalcNear(const LinkPoses& poses, const ObstacleScene& of,
 template <class... Poses>
 void BulletDistance::CalcProximities(const LinkPoses& poses, const ObstacleSet& set,
                                      const ObstacleScene& of, const NearObstacles& candidates,
-                                     const Poses&... others, ProximitySet& result) const {
+                                     const Asked& asked, const Poses&... others,
+                                     ProximitySet& result) const {
   const std::array<const LinkPoses*, sizeof...(Poses)> poses_of_others{&others...};
   result.fastest = of.fastest();
-  Find(poses, set, candidates, poses_of_others, result);
+  Find(poses, set, candidates, asked.ranges, poses_of_others, result);
 }
 
 void BulletDistance::Find(const LinkPoses& poses, const ObstacleSet& set,
-                          const NearObstacles& candidates, std::span<const LinkPoses* const> others,
-                          ProximitySet& result) const {
+                          const NearObstacles& candidates, const robot::OwnRanges& ranges,
+                          std::span<const LinkPoses* const> others, ProximitySet& result) const {
   result.max_distance = max_distance_;
   result.compared = Compares(poses, set);
   for (std::size_t i = 0; i < others.size(); ++i) {
@@ -190,7 +211,7 @@ void BulletDistance::Find(const LinkPoses& poses, const ObstacleSet& set,
     const int index = poses.Find(link.link, link.number);
     if (index < 0) continue;
     AddObstacles(link, poses.poses[index], set, candidates.of(i), result);
-    AddOwnLinks(link, poses, index, result);
+    AddOwnLinks(link, poses, index, ranges, result);
     if (link_forces_) AddLinksOfOthers(link, poses.poses[index], others, result);
   }
 }
@@ -212,7 +233,7 @@ void BulletDistance::AddObstacles(const LinkCollider& link, const Eigen::Isometr
 }
 
 void BulletDistance::AddOwnLinks(const LinkCollider& link, const LinkPoses& poses, int index,
-                                 ProximitySet& result) const {
+                                 const robot::OwnRanges& ranges, ProximitySet& result) const {
   std::size_t next = 0;  // up to here all pairs with this link are mirrored; they come in order
   const std::size_t end = result.proximities.size();
   for (const Neighbour& own : own_) {
@@ -230,6 +251,7 @@ void BulletDistance::AddOwnLinks(const LinkCollider& link, const LinkPoses& pose
     const int at = poses.Find(own.collider.link, number);
     if (at >= 0 && AddOther(link, poses.poses[index], own, poses.poses[at], result)) {
       result.proximities.back().own_link = own.collider.link;
+      result.proximities.back().range = ranges.of(link.number, number);
     }
   }
 }

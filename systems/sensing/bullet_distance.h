@@ -9,9 +9,11 @@
 
 #include "oca/framework/dataflow/params.h"
 #include "oca/framework/dataflow/system.h"
+#include "oca/models/robot/own_ranges.h"
 #include "oca/systems/sensing/link_colliders.h"
 #include "oca/systems/sensing/near_obstacles.h"
 #include "oca/systems/signals/model_set.h"
+#include "oca/systems/signals/request_ahead.h"
 #include "oca/systems/signals/signals.h"
 
 namespace oca::systems {
@@ -30,6 +32,11 @@ namespace oca::systems {
 /// two arms, which cannot avoid each other: the lowest movable link against the other arm's lowest
 /// movable link and what of the other arm cannot move.
 ///
+/// Own links have a distance of their own, for those two joints apart stand near each other by
+/// design: the `range` of such a pair is what self_distance and the whole request, if `ahead` tells
+/// it, leave (robot::OwnRangesAlong). Who keeps a distance keeps no more there. It is computed when
+/// another request comes in, which takes memory. With self_distance 0 own links are as obstacles.
+///
 /// The second name of an `ignore` with a slash is the link of a model, which must exist; one
 /// without is the id of an obstacle, which may appear at any time.
 ///
@@ -42,6 +49,7 @@ namespace oca::systems {
 ///
 /// in    links         LinkPoses    of `model`
 /// in    obstacles     ObstacleSet
+/// in    ahead         RequestAhead  optional; read with self_collision
 /// in    links_<name>  LinkPoses    for each of `others` that has movable joints; with velocities;
 ///                                  by the name that the file has for it, or else the nearest file
 ///                                  around it
@@ -65,6 +73,7 @@ class BulletDistance final : public System {
     std::vector<std::vector<std::string>> ignore{};
     bool calculate_link_forces{false};
     bool self_collision{false};
+    double self_distance{robot::kSelfDistance};
     std::vector<std::string> others{};
     static void Describe(Fields<Params>& fields);
   };
@@ -103,18 +112,26 @@ class BulletDistance final : public System {
   Output<ProximitySet> DeclareProximities(std::size_t moving);
   void DeclareRoles(const Params& params, const ModelSet& models);
 
+  /// What is asked of own links, and by which request.
+  struct Asked {
+    std::shared_ptr<const motion::Trajectory> request{};
+    robot::OwnRanges ranges{};
+    bool known{false};
+  };
+  void CalcAsked(const RequestAhead* request, Asked& result) const;
   void CalcScene(const ObstacleSet& set, ObstacleScene& result) const { result.Follow(set); }
   void CalcNear(const LinkPoses& poses, const ObstacleScene& of, NearObstacles& result) const;
   template <class... Poses>
   void CalcProximities(const LinkPoses& poses, const ObstacleSet& set, const ObstacleScene& of,
-                       const NearObstacles& candidates, const Poses&... others,
+                       const NearObstacles& candidates, const Asked& asked, const Poses&... others,
                        ProximitySet& result) const;
   void Find(const LinkPoses& poses, const ObstacleSet& set, const NearObstacles& candidates,
-            std::span<const LinkPoses* const> others, ProximitySet& result) const;
+            const robot::OwnRanges& ranges, std::span<const LinkPoses* const> others,
+            ProximitySet& result) const;
   void AddObstacles(const LinkCollider& link, const Eigen::Isometry3d& X_WL, const ObstacleSet& set,
                     std::span<const int> candidates, ProximitySet& result) const;
   void AddOwnLinks(const LinkCollider& link, const LinkPoses& poses, int index,
-                   ProximitySet& result) const;
+                   const robot::OwnRanges& ranges, ProximitySet& result) const;
   void AddLinksOfOthers(const LinkCollider& link, const Eigen::Isometry3d& X_WL,
                         std::span<const LinkPoses* const> others, ProximitySet& result) const;
   bool AddOther(const LinkCollider& link, const Eigen::Isometry3d& X_WL, const Neighbour& other,
@@ -130,6 +147,7 @@ class BulletDistance final : public System {
   const std::shared_ptr<const robot::RobotModel> model_;
   const double max_distance_;
   const bool self_collision_;
+  const double self_distance_;
   const bool link_forces_;
   const std::vector<LinkCollider> movable_;
   const std::vector<Neighbour> own_;  ///< empty without self_collision
@@ -141,11 +159,13 @@ class BulletDistance final : public System {
  public:
   const Input<LinkPoses> links;
   const Input<ObstacleSet> obstacles;
+  const OptionalInput<RequestAhead> ahead;
   const std::vector<Input<LinkPoses>> links_of_others;
 
  private:
   const Cached<ObstacleScene> scene_;
   const Cached<NearObstacles> near_;
+  const Cached<Asked> asked_;
 
  public:
   const Output<ProximitySet> proximities;

@@ -109,6 +109,7 @@ struct MeasuresDistances {
   InputHandle obstacles{};
   std::string model{};  ///< of the robot
   bool own_links{false};
+  double self_distance{0.0};  ///< m; that own links keep at most; 0: as from obstacles
   std::vector<Other> others{};
   std::vector<std::pair<std::string, std::string>> ignored{};  ///< link; obstacle or model/link
 };

@@ -110,6 +110,10 @@ Fault CheckProximity(const Proximity& p) {
     return FaultOf("proximity of '{}' and '{}': obstacle_speed; got {} m/s; expected at least 0",
                    p.link.text(), p.obstacle.text(), p.obstacle_speed);
   }
+  if (!(p.range > 0.0)) {
+    return FaultOf("proximity of '{}' and '{}': range; got {} m; expected more than 0",
+                   p.link.text(), p.obstacle.text(), p.range);
+  }
   return {};
 }
 
@@ -200,7 +204,8 @@ Fault Signal<ProximitySet>::Check(const ProximitySet& value, Look look) {
   }
   for (const Proximity& p : value.proximities) {
     if (!AllFinite(&p.distance, 1) || !Finite3(p.point_on_link) || !Finite3(p.point_on_obstacle) ||
-        !Finite3(p.normal) || !Finite3(p.obstacle_velocity) || !AllFinite(&p.obstacle_speed, 1)) {
+        !Finite3(p.normal) || !Finite3(p.obstacle_velocity) || !AllFinite(&p.obstacle_speed, 1) ||
+        std::isnan(p.range)) {
       return FaultOf(
           "proximity of '{}' and '{}': got a NaN or an infinity; expected finite numbers",
           p.link.text(), p.obstacle.text());

@@ -114,7 +114,7 @@ Obstacle ReadObstacle(const JsonReader& json) {
 
 Proximity ReadProximity(const JsonReader& json) {
   json.CheckKeys({"link", "obstacle", "distance", "point_on_link", "point_on_obstacle", "normal"},
-                 {"obstacle_velocity", "own_link", "obstacle_speed"});
+                 {"obstacle_velocity", "own_link", "obstacle_speed", "range"});
   Proximity proximity;
   proximity.link = models::Name(json.At("link").Label());
   proximity.obstacle = models::Name(json.At("obstacle").Label());
@@ -127,6 +127,7 @@ Proximity ReadProximity(const JsonReader& json) {
   }
   if (json.Has("obstacle_speed")) proximity.obstacle_speed = json.At("obstacle_speed").Number();
   if (json.Has("own_link")) proximity.own_link = models::Name(json.At("own_link").Label());
+  if (json.Has("range")) proximity.range = json.At("range").Number();
   return proximity;
 }
 

@@ -55,7 +55,7 @@ struct LinkPoses {
 };
 
 /// Nearest points; normals lead from obstacle to link. JSON: the list of proximities; what is
-/// optional on input and never written is obstacle_velocity, own_link and obstacle_speed.
+/// optional on input and never written is obstacle_velocity, own_link, obstacle_speed and range.
 using robot::Proximity;
 using robot::ProximitySet;
 

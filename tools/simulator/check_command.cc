@@ -4,7 +4,7 @@
 #include <iostream>
 
 #include "oca/diagrams/loading/loader.h"
-#include "oca/diagrams/runs/chatter_check.h"
+#include "oca/diagrams/runs/run_warnings.h"
 #include "oca/systems/signals/roles.h"
 #include "tools/simulator/commands.h"
 #include "tools/simulator/terminal.h"
@@ -40,7 +40,7 @@ int CheckCommand(const std::vector<std::string>& files, const std::vector<std::s
       std::vector<files::Override> overrides;
       for (const std::string& text : texts) overrides.push_back(files::Override::Parse(text));
       auto loaded = loading::LoadDiagram(file, overrides, catalogue);
-      runs::AddChatterWarnings(loaded);
+      runs::AddRunWarnings(loaded);
       for (const std::string& warning : loaded.warnings) std::cerr << warning << '\n';
       std::cout << file << ": fine, " << loaded.systems.size() << " systems, "
                 << CountConnections(*loaded.diagram) << " connections\n"

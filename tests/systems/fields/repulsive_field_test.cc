@@ -69,6 +69,40 @@ TEST(RepulsiveFieldTest, IsZeroFromTheLimitDistanceOutwards) {
   EXPECT_GT(bench->Magnitude(0.2999999), 0.0);
 }
 
+ProximitySet OwnAt(double distance, double range) {
+  ProximitySet set = At(distance);
+  set.proximities[0].own_link = models::Name("other");
+  set.proximities[0].range = range;
+  return set;
+}
+
+// With a third of the field's range for these links, they see its forces at a third of the
+// distances.
+TEST(RepulsiveFieldTest, OfOwnLinksBeginsAtTheirRange) {
+  SystemBench<RepulsiveField> bench(RepulsiveField::Params{});
+  const auto force = [&](const ProximitySet& set) {
+    bench->proximities.Fix(bench.context(), set);
+    return bench->forces.Eval(bench.context()).forces.at(0).force.z();
+  };
+  for (const double rho : {0.25, 0.1, 0.02, 0.0, -0.1}) {
+    EXPECT_NEAR(force(OwnAt(rho / 3.0, 0.1)), force(At(rho)), 1e-9 * force(At(rho))) << rho;
+  }
+  EXPECT_GT(force(OwnAt(0.0999, 0.1)), 0.0);
+  EXPECT_EQ(force(OwnAt(0.1001, 0.1)), 0.0);
+  EXPECT_EQ(force(OwnAt(0.2, 0.7)), force(At(0.2))) << "a range beyond the field's";
+  constexpr double kStep = 1e-8;
+  for (const double rho : {0.02, 0.08}) {
+    const double numeric =
+        (force(OwnAt(rho - kStep, 0.1)) - force(OwnAt(rho + kStep, 0.1))) / (2.0 * kStep);
+    bench->proximities.Fix(bench.context(), OwnAt(rho, 0.1));
+    const ContactSlopes& slopes = bench->slopes.Eval(bench.context());
+    ASSERT_EQ(slopes.slopes.size(), 1u);
+    EXPECT_NEAR(slopes.slopes[0].slope.z(), numeric, 1e-5 * numeric);
+  }
+  bench->proximities.Fix(bench.context(), OwnAt(0.1001, 0.1));
+  EXPECT_TRUE(bench->slopes.Eval(bench.context()).slopes.empty());
+}
+
 TEST(RepulsiveFieldTest, StaysFiniteAndOutwardFromTheFloorIntoPenetration) {
   const RepulsiveField field(RepulsiveField::Params{});
   const double largest = field.Magnitude(0.01);

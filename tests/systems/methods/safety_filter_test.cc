@@ -50,6 +50,18 @@ TEST(SafetyFilterTest, ProjectsTheRequestOntoTheRowByHand) {
   EXPECT_EQ(activity.slack, 0.0);
 }
 
+// The same row for a pair of which 0.02 m are asked at most: h is 0.03 at 0.05.
+TEST(SafetyFilterTest, KeepsNoMoreThanTheRangeOfAPair) {
+  ProximitySet near = BesideTheTip(0.05, 0.0);
+  near.proximities[0].range = 0.02;
+  const Eigen::VectorXd u = Answer(Hundred(), {1, 0}, near);
+  EXPECT_NEAR((u - Eigen::Vector2d(1 - 0.675 / 0.97, -0.3 / 0.97)).norm(), 0.0, 1e-12);
+  near.proximities[0].range = 0.07;  // more than is kept of all
+  EXPECT_NEAR(
+      (Answer(Hundred(), {1, 0}, near) - Answer(Hundred(), {1, 0}, BesideTheTip(0.05, 0.0))).norm(),
+      0.0, 1e-12);
+}
+
 TEST(SafetyFilterTest, LetsTheArmMoveAwayAsFastAsItLikes) {
   const Eigen::VectorXd u = Answer(Hundred(), {-1, 0}, BesideTheTip(0.0501, 0.0));
   EXPECT_NEAR((u - Eigen::Vector2d(-1, 0)).norm(), 0.0, 1e-12);

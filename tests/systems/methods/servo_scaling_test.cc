@@ -60,6 +60,9 @@ TEST(ServoScalingTest, TheLawByHand) {
   EXPECT_EQ(system.Law(0.0, false), 0.0);
   EXPECT_EQ(system.Law(-3.0, false), 0.0);
   EXPECT_NEAR(system.Law(0.01, true), kHalf, 1e-9);
+  EXPECT_NEAR(system.Law(0.002, true, 0.004), kHalf, 1e-9) << "half of what is asked of a pair";
+  EXPECT_EQ(system.Law(0.004, true, 0.004), 1.0);
+  EXPECT_NEAR(system.Law(0.01, true, 0.5), kHalf, 1e-9);
 }
 
 TEST(ServoScalingTest, TheSlopeOfTheLawIsThatOfItsFormula) {

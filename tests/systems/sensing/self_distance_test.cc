@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 #include <random>
 #include <utility>
 
@@ -83,6 +84,42 @@ TEST(SelfDistanceTest, ListsEveryPairOfTheArmFromBothSidesAsMirrors) {
   }
   EXPECT_GT(mirrored, 100);
   EXPECT_GT(fixed, 20);
+}
+
+// Link 3 folds beside link 1, nearest at the end.
+TEST(SelfDistanceTest, AsksOfOwnLinksWhatSelfDistanceAndTheRequestLeave) {
+  const ModelSet models = TestModels("planar3");
+  const auto model = models.Get("planar3");
+  const Vector3d folded(0.0, 1.5, 2.0);
+  const auto ask = [&](double self_distance, bool ahead) {
+    auto owned = std::make_unique<BulletDistance>(Params{.model = "planar3",
+                                                         .max_distance = 1.0,
+                                                         .self_collision = true,
+                                                         .self_distance = self_distance},
+                                                  models);
+    const BulletDistance& distance = *owned;
+    const auto diagram = MakeDiagramOf(std::move(owned), {{"ahead", -1}});
+    Simulator simulator(*diagram);
+    Context& context = simulator.context();
+    distance.links.Fix(context, LinksAt(*model, folded));
+    distance.obstacles.Fix(context, ObstacleSet{});
+    RequestAhead request;
+    if (ahead) {
+      request.trajectory = std::make_shared<const motion::Trajectory>(motion::Trajectory::Linear(
+          {{.time = 0.0, .position = Vector3d::Zero()}, {.time = 1.0, .position = folded}}));
+    }
+    diagram->GetInput<RequestAhead>("ahead").Fix(context, request);
+    const ProximitySet set = distance.proximities.Eval(context);
+    EXPECT_EQ(set.proximities.size(), 2u);
+    EXPECT_EQ(set.proximities[0].range, set.proximities[1].range) << "from either side";
+    return set.proximities.at(0);
+  };
+  const double distance = ask(1.0, true).distance;
+  ASSERT_GT(distance, 0.03);
+  EXPECT_NEAR(ask(1.0, true).range, distance / 3.0, 1e-9);
+  EXPECT_EQ(ask(0.5 * distance / 3.0, true).range, 0.5 * distance / 3.0);
+  EXPECT_EQ(ask(1.0, false).range, 1.0);
+  EXPECT_EQ(ask(0.0, true).range, robot::kUnlimited) << "as of obstacles";
 }
 
 TEST(SelfDistanceTest, APairOfTheArmIgnoredFromOneSideIsIgnoredFromBoth) {

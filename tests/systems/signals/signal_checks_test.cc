@@ -137,6 +137,7 @@ TEST(SignalChecksTest, AProximityHasAUnitNormalNamesAndNoNegativeSpeed) {
               HasSubstr("beyond 1e6"));
   EXPECT_THAT(spoilt([](auto&, Proximity& p) { p.obstacle_speed = -1.0; }),
               HasSubstr("obstacle_speed"));
+  EXPECT_THAT(spoilt([](auto&, Proximity& p) { p.range = 0.0; }), HasSubstr("range"));
   EXPECT_THAT(spoilt([](ProximitySet& s, auto&) { s.max_distance = -0.1; }),
               HasSubstr("max_distance"));
 }
