@@ -4,7 +4,7 @@ export TMPDIR=$PWD/tmp
 mkdir tmp
 "$SIMULATOR" run "$OCA_SOURCE/diagrams/scenarios/random_moving.yaml" --no-progress -t 0.1 --record r.mcap > /dev/null 2>&1 || true
 for signal in INT TERM INT TERM INT TERM; do
-  "$SIMULATOR" run r.mcap -t 5 --no-progress > /dev/null 2>&1 &
+  "$SIMULATOR" run r.mcap -t 1000 --no-progress > /dev/null 2>&1 &
   pid=$!
   until ls tmp/oca_record_* > /dev/null 2>&1 || ! kill -0 "$pid" 2> /dev/null; do :; done
   kill -s "$signal" "$pid" 2> /dev/null || true
