@@ -139,6 +139,28 @@ export async function testRobot({ test, browser, write, embed, page_text, errors
     assert.deepEqual(painted, [await page.evaluate(() => window.oca.page.colour("--accent")), await page.evaluate(() => window.oca.page.colour("--accent"))]);
     await page.context().close();
   });
+  await test("a link under the pointer shows, and a click holds on to it", async () => {
+    const { page } = await openPage(browser, file);
+    const box = await page.locator("#view").boundingBox();
+    const [x, y] = await page.evaluate(() => {
+      const { x, y } = window.oca.poses[1].p.clone().project(window.oca.view.camera);
+      return [(1 + x) / 2, (1 - y) / 2];
+    });
+    const shown = () => page.locator(".pane.links tbody tr.on th").allTextContents();
+    await page.mouse.move(box.x + x * box.width, box.y + y * box.height);
+    assert.deepEqual(await shown(), [`${kHostile[2]} ⚠`]);
+    await page.mouse.down();
+    await page.mouse.up();
+    await page.mouse.move(box.x + 3, box.y + box.height - 3);
+    assert.deepEqual(await shown(), [`${kHostile[2]} ⚠`]);
+    await page.mouse.move(box.x + x * box.width, box.y + y * box.height);
+    await page.mouse.down();
+    await page.mouse.move(box.x + x * box.width + 40, box.y + y * box.height);  // turns the view
+    await page.mouse.up();
+    await page.mouse.move(box.x + 3, box.y + box.height - 3);
+    assert.deepEqual(await shown(), [`${kHostile[2]} ⚠`]);
+    await page.context().close();
+  });
   await test("collision shapes and visuals are shown and hidden apart", async () => {
     const { page } = await openPage(browser, file);
     const seen = () => page.evaluate(() => Object.fromEntries(["/scene/robots", "/scene/collisions"].map((topic) => [topic, window.oca.view.isOn(topic)])));
