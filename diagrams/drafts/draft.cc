@@ -167,13 +167,11 @@ class DraftMaker {
   }
 
   void WriteDiagram(const planning::FirstMotion& motion) {
-    std::error_code error;
-    const fs::path srdf =
-        srdf_.empty() ? fs::proximate(options_.srdf, options_.folder, error) : srdf_.filename();
+    const std::string srdf = srdf_.empty() ? internal::PathFrom(options_.folder, options_.srdf)
+                                           : srdf_.filename().string();
     Write(draft_.diagram,
           internal::DiagramText(options_, draft_.robot, internal::TextOf(motion, draft_.robot),
-                                (error ? options_.srdf : srdf).string(),
-                                limits_.filename().string()));
+                                srdf, limits_.filename().string()));
     if (draft_.files.empty() || draft_.files.front() != draft_.diagram) {
       draft_.files.insert(draft_.files.begin(), draft_.diagram);
     }

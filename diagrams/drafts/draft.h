@@ -20,6 +20,7 @@ namespace oca::drafts {
 /// What a first diagram file is made of.
 struct DraftOptions {
   std::filesystem::path robot{};         ///< URDF or xacro
+  std::string named{};                   ///< how the diagram names it; empty: by its path
   robot::XacroArguments arguments{};     ///< of a xacro
   std::filesystem::path srdf{};          ///< empty: pairs are found by sampling, and written
   std::string group{};                   ///< of the SRDF, that is the arm; empty: it is guessed

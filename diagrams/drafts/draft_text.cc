@@ -10,6 +10,9 @@
 #include <nlohmann/json.hpp>
 
 namespace oca::drafts::internal {
+
+namespace fs = std::filesystem;
+
 namespace {
 
 using Eigen::Index;
@@ -69,10 +72,9 @@ std::string PackagesText(const DraftRobot& robot) {
 
 std::string ModelText(const DraftOptions& options, const DraftRobot& robot, const std::string& srdf,
                       const std::string& limits) {
-  std::error_code error;
-  const auto path = std::filesystem::proximate(options.robot, options.folder, error);
-  std::string text = fmt::format("    {}: {}\n", robot::IsXacro(options.robot) ? "xacro" : "urdf",
-                                 Quoted((error ? options.robot : path).string()));
+  std::string text = fmt::format(
+      "    {}: {}\n", robot::IsXacro(options.robot) ? "xacro" : "urdf",
+      Quoted(options.named.empty() ? PathFrom(options.folder, options.robot) : options.named));
   if (!options.arguments.empty()) {
     text += "    arguments:\n";
     for (const auto& [name, value] : options.arguments) {
@@ -98,6 +100,15 @@ std::string ModelText(const DraftOptions& options, const DraftRobot& robot, cons
 }
 
 }  // namespace
+
+std::string PathFrom(const fs::path& folder, const fs::path& file) {
+  std::error_code error;
+  const fs::path absolute = fs::weakly_canonical(file, error);
+  const fs::path outer = fs::weakly_canonical(folder, error).parent_path();
+  const fs::path path = absolute.lexically_relative(outer);
+  const bool beside = !path.empty() && *path.begin() != "..";
+  return (beside ? ".." / path : absolute).string();
+}
 
 std::string PlainName(const std::string& robot) {
   std::string name;

@@ -12,6 +12,10 @@ namespace oca::drafts::internal {
 /// The name of a file made for a robot: its letters and digits.
 std::string PlainName(const std::string& robot);
 
+/// How a file in `folder` names another one: from there, if that lies beside or below the folder,
+/// else absolute.
+std::string PathFrom(const std::filesystem::path& folder, const std::filesystem::path& file);
+
 /// A first motion as a diagram file has it.
 struct MotionText {
   std::string first, second;  ///< key points

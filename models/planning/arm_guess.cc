@@ -47,7 +47,7 @@ class ArmSearch {
     }
     if (guess.joints.size() < 2) {
       throw models::ModelError(fmt::format(
-          "robot '{}': its arm; got {} joint{} that move one after the other; expected two or more",
+          "robot '{}': its arm; got {} joint{} one after the other; expected two or more",
           model_.name().text(), guess.joints.size(), guess.joints.size() == 1 ? "" : "s"));
     }
     if (guess.joints.size() > kMostArmJoints) {

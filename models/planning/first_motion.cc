@@ -73,7 +73,8 @@ class MotionSearch {
     VectorXd q(model_.num_positions());
     for (Index i = 0; i < q.size(); ++i) {
       const auto [lower, upper] = ranges_[static_cast<std::size_t>(i)];
-      const double half = 0.5 * kMiddle * (upper - lower);
+      const bool turns = upper - lower > 2.0 * std::numbers::pi;
+      const double half = 0.5 * kMiddle * (turns ? 2.0 * std::numbers::pi : upper - lower);
       const double middle = 0.5 * (lower + upper);
       q[i] = random_.Uniform(middle - half, middle + half);
     }
@@ -202,6 +203,11 @@ double ReachOf(const robot::RobotModel& model, int link) {
     }
     offset += joint.X_PJ.translation().norm();
     at = joint.parent_link;
+  }
+  if (!(reach > 0.0)) {
+    throw models::ModelError("link '" + model.links()[static_cast<std::size_t>(link)].name.text() +
+                             "': its reach; got 0 m, for it lies where the joint is that moves it; "
+                             "expected a frame at the end of the arm");
   }
   return reach;
 }

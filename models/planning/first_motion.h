@@ -21,7 +21,7 @@ struct FirstMotion {
 
 /// A bound on how far a link's origin gets from that of the first joint that moves it, m: the
 /// lengths between the joints, and the ranges of sliding ones.
-/// throws ModelError if a sliding joint has no range
+/// throws ModelError if a sliding joint has no range, or the bound is 0
 double ReachOf(const robot::RobotModel& model, int link);
 
 /// Motions to try a robot with, best first, at most `count`: one joint turns, or slides, the tip

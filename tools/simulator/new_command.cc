@@ -61,6 +61,7 @@ int NewCommand(const NewArguments& arguments) {
   CatchInterrupts();
   drafts::DraftOptions options;
   options.robot = files::ResolvePath(arguments.robot, {}, {});
+  if (arguments.robot.starts_with("package://")) options.named = arguments.robot;
   options.arguments = ParseXacroArguments(arguments.arguments);
   options.srdf = arguments.srdf;
   options.group = arguments.group;

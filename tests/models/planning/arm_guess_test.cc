@@ -141,7 +141,7 @@ TEST(ArmGuessTest, RefusesWhatIsNoArm) {
     GuessArm(Tree().Add("turntable", "base").Robot());
     FAIL();
   } catch (const models::ModelError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("robot 'r': its arm; got 1 joint that move"));
+    EXPECT_THAT(error.what(), HasSubstr("robot 'r': its arm; got 1 joint one after the other"));
   }
 }
 
