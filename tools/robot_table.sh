@@ -6,8 +6,8 @@
 # A robot's SRDF is the file of its name beside it, else what `robot check-collisions` writes. From a
 # random posture near the middle of its ranges the first joint turns by up to 2 rad and the others by
 # up to 0.4; nothing but the arm itself is certain to be clear of that. A random box stands in the way
-# (section `sampling` of a diagram file), with 0.1 of the reach between it and both ends. Sliders of
-# less than 0.2 m, fingers, stay where they are.
+# (section `sampling` of a diagram file), with 0.15 of the reach between it and both ends, which is
+# what the fields of `report` reach. Sliders of less than 0.2 m, fingers, stay where they are.
 #
 #   arrived   within 0.01 of the goal in the end, never in contact: yes, or what went wrong
 #   time      to the goal, as a share of the time without avoidance
@@ -82,6 +82,7 @@ diagram() {
     END {
       print "name: robot"
       print "include: [\"" root "/diagrams/parts/avoidance.yaml\"]"
+      near = 0.15 * (reach < 2 ? reach : 2)
       print "parameters: {self_collision: true}"
       print "simulator: {duration: 20, seed: " draw "}"
       print "models:\n  arm: {urdf: " urdf ", srdf: " srdf "}"
@@ -91,8 +92,9 @@ diagram() {
       print "      - {time: 8.5, position: " list(to) "}"
       print "  plant: {initial_position: " list(from) "}"
       print "#box sampling:\n#box   tries: 3000"
-      printf "#box   obstacles: {count: [1, 1], shapes: [box], extent: [%.3f, %.3f], shell: {centre: [0, 0, %.3f], radius: [%.3f, %.3f]}}\n", 0.08 * reach, 0.16 * reach, 0.3 * reach, 0.35 * reach, 0.8 * reach
-      printf "#box   accept: {home_distance: {at_least: %.3f}, goal_distance: {at_least: %.3f}, foot_distance: {at_least: %.3f}, requested_distance: {at_most: -0.01}}\n", 0.1 * reach, 0.1 * reach, 0.06 * reach
+      printf "#box   obstacles: {count: [1, 1], shapes: [box], extent: [%.3f, %.3f], shell: {centre: [0, 0, %.3f], radius: [%.3f, %.3f]}}\n", 0.08 * reach, 0.16 * reach, 0.3 * reach, 0.4 * reach, 0.7 * reach
+      printf "#box   accept: {home_distance: {at_least: %.3f}, goal_distance: {at_least: %.3f}, foot_distance: {at_least: %.3f}, requested_distance: {at_most: -0.01}}\n", near, near, 0.06 * reach
+      printf "#reach %.3f\n", near
     }'
 }
 
@@ -137,7 +139,8 @@ while read -r urdf; do
   printf '%-28s' "$name"
   for method in "${methods[@]}"; do
     extra=()
-    [ "$method" != report ] || extra=(-s parameters.relaxation_time=0.4)
+    [ "$method" != report ] || extra=(-s parameters.relaxation_time=0.4
+      -s "parameters.max_distance=$(sed -n 's/^#reach //p' "$work/$name.yaml")")
     run "$work/$name.yaml" -s "parameters.avoidance=$method" "${extra[@]}" || true
     verdict=$(awk -v d="$(number min_distance "$work/result")" -v e="$(number final_error "$work/result")" \
       -v t="$(number time_to_goal "$work/result")" -v free="${free:-8}" '

@@ -17,6 +17,9 @@
 namespace oca::robot {
 namespace {
 
+// Of the posture 0, m: what closes flush there, such as fingers, is apart by rounding or is not.
+constexpr double kFlush = 1e-6;
+
 struct Solid {
   Eigen::Isometry3d X_LC;
   std::shared_ptr<const geometry::Collider> collider;
@@ -150,9 +153,8 @@ std::vector<LinkPairCheck> CheckCollisions(const RobotModel& model,
           DistanceWithin(solids[pair.link_a], X_WL[pair.link_a], solids[pair.link_b],
                          X_WL[pair.link_b], pair.least_distance);
       pair.least_distance = std::min(pair.least_distance, distance);
-      if (distance > 0.0) continue;
-      ++pair.collisions;
-      pair.at_zero |= sample == 0;
+      if (sample == 0) pair.at_zero = distance <= kFlush;
+      if (distance <= 0.0) ++pair.collisions;
     }
   }
   for (LinkPairCheck& pair : pairs) {

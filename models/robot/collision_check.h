@@ -37,7 +37,7 @@ struct LinkPairCheck {
   PairKind kind{PairKind::kSometimes};
   double least_distance{0.0};  // m, signed, over all samples
   int collisions{0};           // samples with distance <= 0
-  bool at_zero{false};         // whether the posture 0 is one of them
+  bool at_zero{false};         // whether they touch at the posture 0
 };
 
 /// Looks at every pair of links with solids, adjacent ones too, at the posture 0 (or what is

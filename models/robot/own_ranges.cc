@@ -41,7 +41,8 @@ std::vector<double> TimesAlong(const motion::Trajectory& request) {
 /// ends, m.
 double RangeOf(double along, double ends, double self_distance) {
   const double left = along > kTouching ? along : ends;
-  return left > kTouching ? std::min(self_distance, kLeftShare * left) : self_distance;
+  if (left <= kTouching || left >= self_distance / kLeftShare) return self_distance;
+  return std::min(self_distance, kLeftShare * left);
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ class OwnLinksCheckTest : public testing::Test {
 
 TEST_F(OwnLinksCheckTest, NamesEachPairThatStandsNearerThanItIsToKeep) {
   EXPECT_THAT(OwnLinkWarnings(Load(0.005)),
-              ElementsAre(AllOf(HasSubstr("loop.yaml"), HasSubstr("systems.distance: own links"),
+              ElementsAre(AllOf(HasSubstr("warning: systems.distance: own links"),
                                 HasSubstr("nearer at the start than self_distance, 0.01 m: fore "
                                           "and base 0.005 m"))));
   EXPECT_THAT(OwnLinkWarnings(Load(-0.001)),

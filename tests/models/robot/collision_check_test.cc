@@ -114,7 +114,8 @@ RobotModel Passing(double low, double high) {
   links[1].collisions[0].X_LC.translation().z() = 5.0;
   links[2].collisions[0].X_LC.translation().x() = 1.0;
   std::vector<Joint> joints = model.joints();
-  joints[1].lower_limit = joints[1].upper_limit = 0.0;
+  joints[1].lower_limit = -1e-3;
+  joints[1].upper_limit = 1e-3;
   return RobotModel(models::Name("passing"), std::move(links), std::move(joints));
 }
 

@@ -56,12 +56,8 @@ TEST(PublicArmsTest, HaveTheSrdfThatSamplingFinds) {
                                     arm.links()[pair.link_b].name.text();
       // What meets nearly always may do so a little less often here.
       const bool rare = pair.collisions < 450;
-      if (pair.kind == PairKind::kSometimes && rare) {
-        EXPECT_FALSE(disabled) << pair_name;
-      }
-      if (pair.kind == PairKind::kDefault) {
-        EXPECT_TRUE(disabled) << pair_name;
-      }
+      if (pair.kind == PairKind::kSometimes && rare) EXPECT_FALSE(disabled) << pair_name;
+      if (pair.kind == PairKind::kDefault) EXPECT_TRUE(disabled) << pair_name;
     }
   }
 }
