@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace oca::geometry::internal {
+
+/// Refuses Collada text that assimp would crash on: it walks elements by recursion, and reads the
+/// numbers that an <accessor> promises of an array whether the array has them or not.
+/// throws ModelError naming the file
+void CheckCollada(const std::filesystem::path& file, std::string_view text);
+
+}  // namespace oca::geometry::internal
