@@ -66,6 +66,17 @@ class ColladaScanner {
     const std::string_view name = tag.substr(0, tag.find_first_of(" \t\r\n/"));
     if (name.ends_with("_array")) AddArray(tag);
     if (name == "accessor") AddAccessor(tag);
+    if ((name == "p" || name == "vcount" || name == "v") && !tag.ends_with('/')) CheckIndices(name);
+  }
+
+  /// What stands in the element that has begun.
+  void CheckIndices(std::string_view name) const {
+    const std::size_t begin = std::min(at_ + 1, text_.size());
+    const std::size_t end =
+        std::min(text_.find_first_not_of("0123456789+- \t\r\n", begin), text_.size());
+    if (text_.substr(end).starts_with("</")) return;
+    Refuse(fmt::format("<{}>", name), models::internal::Shown(text_.substr(end, 20)),
+           "whole numbers and its end");
   }
 
   /// Of the one that begins here: its '>', which values in quotes may hold too.

@@ -264,6 +264,11 @@ TEST(MeshTest, ReadsNoMoreNumbersOfAColladaArrayThanItHas) {
   EXPECT_THAT(refusal(" count=\"9\"", "4"),
               HasSubstr("accessor of 'pa'; got an array of 9 numbers; expected 12"));
   EXPECT_THAT(refusal("", "3"), HasSubstr("got an array of 0 numbers; expected 9"));
+  std::string endless = Collada(" count=\"9\"", "3");
+  endless.replace(endless.find("0 1 2</p>"), 1, "0\xFF");
+  EXPECT_THAT(RefusalOf(folder.Write("c.dae", endless)), HasSubstr("<p>; got ? 1 2</p>"));
+  endless.replace(endless.find("0\xFF"), 2, "<![CDATA[x]]>");
+  EXPECT_THAT(RefusalOf(folder.Write("c.dae", endless)), HasSubstr("<p>; got <![CDATA["));
   EXPECT_THAT(refusal(" count=\"9\"", "4294967295"), HasSubstr("expected 12884901885"));
   EXPECT_THAT(refusal(" count=\"-9\"", "3"), HasSubstr("count; got -9; expected a whole number"));
 }
