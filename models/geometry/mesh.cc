@@ -21,6 +21,7 @@
 
 #include "oca/models/error.h"
 #include "oca/models/file_bytes.h"
+#include "oca/models/geometry/collada_check.h"
 #include "oca/models/geometry/ply_file.h"
 #include "oca/models/table_text.h"
 
@@ -47,24 +48,6 @@ void CheckKind(const fs::path& file) {
   Refuse(file,
          fmt::format("unknown kind of mesh; got extension '{}'; expected .stl, .obj, .dae, .ply",
                      extension));
-}
-
-// assimp walks Collada by recursion: a file of nothing but opening tags would exhaust the stack.
-void CheckNesting(const fs::path& file, std::string_view bytes) {
-  constexpr int kMaxDepth = 200;
-  int depth = 0;
-  char previous = 0, before = 0;
-  for (const char c : bytes) {
-    if (previous == '<' && c == '/') --depth;
-    if (previous == '<' && (std::isalpha(static_cast<unsigned char>(c)) || c == '_')) ++depth;
-    if (previous == '/' && c == '>' && before != '<') --depth;
-    if (depth > kMaxDepth) {
-      Refuse(file, fmt::format("Collada elements nested too deep; got more than {}; expected a "
-                               "file of a drawing program",
-                               kMaxDepth));
-    }
-    before = std::exchange(previous, c);
-  }
 }
 
 /// Gives assimp the bytes of one file and none that it names: materials and pictures have no shape.
@@ -165,7 +148,7 @@ void DropUnused(TriangleMesh* mesh) {
 
 TriangleMesh ReadByAssimp(const fs::path& file, std::string_view bytes, const Vector3d& scale) {
   if (LowerExtension(file) == ".stl") CheckStlCount(file, bytes);
-  if (LowerExtension(file) == ".dae") CheckNesting(file, bytes);
+  if (LowerExtension(file) == ".dae") internal::CheckCollada(file, bytes);
   Assimp::Importer importer;
   importer.SetIOHandler(new OneFile(file.string(), bytes));  // the importer deletes it
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);

@@ -238,5 +238,40 @@ TEST(MeshTest, RefusesAColladaOfNothingButOpeningTags) {
   EXPECT_THAT(RefusalOf(folder.Write("bomb.dae", bomb)), HasSubstr("nested too deep"));
 }
 
+/// A triangle of `count` numbers in its array, of which an accessor reads `points` points.
+std::string Collada(const std::string& count, const std::string& points) {
+  return "<COLLADA version=\"1.4.1\"><library_geometries><geometry id=\"g\"><mesh><source id=\"p\">"
+         "<!-- <float_array id='pa' count='99'> --><float_array id=\"pa\"" +
+         count +
+         ">0 0 0 1 0 0 0 1 0</float_array><technique_common><accessor source=\"#pa\" count=\"" +
+         points +
+         "\" stride='3'><param name='X' type='float'/><param name='Y' type='float'/><param "
+         "name='Z' "
+         "type='float'/></accessor></technique_common></source><vertices id='v'><input "
+         "semantic='POSITION' source='#p'/></vertices><triangles count='1'><input "
+         "semantic='VERTEX' source='#v' offset='0'/><p>0 1 2</p></triangles></mesh></geometry>"
+         "</library_geometries><library_visual_scenes><visual_scene id='s'><node id='n'>"
+         "<instance_geometry url='#g'/></node></visual_scene></library_visual_scenes><scene>"
+         "<instance_visual_scene url='#s'/></scene></COLLADA>";
+}
+
+TEST(MeshTest, ReadsNoMoreNumbersOfAColladaArrayThanItHas) {
+  const test::TemporaryFolder folder;
+  EXPECT_EQ(LoadMesh(folder.Write("a.dae", Collada(" count=\"9\"", "3"))).triangles.size(), 1u);
+  const auto refusal = [&](const std::string& count, const std::string& points) {
+    return RefusalOf(folder.Write("b.dae", Collada(count, points)));
+  };
+  EXPECT_THAT(refusal(" count=\"9\"", "4"),
+              HasSubstr("accessor of 'pa'; got an array of 9 numbers; expected 12"));
+  EXPECT_THAT(refusal("", "3"), HasSubstr("got an array of 0 numbers; expected 9"));
+  std::string endless = Collada(" count=\"9\"", "3");
+  endless.replace(endless.find("0 1 2</p>"), 1, "0\xFF");
+  EXPECT_THAT(RefusalOf(folder.Write("c.dae", endless)), HasSubstr("<p>; got ? 1 2</p>"));
+  endless.replace(endless.find("0\xFF"), 2, "<![CDATA[x]]>");
+  EXPECT_THAT(RefusalOf(folder.Write("c.dae", endless)), HasSubstr("<p>; got <![CDATA["));
+  EXPECT_THAT(refusal(" count=\"9\"", "4294967295"), HasSubstr("expected 12884901885"));
+  EXPECT_THAT(refusal(" count=\"-9\"", "3"), HasSubstr("count; got -9; expected a whole number"));
+}
+
 }  // namespace mesh_test
 }  // namespace oca::geometry
