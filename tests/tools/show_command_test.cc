@@ -34,7 +34,8 @@ TEST_F(ShowCommandTest, WritesThePageWithTheRobotInside) {
 
 TEST_F(ShowCommandTest, ServesThePageUntilItIsInterrupted) {
   const std::string folder = run.folder().path().string();
-  const Ran ran = run("OCA_VIEWER=" + folder +
+  // A command of its own, so that $! is the program and no shell.
+  const Ran ran = run("true; OCA_VIEWER=" + folder +
                       "/page.html $S robot show package://planar2/planar2.urdf --port 0 > " +
                       folder + "/said & while kill -0 $! && ! grep -q http " + folder +
                       "/said; do sleep 0.1; done; kill -TERM $!; wait $!");
