@@ -136,8 +136,8 @@ void ModelSection::ReadModel(const Value::Entry& entry, const std::string& full_
       end = text.find('\n', from);
       const std::string line = text.substr(from, end - from);
       const Value* const at = FindSpokenOf(entry.value, line);
-      thrown.Add(at == nullptr ? PlaceOf(entry) : at->location(),
-                 fmt::format("{}: {}", where, line));
+      const Location place = read == nullptr ? PlaceOf(entry) : entry.location;
+      thrown.Add(at == nullptr ? place : at->location(), fmt::format("{}: {}", where, line));
     }
   }
   const Read& found = read == nullptr ? fresh : *read;

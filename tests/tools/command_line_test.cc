@@ -192,7 +192,7 @@ TEST_F(CommandLineTest, AFileWithoutANameIsRefusedInWords) {
           .string();
   const Ran ran = run("$S check " + file);
   EXPECT_EQ(ran.status, 2);
-  EXPECT_THAT(ran.err, HasSubstr("e.yaml:1:10: error: models.arm"));
+  EXPECT_THAT(ran.err, HasSubstr("e.yaml:1:22: error: models.arm"));
   EXPECT_EQ(ran.err.find("filesystem error"), std::string::npos) << ran.err;
 }
 

@@ -39,7 +39,7 @@ TEST_F(ShowCommandTest, ServesThePageUntilItIsInterrupted) {
                       "/page.html $S robot show package://planar2/planar2.urdf --port 0 > " +
                       folder + "/said & while kill -0 $! && ! grep -q http " + folder +
                       "/said; do sleep 0.1; done; kill -TERM $!; wait $!");
-  EXPECT_EQ(ran.status, 0) << ran.err;
+  EXPECT_EQ(ran.status, 130) << ran.err;
   EXPECT_THAT(run.Read("said"),
               HasSubstr("package://planar2/planar2.urdf, in a browser; Ctrl-C ends it: "
                         "http://127.0.0.1:"));

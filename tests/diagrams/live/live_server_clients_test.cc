@@ -214,8 +214,7 @@ TEST(LiveServerClientsTest, SaysInItsOwnWordsWhatItDoesNotUnderstand) {
   for (const std::string& bad :
        {std::string("{"), std::string("7"), std::string(R"({"op": 7})"),
         std::string(R"({"op": "getParameters", "parameterNames": [7]})"),
-        R"({"op": "getParameters", "id": )" + deep + "}", R"({"op": "dance"})" + std::string(),
-        std::string("{\"op\": \"\xE9\"}")}) {
+        R"({"op": "getParameters", "id": )" + deep + "}", R"({"op": "dance"})" + std::string()}) {
     client.Send(bad);
     const std::string what = client.ReadOp("status")["message"].get<std::string>();
     EXPECT_THAT(what, HasSubstr("; expected")) << bad.substr(0, 60);

@@ -43,7 +43,7 @@ class HullWarningTest : public testing::Test {
 TEST_F(HullWarningTest, NamesLinkFileAndVolumeOfARobotsMesh) {
   EXPECT_THAT(
       WarningsOfRobot("angle.obj"),
-      ElementsAre(AllOf(HasSubstr("d.yaml:1:10: warning: models.arm: link 'elbow': collision "
+      ElementsAre(AllOf(HasSubstr("d.yaml:1:22: warning: models.arm: link 'elbow': collision "
                                   "mesh 'angle.obj' counts as its convex hull, which adds "
                                   "0.5 m^3 (16.7 %)"),
                         EndsWith("collision: decomposition splits it"))));

@@ -25,7 +25,7 @@ TEST_F(LoaderModelsTest, ModelsThatDoNotExistAreRefused) {
               AllOf(HasSubstr("d.yaml:2:"), HasSubstr("systems.k"), HasSubstr("amr"),
                     HasSubstr("did you mean 'arm'?")));
   EXPECT_THAT(Refusal("models: {arm: {urdf: missing.urdf}}\n" + kinematics),
-              AllOf(HasSubstr("d.yaml:1:10: error: models.arm: "), HasSubstr("missing.urdf")));
+              AllOf(HasSubstr("d.yaml:1:22: error: models.arm: "), HasSubstr("missing.urdf")));
   EXPECT_THAT(Refusal("models: {arm: {srdf: x}}\n" + kinematics),
               HasSubstr("models.arm: got neither urdf nor xacro; expected one of"));
   EXPECT_THAT(Refusal("models: {arm: {urdf: ''}}\n" + kinematics), HasSubstr("models.arm"));

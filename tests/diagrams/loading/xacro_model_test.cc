@@ -144,7 +144,7 @@ TEST_F(XacroModelTest, ABlueprintTellsArgumentsApartAndNotesAllFiles) {
 
 TEST_F(XacroModelTest, RefusesWhatIsNotOneDescription) {
   EXPECT_THAT(Refusal("{xacro: arm.urdf.xacro, urdf: a.urdf}"),
-              HasSubstr("d.yaml:2:10: error: models.arm: got both urdf and xacro; expected one"));
+              HasSubstr("d.yaml:2:45: error: models.arm: got both urdf and xacro; expected one"));
   EXPECT_THAT(Refusal("{arguments: {n: 1}}"), HasSubstr("got neither urdf nor xacro"));
   EXPECT_THAT(Refusal("{urdf: arm.urdf.xacro}"),
               HasSubstr("models.arm: urdf: got 'arm.urdf.xacro'; expected a URDF (key xacro"));
@@ -156,7 +156,7 @@ TEST_F(XacroModelTest, RefusesWhatIsNotOneDescription) {
   EXPECT_THAT(Refusal("{xacro: arm.urdf.xacro, arguments: {n: [1]}}"),
               HasSubstr("models.arm.arguments.n: got a list; expected a text, number or boolean"));
   EXPECT_THAT(Refusal("{xacro: arm.urdf.xacro, arguments: {m: 1}}"),
-              AllOf(HasSubstr("d.yaml:2:10: error: models.arm: "),
+              AllOf(HasSubstr("d.yaml:2:23: error: models.arm: "),
                     HasSubstr("unknown argument; got 'm'; expected one of the file such as 'n'")));
   EXPECT_THAT(Refusal("{xacro: arm.urdf.xacro, arguments: {length: -1}}"),
               AllOf(HasSubstr("joint.xacro:4 (called at "), HasSubstr("arm.urdf.xacro:4)"),

@@ -89,7 +89,7 @@ TEST_F(BlindSpotsTest, AModelThatNoDistanceUsesIsWarnedOfWhereItStands) {
                                         "systems: {one: {type: Constant, value: 1}}\n"));
   EXPECT_THAT(
       loaded.warnings,
-      ElementsAre(AllOf(HasSubstr("f.yaml:1:10: warning: models.frame: robot 'frame' has no "
+      ElementsAre(AllOf(HasSubstr("f.yaml:1:24: warning: models.frame: robot 'frame' has no "
                                   "collision shape on any link"),
                         HasSubstr("table; visual_as_collision: missing takes what is drawn"))));
 }

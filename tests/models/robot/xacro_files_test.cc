@@ -202,7 +202,7 @@ TEST_F(XacroFilesTest, RefusesFilesThatAreNoXml) {
   const auto broken = folder.Write("b.xacro", "<robot><link></robot>");
   EXPECT_THAT([&] { ExpandXacro(broken); }, ThrowsMessage<ModelError>(HasSubstr("b.xacro:1: XML")));
   EXPECT_THAT([&] { ExpandXacro(folder.path() / "none.xacro"); },
-              ThrowsMessage<ModelError>(HasSubstr("none.xacro: file")));
+              ThrowsMessage<ModelError>(HasSubstr("none.xacro: cannot be read")));
 }
 
 }  // namespace xacro_files_test

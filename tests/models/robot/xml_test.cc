@@ -42,7 +42,7 @@ TEST(XmlTest, RefusesWhatIsNoXml) {
   ExpectRefused(
       "\x7f"
       "ELF\x02\x01",
-      "outside the root");
+      "binary data");
 }
 
 TEST(XmlTest, RefusesMalformedXmlWithItsLine) {
