@@ -74,7 +74,7 @@ export async function testView({ test, browser, simulator, folder, messagesOf, e
     assert.deepEqual(errorsOf(problems), []);
     assert.ok(await page.evaluate(() => window.oca.player.end) > 14);
     await page.context().close();
-    assert.equal((await stop()).code, 0);
+    assert.equal((await stop()).code, 130);
   });
   await test("simulator view refuses what is no record", async () => {
     await assert.rejects(run(simulator, ["view", kDiagram]), (error) => error.code === 2 && /expected a record/.test(error.stderr));
@@ -143,7 +143,7 @@ export async function testLive({ test, browser, simulator, errorsOf }) {
   });
   await test("a run that was shown ends when it is told", async () => {
     const { code, text } = await stop();
-    assert.equal(code, 0, text);
+    assert.equal(code, 130, text);
     assert.match(text, /[2-9]\d* changes|[2-9] changes/);
   });
 }
