@@ -151,8 +151,9 @@ ordered_json DiagramSchemaTree(const files::Catalogue& catalogue) {
   sections["packages"] = MapOf(text);
   sections["models"] = PartialSchemaOf(MapOf(SchemaOf(ParamTypeOf<files::ModelParams>())));
   sections["systems"] = SystemsSchema(catalogue);
+  const char* const arrow = "^\\S+ *-> *\\S+$|^\\$\\{.*\\}$";  // or an expression that is one
   sections["connections"] = {{"type", "array"},
-                             {"items", {{"type", "string"}, {"pattern", "^\\S+ *-> *\\S+$"}}}};
+                             {"items", {{"type", "string"}, {"pattern", arrow}}}};
   const auto rate = [](const char* meaning) -> ordered_json {
     return {
         {"type", "number"}, {"exclusiveMinimum", 0}, {"description", meaning}, {"x-unit", "Hz"}};
