@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# The share of robots below a folder that get past a random box by the recommended method, %: see
+# The share of robots below a folder that get past a ball by the recommended method, %: see
 # tools/robot_table.sh. Usage: robot_share.sh FOLDER
 set -euo pipefail
 tools/robot_table.sh --methods recommended "$1" > "$OCA_WORK/table"

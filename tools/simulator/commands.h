@@ -91,6 +91,7 @@ struct NewArguments {
   std::string avoidance{"recommended"};
   std::string folder;  ///< empty: the name of the robot's file
   std::uint64_t seed{0};
+  int tries{12};
 };
 /// Writes a first diagram for a robot, runs it and makes a report of the run. kExpectationNotMet if
 /// the arm does not evade.

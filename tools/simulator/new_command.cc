@@ -68,6 +68,7 @@ int NewCommand(const NewArguments& arguments) {
   options.avoidance = arguments.avoidance;
   options.folder = FolderOf(arguments, options.robot);
   options.seed = arguments.seed;
+  options.tries = arguments.tries;
   options.warn = [](const std::string& line) { Tell("warning: {}\n", line); };
   options.interrupted = [] { return Interrupted(); };
   const drafts::Draft draft = drafts::MakeDraft(options);

@@ -113,6 +113,9 @@ class CommandLine {
     command->add_option("--seed", new_.seed, "of the postures that are looked at")
         ->check(WholeNumber(19))
         ->capture_default_str();
+    command->add_option("--tries", new_.tries, "motions to run, until one is evaded")
+        ->check(WholeNumber(3) & CLI::Range(1, 999))
+        ->capture_default_str();
     command->callback([this] { command_ = [this] { return NewCommand(new_); }; });
   }
 
