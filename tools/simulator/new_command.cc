@@ -7,6 +7,7 @@
 
 #include "oca/diagrams/drafts/draft.h"
 #include "oca/diagrams/files/package_paths.h"
+#include "oca/diagrams/record/page.h"
 #include "oca/diagrams/record/report.h"
 #include "oca/diagrams/runs/run.h"
 #include "oca/framework/dataflow/error.h"
@@ -55,6 +56,17 @@ void PrintWithout(const runs::RunResult& result) {
         distance <= 0.0 ? " deep" : " apart");
 }
 
+/// Without the page of reports, which Node builds, the run is told of all the same.
+bool HasPage() {
+  try {
+    record::LoadPage();
+    return true;
+  } catch (const ConfigError& error) {
+    Tell("warning: no report: {}\n", error.what());
+    return false;
+  }
+}
+
 }  // namespace
 
 int NewCommand(const NewArguments& arguments) {
@@ -81,11 +93,12 @@ int NewCommand(const NewArguments& arguments) {
   record::Report report(page.replace_extension(".html"));
   runs::RunOptions run;
   run.progress = [](double) { return !Interrupted(); };
-  run.outputs = {&report};
+  if (HasPage()) run.outputs = {&report};
   const runs::RunResult result = runs::Run(loaded, run);
-  Print("with '{}':\n{}report: {}\nnext:   simulator run {} --live\n", arguments.avoidance,
-        RunSummary(loaded, result, WantsColour(STDOUT_FILENO)), page.string(),
-        draft.diagram.string());
+  Print("with '{}':\n{}", arguments.avoidance,
+        RunSummary(loaded, result, WantsColour(STDOUT_FILENO)));
+  if (!run.outputs.empty()) Print("report: {}\n", page.string());
+  Print("next:   simulator run {} --live\n", draft.diagram.string());
   if (result.failure) {
     Tell("error: {}\n", result.failure->message);
     return kRunFailed;
