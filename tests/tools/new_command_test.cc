@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `simulator new`, as a user meets it; what it drafts is judged in tests/diagrams/drafts.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/tools/program.h"
+
+namespace oca::tools {
+namespace new_command_test {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class NewCommandTest : public testing::Test {
+ protected:
+  NewCommandTest() { run.folder().Write("page.html", "<head><!--oca:source--></head>"); }
+  Ran New(const std::string& arguments, const std::string& page = "page.html") const {
+    const std::string folder = run.folder().path().string();
+    return run("cd " + folder + "; OCA_VIEWER=" + folder + "/" + page + " $S new " + arguments);
+  }
+  Program run;
+};
+
+TEST_F(NewCommandTest, LeadsFromARobotToAReportOfARunThatIsClear) {
+  const Ran ran = New("package://ur5e/ur5e.urdf");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  EXPECT_THAT(ran.out,
+              AllOf(HasSubstr("robot 'ur5e': 6 joints"), HasSubstr("wrote ur5e/ur5e.yaml"),
+                    HasSubstr("without avoidance: CONTACT of "), HasSubstr("  clearance    clear"),
+                    HasSubstr("report: ur5e/ur5e.html")));
+  EXPECT_THAT(run.Read("ur5e/ur5e.html"), HasSubstr("id=\"oca-record\""));
+  EXPECT_THAT(run.Read("ur5e/ur5e.yaml"), HasSubstr("urdf: \"package://ur5e/ur5e.urdf\""));
+  EXPECT_EQ(run("cd " + run.folder().path().string() + "; $S run ur5e/ur5e.yaml").status, 0);
+}
+
+TEST_F(NewCommandTest, ReplacesNothing) {
+  run.folder().Write("mine/ur5e.yaml", "mine");
+  const Ran ran = New("package://ur5e/ur5e.urdf -o mine");
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_THAT(ran.err, HasSubstr("mine/ur5e.yaml is there already"));
+  EXPECT_EQ(run.Read("mine/ur5e.yaml"), "mine");
+}
+
+TEST_F(NewCommandTest, RefusesWhatIsNoRobotAndLeavesNothing) {
+  run.folder().Write("one.urdf", "<robot name='one'><link name='a'/></robot>");
+  const Ran ran = New("one.urdf");
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_THAT(ran.err, HasSubstr("robot 'one': its arm; got 0 joints"));
+  EXPECT_FALSE(std::filesystem::exists(run.folder().path() / "one"));
+}
+
+}  // namespace new_command_test
+}  // namespace oca::tools
