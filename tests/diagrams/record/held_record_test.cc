@@ -12,19 +12,12 @@
 #include "oca/diagrams/record/record_files.h"
 #include "oca/models/opened_files.h"
 #include "oca/models/robot/robot_model.h"
+#include "tests/diagrams/record/attached.h"
 #include "tests/models/robot/gripper_arm.h"
 #include "tests/temporary_folder.h"
 
 namespace oca::record {
 namespace held_record_test {
-
-McapFile FileOf(const std::vector<McapAttachment>& attachments) {
-  std::ostringstream stream;
-  McapWriter writer(stream, Compression::kNone);
-  for (const McapAttachment& attachment : attachments) writer.AddAttachment(attachment);
-  writer.Close();
-  return McapFile::Parse(stream.str(), "attachments");
-}
 
 TEST(HeldRecordTest, TakesAlongGroupsStatesAndLimits) {
   const oca::test::TemporaryFolder folder;
@@ -39,7 +32,7 @@ TEST(HeldRecordTest, TakesAlongGroupsStatesAndLimits) {
       "[{time: 0, position: ready}]}}\n"
       "connections: [q.position -> k.position]\n");
   const auto attachments = FilesOf(loading::LoadDiagram(file), 1.0);
-  const ExtractedRecord extracted(FileOf(attachments));
+  const ExtractedRecord extracted(test::FileOf(attachments));
   const auto again = extracted.Load({});
   const auto arm = again.models.Get("arm");
   EXPECT_EQ(arm->num_positions(), 2);

@@ -10,6 +10,7 @@
 #include "oca/diagrams/record/mcap_writer.h"
 #include "oca/diagrams/runs/run.h"
 #include "oca/framework/dataflow/error.h"
+#include "tests/diagrams/record/attached.h"
 #include "tests/diagrams/record/record_runs.h"
 #include "tests/temporary_folder.h"
 
@@ -19,14 +20,6 @@ namespace record_files_test {
 namespace fs = std::filesystem;
 using oca::test::TemporaryFolder;
 using testing::HasSubstr;
-
-McapFile FileOf(const std::vector<McapAttachment>& attachments) {
-  std::ostringstream stream;
-  McapWriter writer(stream, Compression::kNone);
-  for (const McapAttachment& attachment : attachments) writer.AddAttachment(attachment);
-  writer.Close();
-  return McapFile::Parse(stream.str(), "attachments");
-}
 
 class EachDiagram : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(RecordFilesTest, EachDiagram,
@@ -41,7 +34,7 @@ INSTANTIATE_TEST_SUITE_P(RecordFilesTest, EachDiagram,
 TEST_P(EachDiagram, RunsFromItsAttachmentsAloneWithTheSameBits) {
   const auto loaded = test::Load(GetParam());
   const auto attachments = FilesOf(loaded, loaded.simulator.duration);
-  const ExtractedRecord extracted(FileOf(attachments));
+  const ExtractedRecord extracted(test::FileOf(attachments));
   const auto again = loading::LoadDiagram(extracted.diagram());
   EXPECT_EQ(FilesOf(again, again.simulator.duration)[0].data, attachments[0].data)
       << "a record of a replay is another one";
@@ -51,7 +44,7 @@ TEST_P(EachDiagram, RunsFromItsAttachmentsAloneWithTheSameBits) {
 
 TEST(RecordFilesTest, KeepsParametersSoThatOneCanBeChanged) {
   const auto attachments = FilesOf(test::Load("static_test.yaml"), 14.5);
-  const ExtractedRecord extracted(FileOf(attachments));
+  const ExtractedRecord extracted(test::FileOf(attachments));
   const auto changed =
       loading::LoadDiagram(extracted.diagram(), {{"parameters.test_obstacle_height", "1.5"}});
   EXPECT_NE(runs::Run(changed, {.duration = 4.0}).metrics,
@@ -60,7 +53,7 @@ TEST(RecordFilesTest, KeepsParametersSoThatOneCanBeChanged) {
 
 TEST(RecordFilesTest, KeepsOverridesAndTheDurationOfTheRun) {
   const auto loaded = test::Load("static_test.yaml", {{"parameters.max_distance", "0.125"}});
-  const ExtractedRecord extracted(FileOf(FilesOf(loaded, 0.75)));
+  const ExtractedRecord extracted(test::FileOf(FilesOf(loaded, 0.75)));
   const auto again = loading::LoadDiagram(extracted.diagram());
   EXPECT_EQ(again.simulator.duration, 0.75);
   EXPECT_THAT(FilesOf(again, 0.75)[0].data, HasSubstr("max_distance: 0.125"));
@@ -68,9 +61,9 @@ TEST(RecordFilesTest, KeepsOverridesAndTheDurationOfTheRun) {
 
 TEST(RecordFilesTest, ChoosesAnotherIncludedFileFromTheRecordAlone) {
   const auto loaded = test::Load("static_test.yaml", {{"parameters.test_obstacle_height", "1.05"}});
-  const ExtractedRecord first(FileOf(FilesOf(loaded, 2.0)));
+  const ExtractedRecord first(test::FileOf(FilesOf(loaded, 2.0)));
   // A record of a replay can choose, too.
-  const ExtractedRecord second(FileOf(FilesOf(first.Load({}), 2.0)));
+  const ExtractedRecord second(test::FileOf(FilesOf(first.Load({}), 2.0)));
   const auto chosen = second.Load({{"parameters.avoidance", "safety_filter"}});
   EXPECT_NE(chosen.diagram->FindSystem("filter"), nullptr);
   EXPECT_EQ(chosen.simulator.duration, 2.0);
@@ -81,7 +74,7 @@ TEST(RecordFilesTest, ChoosesAnotherIncludedFileFromTheRecordAlone) {
 }
 
 TEST(RecordFilesTest, TakesARobotThatTheRecordLacksFromThisMachine) {
-  const ExtractedRecord extracted(FileOf(FilesOf(test::Load("static_test.yaml"), 1.0)));
+  const ExtractedRecord extracted(test::FileOf(FilesOf(test::Load("static_test.yaml"), 1.0)));
   const auto meshed = extracted.Load({{"parameters.arm_meshes", "true"}});
   const auto expected = test::Load("static_test.yaml", {{"parameters.arm_meshes", "true"}});
   EXPECT_EQ(runs::Run(meshed, {.duration = 1.0}).metrics,
@@ -121,7 +114,7 @@ expect: {}
   EXPECT_THAT(names, testing::UnorderedElementsAre(
                          "diagram.yaml", "files/up/motion.csv", "files/up/robots/one.urdf",
                          "files/up/robots/meshes/part.obj", "sources/one.yaml", "sources.yaml"));
-  const ExtractedRecord extracted(FileOf(attachments));
+  const ExtractedRecord extracted(test::FileOf(attachments));
   EXPECT_EQ(FilesOf(loading::LoadDiagram(extracted.diagram()), 1.0)[0].data, attachments[0].data);
   // Its sources find the files, too.
   EXPECT_EQ(extracted.Load({{"simulator.duration", "0.5"}}).simulator.duration, 0.5);
@@ -157,8 +150,10 @@ TEST(RecordFilesTest, RunsAgainWithOverridesIfFoldersAreLinks) {
   fs::create_directory_symlink("../../shared/deep", folder.path() / "real/work/linked");
   fs::create_directory_symlink("real/work", folder.path() / "top");
   for (const char* const way : {"real/work/one.yaml", "top/one.yaml"}) {
-    const ExtractedRecord first(FileOf(FilesOf(loading::LoadDiagram(folder.path() / way), 1.0)));
-    const ExtractedRecord second(FileOf(FilesOf(first.Load({{"parameters.factor", "4"}}), 1.0)));
+    const ExtractedRecord first(
+        test::FileOf(FilesOf(loading::LoadDiagram(folder.path() / way), 1.0)));
+    const ExtractedRecord second(
+        test::FileOf(FilesOf(first.Load({{"parameters.factor", "4"}}), 1.0)));
     const auto again = second.Load({{"stage.parameters.own", "5"}});
     EXPECT_EQ(
         again.diagram->GetOutput<Vector>("stage.gain.out").Eval(again.diagram->MakeContext())[0],
@@ -216,7 +211,7 @@ connections: [q.value -> k.position]
   EXPECT_THAT(NamesOf(attachments),
               testing::UnorderedElementsAre("diagram.yaml", "files/one.urdf", "files/a&b.obj",
                                             "sources/main.yaml", "sources.yaml"));
-  const ExtractedRecord extracted(FileOf(attachments));
+  const ExtractedRecord extracted(test::FileOf(attachments));
   EXPECT_EQ(extracted.Load({}).models.all().size(), 1u);
 }
 
@@ -230,7 +225,7 @@ TEST(RecordFilesTest, RefusesToReadWhatDidNotComeWithTheRecord) {
         "shape: {type: cloud, file: " +
         name + ", radius: 0.1}}]}}\n";
     const ExtractedRecord extracted(
-        FileOf({{0, "diagram.yaml", "", diagram}, {0, "files/a.csv", "", "1,2,3\n"}}));
+        test::FileOf({{0, "diagram.yaml", "", diagram}, {0, "files/a.csv", "", "1,2,3\n"}}));
     return extracted.Load({}).opened.size();
   };
   EXPECT_EQ(load("", "files/a.csv"), 2u);
@@ -247,13 +242,14 @@ TEST(RecordFilesTest, RefusesToReadWhatDidNotComeWithTheRecord) {
 TEST(RecordFilesTest, RefusesAttachmentsThatWouldLeaveTheFolder) {
   const TemporaryFolder folder;
   for (const char* const name : {"../evil", "/evil", "a/../../evil"}) {
-    const McapFile file = FileOf({{0, "diagram.yaml", "", "systems: {}"}, {0, name, "", "x"}});
+    const McapFile file =
+        test::FileOf({{0, "diagram.yaml", "", "systems: {}"}, {0, name, "", "x"}});
     EXPECT_THROW(ExtractFiles(file, folder.path() / "inside"), ConfigError) << name;
   }
 }
 
 TEST(RecordFilesTest, RefusesARecordWithoutADiagram) {
-  EXPECT_THROW(ExtractedRecord{FileOf({})}, ConfigError);
+  EXPECT_THROW(ExtractedRecord{test::FileOf({})}, ConfigError);
 }
 
 }  // namespace record_files_test

@@ -13,6 +13,7 @@
 #include "oca/diagrams/record/record_files.h"
 #include "oca/models/opened_files.h"
 #include "oca/models/robot/robot_model.h"
+#include "tests/diagrams/record/attached.h"
 #include "tests/temporary_folder.h"
 
 namespace oca::record {
@@ -26,14 +27,6 @@ std::vector<std::string> NamesOf(const std::vector<McapAttachment>& attachments)
   std::vector<std::string> names;
   for (const auto& attachment : attachments) names.push_back(attachment.name);
   return names;
-}
-
-McapFile FileOf(const std::vector<McapAttachment>& attachments) {
-  std::ostringstream stream;
-  McapWriter writer(stream, Compression::kNone);
-  for (const McapAttachment& attachment : attachments) writer.AddAttachment(attachment);
-  writer.Close();
-  return McapFile::Parse(stream.str(), "attachments");
 }
 
 void ExpectAllBelow(const std::vector<fs::path>& files, const fs::path& folder) {
@@ -57,7 +50,7 @@ TEST(XacroRecordTest, TakesAlongWhatPackagesGaveTheXacro) {
                             "packages/cobot_description/config/c5/limits.yaml",
                             "packages/cobot_description/config/c5/shape.yaml",
                             "packages/cobot_description/meshes/base.stl"}));
-  const ExtractedRecord extracted(FileOf(attachments));
+  const ExtractedRecord extracted(test::FileOf(attachments));
   const auto again = extracted.Load({});
   EXPECT_EQ(again.models.Get("arm")->num_positions(), 6);
   ExpectAllBelow(again.opened, extracted.diagram().parent_path());
@@ -90,7 +83,7 @@ TEST(XacroRecordTest, TakesAlongWhatLiesAroundTheXacro) {
               testing::UnorderedElementsAre(
                   "diagram.yaml", "files/up/robots/arm.urdf.xacro", "files/up/lib/joint.xacro",
                   "files/up/robots/config/limits.yaml", "sources/d.yaml", "sources.yaml"));
-  const ExtractedRecord extracted(FileOf(attachments));
+  const ExtractedRecord extracted(test::FileOf(attachments));
   const auto again = extracted.Load({});
   EXPECT_EQ(again.models.Get("arm")->num_positions(), 2);
   EXPECT_DOUBLE_EQ(again.models.Get("arm")->upper_limits()[1], 2.5);
