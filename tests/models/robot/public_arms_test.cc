@@ -71,10 +71,9 @@ TEST(PublicArmsTest, TheUr10eLiesAsItsTableSays) {
   const RobotModel arm = LoadArms().at("ur10e");
   const auto poses = LinkPoses(arm, Eigen::VectorXd::Zero(6));
   const Eigen::Vector3d p = poses[arm.FindLink("flange")].translation();
-  constexpr double kRounding = 2e-6;  // angles of the file have six decimals, the arm is 1.2 m long
-  EXPECT_NEAR(p.x(), -0.6127 - 0.57155, kRounding);
-  EXPECT_NEAR(p.y(), -0.17415 - 0.11655, kRounding);
-  EXPECT_NEAR(p.z(), 0.1807 - 0.11985, kRounding);
+  EXPECT_NEAR(p.x(), -0.6127 - 0.57155, 1e-9);
+  EXPECT_NEAR(p.y(), -0.17415 - 0.11655, 1e-9);
+  EXPECT_NEAR(p.z(), 0.1807 - 0.11985, 1e-9);
 }
 
 }  // namespace public_arms_test
