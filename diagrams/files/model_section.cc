@@ -40,6 +40,15 @@ Location PlaceOf(const Value::Entry& entry) {
   return entry.location;
 }
 
+/// The file that a line of an error speaks of first, other than the description; nullptr: none.
+const Value* FileSpokenOf(const Value& entry, const ModelParams& params, const std::string& line) {
+  const auto begins = [&](const std::string& file) {
+    return !file.empty() && line.compare(0, file.size() + 1, file + ":") == 0;
+  };
+  if (begins(params.srdf)) return entry.Find("srdf");
+  return begins(params.joint_limits) ? entry.Find("joint_limits") : nullptr;
+}
+
 /// Of a list or map: whether something in it was made anew.
 bool IsOther(const Value& made, const Value& from) {
   return (from.list() != nullptr || from.map() != nullptr) && !made.Shares(from);
@@ -135,7 +144,8 @@ void ModelSection::ReadModel(const Value::Entry& entry, const std::string& full_
     for (std::size_t from = 0, end = 0; end != std::string::npos; from = end + 1) {
       end = text.find('\n', from);
       const std::string line = text.substr(from, end - from);
-      const Value* const at = FindSpokenOf(entry.value, line);
+      const Value* at = FileSpokenOf(entry.value, fresh.params, line);
+      if (at == nullptr) at = FindSpokenOf(entry.value, line);
       const Location place = read == nullptr ? PlaceOf(entry) : entry.location;
       thrown.Add(at == nullptr ? place : at->location(), fmt::format("{}: {}", where, line));
     }

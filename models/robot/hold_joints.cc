@@ -112,9 +112,15 @@ class Holder {
         positions_(static_cast<std::size_t>(robot.num_positions())) {}
 
   std::vector<Joint> Hold() {
-    for (const auto& [group, state] : held_.states) HoldState(group, state);
-    for (const auto& [joint, position] : held_.positions) HoldJoint(joint, position);
-    if (!held_.group.empty()) HoldOthers();
+    models::ModelErrors errors;
+    for (const auto& state : held_.states) {
+      errors.Try([&] { HoldState(state.first, state.second); });
+    }
+    for (const auto& joint : held_.positions) {
+      errors.Try([&] { HoldJoint(joint.first, joint.second); });
+    }
+    if (!held_.group.empty()) errors.Try([&] { HoldOthers(); });
+    errors.Throw();
     std::vector<Joint> joints = robot_.joints();
     for (std::size_t j = 0; j < joints.size(); ++j) {
       const KinematicStep& step = robot_.steps()[j];

@@ -139,54 +139,58 @@ const std::vector<std::string>& KnownKeys() {
 /// What one joint is said to have, as numbers.
 class Limits {
  public:
-  Limits(const std::string& where, const std::string& joint, const SaidOfJoint& of)
-      : where_(where), joint_(joint), of_(of) {
+  Limits(const std::string& where, const std::string& joint, const SaidOfJoint& of,
+         models::ModelErrors& errors)
+      : where_(where), joint_(joint), of_(of), errors_(errors) {
     for (const auto& [key, scalar] : of.said) {
       const std::string nearest = models::NearestName(key, KnownKeys());
       if (key == nearest || models::EditDistance(key, nearest) > 2) continue;
-      Fail(scalar.line, "unknown key", key, nearest);
+      Add(scalar.line, "unknown key", key, nearest);
     }
   }
 
   /// The number of `key`, if `has` is not false; then one is required if `has` is true.
-  std::optional<double> Get(const char* has, const char* key, bool positive) const {
+  std::optional<double> Get(const char* has, const char* key, bool positive) {
     const auto said = of_.said.find(has);
     const std::optional<bool> wanted =
-        said == of_.said.end() ? std::nullopt : std::optional(Truth(has, said->second));
+        said == of_.said.end() ? std::nullopt : Truth(has, said->second);
     if (wanted == false) return std::nullopt;
     const auto found = of_.said.find(key);
     if (found == of_.said.end()) {
-      if (wanted) Fail(said->second.line, key, "none", fmt::format("a number, as {} is true", has));
+      if (wanted) Add(said->second.line, key, "none", fmt::format("a number, as {} is true", has));
       return std::nullopt;
     }
     const auto numbers = ParseFiniteNumbers(found->second.text);
     if (!numbers || numbers->size() != 1 || (positive && !(numbers->front() > 0.0))) {
-      Fail(found->second.line, key, "'" + found->second.text + "'",
-           positive ? "a number above 0" : "a finite number");
+      Add(found->second.line, key, "'" + found->second.text + "'",
+          positive ? "a number above 0" : "a finite number");
+      return std::nullopt;
     }
     return numbers->front();
   }
 
  private:
-  [[noreturn]] void Fail(int line, const std::string& what, const std::string& got,
-                         const std::string& expected) const {
-    throw models::ModelError(fmt::format("{}:{}: joint '{}': {}; got {}; expected {}", where_, line,
-                                         joint_, what, got, expected));
+  void Add(int line, const std::string& what, const std::string& got, const std::string& expected) {
+    errors_.Add(fmt::format("{}:{}: joint '{}': {}; got {}; expected {}", where_, line, joint_,
+                            what, got, expected));
   }
 
-  bool Truth(const char* key, const Scalar& scalar) const {
+  /// None of what is neither.
+  std::optional<bool> Truth(const char* key, const Scalar& scalar) {
     for (const char* yes : {"true", "True", "TRUE", "1"}) {
       if (scalar.text == yes) return true;
     }
     for (const char* no : {"false", "False", "FALSE", "0"}) {
       if (scalar.text == no) return false;
     }
-    Fail(scalar.line, key, "'" + scalar.text + "'", "true or false");
+    Add(scalar.line, key, "'" + scalar.text + "'", "true or false");
+    return std::nullopt;
   }
 
   const std::string& where_;
   const std::string& joint_;
   const SaidOfJoint& of_;
+  models::ModelErrors& errors_;
 };
 
 std::optional<double> Lesser(std::optional<double> a, std::optional<double> b) {
@@ -215,10 +219,11 @@ JointLimitsFile::JointLimitsFile(const std::filesystem::path& file) : where_(fil
     throw models::ModelError(
         fmt::format("{}: joint_limits; got none; expected a map of joints", where_));
   }
-  for (const auto& [joint, of] : reader.joints) {
-    const Limits limits(where_, joint, of);
-    Entry& entry = entries_[joint];
-    entry.line = of.line;
+  models::ModelErrors errors;
+  for (const auto& joint : reader.joints) {
+    Limits limits(where_, joint.first, joint.second, errors);
+    Entry& entry = entries_[joint.first];
+    entry.line = joint.second.line;
     entry.lower = limits.Get("has_position_limits", "min_position", false);
     entry.upper = limits.Get("has_position_limits", "max_position", false);
     entry.velocity = limits.Get("has_velocity_limits", "max_velocity", true);
@@ -227,33 +232,38 @@ JointLimitsFile::JointLimitsFile(const std::filesystem::path& file) : where_(fil
                                 limits.Get("has_deceleration_limits", "max_deceleration", true));
     entry.jerk = limits.Get("has_jerk_limits", "max_jerk", true);
   }
+  errors.Throw();
 }
 
 void JointLimitsFile::TightenRanges(std::vector<Joint>& joints) const {
   std::vector<std::string> names;
   for (const Joint& joint : joints) names.push_back(joint.name.text());
+  models::ModelErrors errors;
   for (const auto& [name, entry] : entries_) {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) {
-      throw models::ModelError(
+      errors.Add(
           fmt::format("{}:{}: unknown joint; got '{}'; expected a joint of the robot, nearest is "
                       "'{}'",
                       where_, entry.line, name, models::NearestName(name, names)));
+      continue;
     }
     Joint& joint = joints[static_cast<std::size_t>(found - names.begin())];
     if (!joint.movable()) continue;
     const double lower = std::max(joint.lower_limit, entry.lower.value_or(-kUnlimited));
     const double upper = std::min(joint.upper_limit, entry.upper.value_or(kUnlimited));
     if (lower > upper) {
-      throw models::ModelError(fmt::format(
+      errors.Add(fmt::format(
           "{}:{}: joint '{}': position limits; got {} to {}; expected a part of {} to {}, those of "
           "the robot",
           where_, entry.line, name, entry.lower.value_or(-kUnlimited),
           entry.upper.value_or(kUnlimited), joint.lower_limit, joint.upper_limit));
+      continue;
     }
     joint.lower_limit = lower;
     joint.upper_limit = upper;
   }
+  errors.Throw();
 }
 
 void JointLimitsFile::TightenRates(std::vector<Joint>& joints) const {

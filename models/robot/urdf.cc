@@ -36,7 +36,7 @@ class UrdfReader {
   RobotModel Read(const std::string& text) {
     const XmlDocument document = ParseXml(text, where_);
     root_ = document->RootElement();
-    newer_ = RewriteNewerUrdf(*document->RootElement(), where_);
+    newer_ = RewriteNewerUrdf(*document->RootElement(), where_, errors_);
     for (const std::string& line : RepairUrdf(*document->RootElement())) {
       if (options_.warn) options_.warn(line);
     }
@@ -49,9 +49,14 @@ class UrdfReader {
     for (const std::size_t joint : order_.joints) joints_.push_back(ReadJoint(joint));
     for (const std::size_t link : order_.links) links_.push_back(ReadLink(outline_.links[link]));
     errors_.Throw();
-    const Srdf srdf = ReadSrdf();
-    const JointLimitsFile limits = ReadLimitsFile();
-    limits.TightenRanges(joints_);
+    Srdf srdf;
+    JointLimitsFile limits;
+    errors_.Try([&] { srdf = ReadSrdf(); });
+    errors_.Try([&] {
+      limits = ReadLimitsFile();
+      limits.TightenRanges(joints_);
+    });
+    errors_.Throw();
     if (!options_.held.empty()) {
       joints_ = HoldJoints(MakeModel(links_, joints_, {}), srdf, options_.held);
     }

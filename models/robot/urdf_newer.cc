@@ -27,7 +27,8 @@ Eigen::Vector3d ToRollPitchYaw(const Eigen::Matrix3d& R) {
 
 class Rewriter {
  public:
-  explicit Rewriter(const std::string& where) : where_(where), xml_(where) {}
+  Rewriter(const std::string& where, models::ModelErrors& errors)
+      : where_(where), errors_(errors), xml_(where) {}
 
   NewerUrdf Run(TiXmlElement& root) {
     const char* const version = root.Attribute("version");
@@ -37,7 +38,7 @@ class Rewriter {
     }
     for (auto* e = root.FirstChildElement("joint"); e != nullptr;
          e = e->NextSiblingElement("joint")) {
-      RewriteOrigin(*e);
+      errors_.Try([&] { RewriteOrigin(*e); });
     }
     for (auto* e = root.FirstChildElement("link"); e != nullptr;
          e = e->NextSiblingElement("link")) {
@@ -49,10 +50,12 @@ class Rewriter {
  private:
   void RewriteLink(TiXmlElement& link) {
     for (auto* e = link.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
-      RewriteOrigin(*e);
+      errors_.Try([&] { RewriteOrigin(*e); });
       const std::string& kind = e->ValueStr();
       if (kind != "collision" && kind != "visual") continue;
-      if (RewriteCapsule(*e)) newer_.capsules.insert(e);
+      errors_.Try([&] {
+        if (RewriteCapsule(*e)) newer_.capsules.insert(e);
+      });
     }
   }
 
@@ -87,6 +90,7 @@ class Rewriter {
   }
 
   const std::string& where_;
+  models::ModelErrors& errors_;
   const XmlReader xml_;
   NewerUrdf newer_;
 };
@@ -106,8 +110,9 @@ bool NewerUrdf::IsCapsule(const TiXmlElement& root, const std::string& kind,
   return false;
 }
 
-NewerUrdf RewriteNewerUrdf(TiXmlElement& root, const std::string& where) {
-  return Rewriter(where).Run(root);
+NewerUrdf RewriteNewerUrdf(TiXmlElement& root, const std::string& where,
+                           models::ModelErrors& errors) {
+  return Rewriter(where, errors).Run(root);
 }
 
 }  // namespace oca::robot

@@ -87,7 +87,25 @@ TEST_F(HeldJointsTest, MistakesAreToldWhereTheyAre) {
   EXPECT_THAT(refusal(", held: elbow"), HasSubstr("expected a map of joints"));
   folder.Write("limits.yaml", "joint_limits:\n  elbow: {max_velocity: no}\n");
   EXPECT_THAT(refusal(", group: arm, joint_limits: limits.yaml"),
-              HasSubstr("limits.yaml:2: joint 'elbow': max_velocity; got 'no'"));
+              AllOf(HasSubstr("d.yaml:1:74: error: models.arm: "),
+                    HasSubstr("limits.yaml:2: joint 'elbow': max_velocity; got 'no'")));
+}
+
+TEST_F(HeldJointsTest, MistakesOfSrdfAndLimitsAreToldAtOnceEachAtItsFile) {
+  folder.Write("arm.srdf",
+               "<robot name='gripper_arm'>\n  <disable_collisions link1='a'/>\n</robot>");
+  folder.Write("limits.yaml", "joint_limits:\n  elbwo: {max_velocity: 1}\n  rol: {}\n");
+  EXPECT_THAT(Refusal(Diagram(", joint_limits: limits.yaml", kTwo)),
+              AllOf(HasSubstr("d.yaml:1:38: error: models.arm: "), HasSubstr("arm.srdf:2"),
+                    HasSubstr("d.yaml:1:62: error: models.arm: "),
+                    HasSubstr("limits.yaml:2: unknown joint; got 'elbwo'"),
+                    HasSubstr("limits.yaml:3: unknown joint; got 'rol'")));
+}
+
+TEST_F(HeldJointsTest, AllJointsThatCannotBeHeldAreToldAtOnce) {
+  EXPECT_THAT(Refusal(Diagram(", held: {elbow: 5, elbo: 0, hand: opne}", kTwo)),
+              AllOf(HasSubstr("held.elbow: got 5 rad"), HasSubstr("held.elbo: got no joint"),
+                    HasSubstr("held.hand: unknown state; got 'opne'")));
 }
 
 TEST_F(HeldJointsTest, LimitsOfAFileCount) {

@@ -7,11 +7,9 @@
 #include <limits>
 #include <memory>
 #include <numbers>
-#include <span>
 #include <string>
 
 #include "oca/models/error.h"
-#include "oca/models/robot/attach_objects.h"
 #include "oca/models/robot/clearance.h"
 #include "oca/models/robot/kinematics.h"
 #include "oca/models/robot/pose_error.h"
@@ -20,8 +18,6 @@
 
 namespace oca::robot::test {
 namespace inverse_kinematics_test {
-
-using testing::HasSubstr;
 
 constexpr double kPi = std::numbers::pi;
 
@@ -340,42 +336,6 @@ TEST(InverseKinematicsTest, ThePoseCountsMoreThanTheClearance) {
       SolveInverseKinematics(*model, tip, X_WL[tip], Bent(), settings, &surroundings);
   EXPECT_TRUE(found.reached);
   EXPECT_LT(found.clearance, 0.0);
-}
-
-TEST(InverseKinematicsTest, RefusesWhatIsNotANumberOrNotPositive) {
-  const RobotModel model = Arm("lwr4");
-  const Eigen::Isometry3d X_WG = TipPose(model, Bent());
-  EXPECT_THROW(SolveTip(model, X_WG, Eigen::VectorXd::Zero(6)), models::ModelError);
-  Eigen::VectorXd start = Bent();
-  start[2] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(SolveTip(model, X_WG, start), models::ModelError);
-  Eigen::Isometry3d lost = X_WG;
-  lost.translation().x() = std::numeric_limits<double>::infinity();
-  EXPECT_THROW(SolveTip(model, lost, Bent()), models::ModelError);
-  InverseKinematicsSettings settings;
-  settings.starts = 0;
-  EXPECT_THROW(SolveTip(model, X_WG, Bent(), settings), models::ModelError);
-  settings = {};
-  settings.clearance = -0.1;
-  EXPECT_THROW(SolveTip(model, X_WG, Bent(), settings), models::ModelError);
-  settings = {};
-  settings.position_tolerance = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(SolveTip(model, X_WG, Bent(), settings), models::ModelError);
-}
-
-TEST(TipLinkTest, IsTheOneThatCarriesNoOther) {
-  const RobotModel model = Arm("lwr4");
-  EXPECT_EQ(model.links()[TipLink(model)].name.text(), "lwr4_flange");
-  const AttachedObject box{
-      "box", "lwr4_link_7", Eigen::Isometry3d::Identity(), geometry::Sphere{0.1}, {}};
-  const RobotModel gripping = AttachObjects(model, std::span(&box, 1));
-  EXPECT_EQ(gripping.links()[TipLink(gripping)].name.text(), "lwr4_flange");
-  try {
-    TipLink(Arm("lwr4_dual"));
-    FAIL() << "accepted";
-  } catch (const models::ModelError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("left_lwr4_flange, right_lwr4_flange"));
-  }
 }
 
 }  // namespace inverse_kinematics_test

@@ -111,6 +111,10 @@ TEST(JointLimitsFileTest, WhatIsWrongIsRefusedWithItsLine) {
   EXPECT_THAT(RefusalOf("joint_limits:\n  elbwo: {max_velocity: 1}\n"),
               AllOf(HasSubstr("joint_limits.yaml:2: unknown joint; got 'elbwo'"),
                     HasSubstr("nearest is 'elbow'")));
+  EXPECT_THAT(
+      of_elbow("max_velocity: -1\n    max_jerk: 0\n    has_effort_limit: true"),
+      AllOf(HasSubstr(":3: joint 'elbow': max_velocity"), HasSubstr(":4: joint 'elbow': max_jerk"),
+            HasSubstr(":5: joint 'elbow': unknown")));
   EXPECT_THAT(RefusalOf("limits: {elbow: {max_velocity: 1}}\n"),
               HasSubstr("joint_limits; got none"));
   EXPECT_THAT(RefusalOf("joint_limits: [1]\n"), HasSubstr("joint_limits; got a list"));

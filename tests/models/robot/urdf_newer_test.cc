@@ -61,6 +61,17 @@ TEST(UrdfNewerTest, CapsulesOfNoSizeAreRefused) {
   EXPECT_THAT(refusal("radius='nan' length='1'"), HasSubstr("<capsule>: radius; got 'nan'"));
 }
 
+TEST(UrdfNewerTest, AllThatIsWrongIsToldAtOnce) {
+  const std::string refusal = RefusalOf(
+      "<link name='a'>\n" + Solid("collision", "<capsule radius='0' length='1'/>") + "\n" +
+      Solid("visual", "<capsule radius='1'/>", "<origin quat_xyzw='0 0 0 0'/>") + "\n</link>" +
+      "<link name='b'><collision><geometry><sphere radius='none'/></geometry></collision></link>");
+  EXPECT_THAT(refusal, testing::AllOf(HasSubstr("r.urdf:3: link 'a' <capsule>: radius"),
+                                      HasSubstr("r.urdf:4: link 'a' <capsule>: length"),
+                                      HasSubstr("r.urdf:4: <origin>: quat_xyzw"),
+                                      HasSubstr("link 'b' <sphere>: radius")));
+}
+
 TEST(UrdfNewerTest, QuaternionsTurnFrames) {
   // Turns by 60 degrees about (1, 1, 1), by a quarter turn about y, where roll and yaw are one, by
   // nearly that, and by a number that has been rounded.
