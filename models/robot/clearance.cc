@@ -19,8 +19,12 @@ Clearance::Clearance(std::shared_ptr<const RobotModel> model, bool self_collisio
                      std::vector<PlacedBody> bodies)
     : model_(std::move(model)),
       links_(LinkCollidersOf(*model_)),
+      places_(static_cast<std::size_t>(model_->num_links()), -1),
       bodies_(std::move(bodies)),
       X_WL_(static_cast<std::size_t>(model_->num_links()), Eigen::Isometry3d::Identity()) {
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    places_[static_cast<std::size_t>(links_[i].number)] = static_cast<int>(i);
+  }
   for (int i = 0; self_collision && i < std::ssize(links_); ++i) {
     for (int j = i + 1; j < std::ssize(links_); ++j) {
       const int a = links_[i].number;
@@ -84,6 +88,21 @@ geometry::SignedDistance Clearance::OwnDistance(std::size_t pair, double max_dis
   const LinkCollider& other = links_[own_places_[pair].first];
   const LinkCollider& link = links_[own_places_[pair].second];
   return DistanceToLink(link, X_WL_[link.number], other, X_WL_[other.number], max_distance);
+}
+
+double Clearance::LinkDistance(int link, int body, double max_distance) const {
+  const LinkCollider& collider =
+      links_[static_cast<std::size_t>(places_[static_cast<std::size_t>(link)])];
+  const PlacedBody& other = bodies_[static_cast<std::size_t>(body)];
+  const geometry::SignedDistance found = DistanceToBody(
+      collider, X_WL_[static_cast<std::size_t>(link)], *other.collider, other.X_WO, max_distance);
+  return found.status == geometry::DistanceStatus::kBeyond ? kUnlimited : found.distance;
+}
+
+double Clearance::OwnPairDistance(std::size_t pair, double max_distance) const {
+  const double scale = own_scales_[pair];
+  const geometry::SignedDistance found = OwnDistance(pair, max_distance / scale);
+  return found.status == geometry::DistanceStatus::kBeyond ? kUnlimited : scale * found.distance;
 }
 
 bool Clearance::NearerThan(double margin) const {

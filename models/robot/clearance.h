@@ -50,8 +50,12 @@ class Clearance {
     bodies_ = std::move(bodies);
     ignored_.clear();
   }
+  /// Those of the links that have solids, in the model's order.
+  const std::vector<LinkCollider>& links() const { return links_; }
   /// Leaves a pair out from now on: a link and a body, by their numbers.
   void Ignore(int link, int body) { ignored_.emplace_back(link, body); }
+  /// What is left out.
+  const std::vector<std::pair<int, int>>& ignored() const { return ignored_; }
   /// Moves body number `body`, of a scene in which time goes on.
   void MoveBody(int body, const Eigen::Isometry3d& X_WO) { bodies_[body].X_WO = X_WO; }
 
@@ -66,6 +70,10 @@ class Clearance {
 
   /// Whether anything is nearer than `margin` (m); returns at the first pair found.
   bool NearerThan(double margin) const;
+  /// The signed distance of one pair, as it counts; kUnlimited if it exceeds `max_distance`: of a
+  /// link and a body, by their numbers, and of the own pair of that place in own_pairs().
+  double LinkDistance(int link, int body, double max_distance) const;
+  double OwnPairDistance(std::size_t pair, double max_distance) const;
   /// The nearest pair of all; its distance is kUnlimited if none is within `max_distance`.
   NearPair Nearest(double max_distance = kUnlimited) const;
   /// All pairs within `max_distance`, behind each other in `pairs`, which is cleared.
@@ -91,6 +99,7 @@ class Clearance {
 
   std::shared_ptr<const RobotModel> model_;
   std::vector<LinkCollider> links_;
+  std::vector<int> places_;  // in links_ of each link of the model; -1: it has no solids
   std::vector<std::pair<int, int>> own_pairs_;   // numbers of links
   std::vector<std::pair<int, int>> own_places_;  // the same as places in links_
   std::vector<double> own_scales_;               // one a pair

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/models/planning/batch_clearance.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "oca/models/geometry/ball_cover.h"
+
+namespace oca::planning {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+// More balls keep closer to a solid and take longer; these leave to the exact distances about one
+// configuration in six of a search in shelves and boxes.
+constexpr int kMostBalls = 8;     // a solid of a link
+constexpr double kSlack = 0.004;  // m
+// A compound of more parts is looked at as one ball.
+constexpr std::size_t kMostParts = 64;
+// Of single precision, for a joint, with sine and cosine: see the class comment.
+constexpr double kRounding = 2e-6;
+
+float Above(double value) {
+  return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
+}
+
+std::array<float, 3> ToFloat(const Vector3d& p) {
+  return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
+}
+
+std::array<float, 9> ToFloat(const Eigen::Matrix3d& R) {
+  std::array<float, 9> columns;
+  for (Eigen::Index i = 0; i < 9; ++i) {
+    columns[static_cast<std::size_t>(i)] = static_cast<float>(R(i % 3, i / 3));
+  }
+  return columns;
+}
+
+internal::BatchBall ToFloat(const geometry::Ball& ball) {
+  return {ToFloat(ball.centre), Above(ball.radius)};
+}
+
+/// That turns the axis z to `axis`.
+Isometry3d Turned(const Vector3d& axis) {
+  Isometry3d X = Isometry3d::Identity();
+  X.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), axis).toRotationMatrix();
+  return X;
+}
+
+/// How far a slide can carry; its limits are finite or nothing of what it carries is known.
+double LongestWay(const robot::RobotModel& model, const robot::KinematicStep& step) {
+  const double lower = step.multiplier * model.lower_limits()[step.column] + step.offset;
+  const double upper = step.multiplier * model.upper_limits()[step.column] + step.offset;
+  return std::max(std::abs(lower), std::abs(upper));
+}
+
+}  // namespace
+
+BatchClearance::BatchClearance(robot::Clearance& clearance)
+    : clearance_(clearance),
+      work_(internal::BatchScene{}),
+      samples_(clearance.model().num_positions(), kLanes) {
+  AddFrames();
+  AddLinks();
+  error_ = kRounding * (static_cast<double>(movers_.size()) + 2.0) * reach_;
+  AddBodies();
+  motion_.resize(movers_.size());
+  work_ = internal::BatchWorkspace(scene_);
+}
+
+void BatchClearance::AddFrames() {
+  const robot::RobotModel& model = clearance_.model();
+  frame_of_.assign(static_cast<std::size_t>(model.num_links()), 0);
+  X_FL_.assign(frame_of_.size(), Isometry3d::Identity());
+  X_FL_[0].linear() = model.X_WB().linear();
+  std::vector<double> reach(frame_of_.size(), 0.0);
+  for (std::size_t i = 0; i < model.steps().size(); ++i) {
+    const robot::KinematicStep& step = model.steps()[i];
+    const auto parent = static_cast<std::size_t>(step.parent_link);
+    Isometry3d X_PJ = Isometry3d::Identity();
+    X_PJ.linear() = step.R_PJ;
+    X_PJ.translation() = step.p_PJ;
+    const Isometry3d X_FJ = X_FL_[parent] * X_PJ;
+    reach[i + 1] = reach[parent] + step.p_PJ.norm();
+    if (step.column < 0) {
+      frame_of_[i + 1] = frame_of_[parent];
+      X_FL_[i + 1] = X_FJ;
+      continue;
+    }
+    const Isometry3d X_CF = Turned(step.axis);
+    const Isometry3d X_PF = X_FJ * X_CF;
+    const bool slides = step.type == robot::JointType::kPrismatic;
+    if (slides) reach[i + 1] += LongestWay(model, step);
+    scene_.frames.push_back({frame_of_[parent], slides, ToFloat(Eigen::Matrix3d(X_PF.linear())),
+                             ToFloat(Vector3d(X_PF.translation()))});
+    movers_.push_back({step.type, step.column, step.multiplier, step.offset});
+    frame_of_[i + 1] = static_cast<int>(movers_.size());
+    X_FL_[i + 1] = X_CF.inverse();
+  }
+  for (const robot::LinkCollider& link : clearance_.links()) {
+    reach_ = std::max(
+        reach_, reach[static_cast<std::size_t>(link.number)] + link.centre.norm() + link.radius);
+  }
+}
+
+void BatchClearance::AddLinks() {
+  const robot::RobotModel& model = clearance_.model();
+  std::vector<int> place(frame_of_.size(), -1);
+  const auto add = [&](const robot::LinkCollider& link) {
+    const auto number = static_cast<std::size_t>(link.number);
+    const Isometry3d& X_FL = X_FL_[number];
+    const int first = num_balls();
+    for (const robot::LinkCollider::Element& element : link.elements) {
+      for (const geometry::Ball& ball :
+           geometry::CoverWithBalls(*element.collider, kMostBalls, kSlack)) {
+        scene_.balls.push_back(
+            ToFloat(geometry::Ball{X_FL * element.X_LC * ball.centre, ball.radius}));
+      }
+    }
+    place[number] = static_cast<int>(scene_.links.size());
+    numbers_.push_back(link.number);
+    scene_.links.push_back({frame_of_[number],
+                            ToFloat(geometry::Ball{X_FL * link.centre, link.radius}), first,
+                            num_balls()});
+  };
+  for (const robot::LinkCollider& link : clearance_.links()) {
+    if (model.body(link.number) < 0) add(link);
+  }
+  scene_.moving = static_cast<int>(scene_.links.size());
+  for (const robot::LinkCollider& link : clearance_.links()) {
+    if (model.body(link.number) >= 0) add(link);
+  }
+  for (std::size_t i = 0; i < clearance_.own_pairs().size(); ++i) {
+    const auto& pair = clearance_.own_pairs()[i];
+    scene_.pairs.push_back({place[static_cast<std::size_t>(pair.second)],
+                            place[static_cast<std::size_t>(pair.first)],
+                            Above(1.0 / clearance_.own_scales()[i])});
+  }
+  for (const auto& pair : clearance_.ignored()) {
+    scene_.ignored.push_back({place[static_cast<std::size_t>(pair.first)], pair.second});
+  }
+}
+
+void BatchClearance::AddBodies() {
+  Isometry3d X_OW = Isometry3d::Identity();  // to axes of the world about the base
+  X_OW.translation() = -clearance_.model().X_WB().translation();
+  for (std::size_t i = 0; i < clearance_.bodies().size(); ++i) {
+    const robot::PlacedBody& body = clearance_.bodies()[i];
+    AddSolid(static_cast<int>(i), *body.collider, X_OW * body.X_WO);
+  }
+}
+
+void BatchClearance::AddSolid(int body, const geometry::Collider& solid, const Isometry3d& X_OB) {
+  using geometry::Core;
+  using internal::BatchCore;
+  const bool many = solid.core() == Core::kCompound && solid.parts().size() > kMostParts;
+  if (solid.core() == Core::kCompound && !many) {
+    for (const geometry::Collider::Part& part : solid.parts()) {
+      AddSolid(body, *part.collider, X_OB * part.X_SP);
+    }
+    return;
+  }
+  Vector3d low = -solid.half(), high = solid.half();
+  if (solid.hull() != nullptr) {
+    low = high = solid.hull()->vertices.front();
+    for (const Vector3d& vertex : solid.hull()->vertices) {
+      low = low.cwiseMin(vertex);
+      high = high.cwiseMax(vertex);
+    }
+  }
+  if (many) low = high = solid.centre();
+  const Vector3d middle = 0.5 * (low + high);
+  const Vector3d half = 0.5 * (high - low);
+  const Vector3d centre = X_OB * middle;
+  const double error = kRounding * centre.norm();
+  const double radius = (many ? solid.bounding_radius() : solid.radius()) + error;
+  BatchCore core = BatchCore::kBox;
+  if (solid.core() == Core::kCylinder || solid.core() == Core::kCone) core = BatchCore::kCylinder;
+  if (solid.core() == Core::kHalfSpace) core = BatchCore::kPlane;
+  scene_.solids.push_back(
+      {core,
+       body,
+       ToFloat(Eigen::Matrix3d(X_OB.linear().transpose())),
+       ToFloat(centre),
+       {Above(half.x()), Above(half.y()), Above(half.z())},
+       Above(radius),
+       Above(core == BatchCore::kPlane ? std::numeric_limits<double>::infinity()
+                                       : half.norm() * (1.0 + kRounding) + radius)});
+}
+
+unsigned BatchClearance::Ask(const Eigen::Ref<const Eigen::MatrixXd>& q, int count, double margin) {
+  assert(count > 0 && count <= kLanes && q.cols() >= count && q.rows() == samples_.rows());
+  for (std::size_t i = 0; i < movers_.size(); ++i) {
+    const Mover& mover = movers_[i];
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const Eigen::Index column = std::min(lane, count - 1);
+      double moved = mover.multiplier * q(mover.column, column) + mover.offset;
+      const bool turns = mover.type != robot::JointType::kPrismatic;
+      if (turns && !(std::abs(moved) <= std::numbers::pi)) {
+        moved = std::remainder(moved, 2.0 * std::numbers::pi);
+      }
+      motion_[i][static_cast<std::size_t>(lane)] = static_cast<float>(moved);
+    }
+  }
+  looked_at_ += count;
+  const unsigned lanes = (1u << count) - 1u;
+  return internal::CheckLanes(scene_, {motion_.data(), Above(margin), Above(error_), lanes}, work_);
+}
+
+unsigned BatchClearance::SurelyClear(const Eigen::Ref<const Eigen::MatrixXd>& q, int count,
+                                     double margin) {
+  return ((1u << count) - 1u) & ~Ask(q, count, margin);
+}
+
+unsigned BatchClearance::Clear(const Eigen::Ref<const Eigen::MatrixXd>& q, int count,
+                               double margin) {
+  const unsigned open = Ask(q, count, margin);
+  unsigned clear = ((1u << count) - 1u) & ~open;
+  for (int lane = 0; lane < count; ++lane) {
+    const unsigned bit = 1u << lane;
+    if ((open & bit) != 0 && ExactlyClear(q.col(lane), bit, margin)) clear |= bit;
+  }
+  return clear;
+}
+
+bool BatchClearance::ExactlyClear(const Eigen::Ref<const Eigen::VectorXd>& q, unsigned lane,
+                                  double margin) {
+  ++undecided_;
+  if (!q.allFinite()) return false;
+  clearance_.MoveTo(q);
+  for (const internal::BatchCandidate& candidate : work_.found) {
+    if ((candidate.lanes & lane) == 0) continue;
+    const double distance =
+        candidate.body >= 0
+            ? clearance_.LinkDistance(numbers_[static_cast<std::size_t>(candidate.link)],
+                                      candidate.body, margin)
+            : clearance_.OwnPairDistance(static_cast<std::size_t>(candidate.pair), margin);
+    if (distance < margin) return false;
+  }
+  return true;
+}
+
+bool BatchClearance::SamplesClear(const Eigen::Ref<const Eigen::VectorXd>& q_0,
+                                  const Eigen::Ref<const Eigen::VectorXd>& q_1, int count,
+                                  double margin) {
+  // Batch b looks at samples b + 1, b + 1 + batches, ...: each at places all along the motion.
+  const int batches = (count + kLanes - 1) / kLanes;
+  for (int batch = 0; batch < batches; ++batch) {
+    int filled = 0;
+    for (int sample = count - batch; sample > 0; sample -= batches) {
+      samples_.col(filled++) = q_0 + static_cast<double>(sample) / count * (q_1 - q_0);
+    }
+    if (Clear(samples_, filled, margin) != (1u << filled) - 1u) return false;
+  }
+  return true;
+}
+
+}  // namespace oca::planning

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "oca/models/planning/batch_kernel.h"
+#include "oca/models/robot/clearance.h"
+
+namespace oca::planning {
+
+/// Tells of many configurations which are clear, eight at once: first by balls that contain the
+/// links against bodies, or what contains these, in single precision; then exactly, where that
+/// cannot decide, the pairs in question alone.
+///
+/// What it calls clear is clear. What the balls alone call clear is too: their thresholds are
+/// widened by what single precision may err, 2e-6 (n + 2) of the arm's reach and 2e-6 of how far a
+/// body's middle is from the base. All processors give the same bits.
+///
+/// Bodies, own pairs and what is ignored are those of the Clearance when this was made; it must
+/// outlive this, and is left at some position. No heap once made.
+/// source Thomason, Kingston, Kavraki, Motions in Microseconds via Vectorized Sampling-Based
+///        Planning, 2024: configurations in lanes, balls, all of an edge at once
+class BatchClearance {
+ public:
+  static constexpr int kLanes = internal::kLanes;
+
+  explicit BatchClearance(robot::Clearance& clearance);
+
+  /// A bit for each of the first `count` (at most kLanes) columns of q (num_positions() rows) at
+  /// which nothing is nearer than `margin` (m, >= 0).
+  unsigned Clear(const Eigen::Ref<const Eigen::MatrixXd>& q, int count, double margin);
+  /// The same by the balls alone: a bit is 0 also where they cannot decide.
+  unsigned SurelyClear(const Eigen::Ref<const Eigen::MatrixXd>& q, int count, double margin);
+
+  /// Whether all of `count` positions evenly spread on the straight motion from q_0 to q_1 are
+  /// clear, q_1 included and q_0 not; the ends of halves are looked at first.
+  bool SamplesClear(const Eigen::Ref<const Eigen::VectorXd>& q_0,
+                    const Eigen::Ref<const Eigen::VectorXd>& q_1, int count, double margin);
+
+  /// How many configurations were looked at, and for how many the balls could not decide.
+  std::int64_t looked_at() const { return looked_at_; }
+  std::int64_t undecided() const { return undecided_; }
+  int num_balls() const { return static_cast<int>(scene_.balls.size()); }
+  const internal::BatchScene& scene() const { return scene_; }
+
+ private:
+  void AddFrames();
+  void AddLinks();
+  void AddBodies();
+  void AddSolid(int body, const geometry::Collider& solid, const Eigen::Isometry3d& X_BO);
+  unsigned Ask(const Eigen::Ref<const Eigen::MatrixXd>& q, int count, double margin);
+  bool ExactlyClear(const Eigen::Ref<const Eigen::VectorXd>& q, unsigned lane, double margin);
+
+  robot::Clearance& clearance_;
+  struct Mover {
+    robot::JointType type;
+    int column;
+    double multiplier, offset;
+  };
+  std::vector<Mover> movers_;            // one a frame
+  std::vector<int> frame_of_;            // of each link of the model
+  std::vector<Eigen::Isometry3d> X_FL_;  // of each link in its frame
+  std::vector<int> numbers_;             // in the model, of the scene's links
+  double reach_{0.0};                    // of any point of the robot from the base, m
+  double error_{0.0};                    // m
+  internal::BatchScene scene_;
+  std::vector<float> no_travel_;
+  std::vector<internal::LaneArray> motion_;  // one a frame
+  internal::BatchWorkspace work_;
+  Eigen::MatrixXd samples_;  // n x kLanes
+  std::int64_t looked_at_{0}, undecided_{0};
+};
+
+}  // namespace oca::planning

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace oca::planning::internal {
+
+// What BatchClearance looks at: numbers for eight configurations at once, in single precision, m
+// and rad, about the robot's base. Every version does the same operations in the same order, none
+// of them contracted, so that all give the same bits.
+
+inline constexpr int kLanes = 8;
+using LaneArray = std::array<float, kLanes>;
+
+/// A frame that a joint moves: X_PF = X, then the joint's turn about z, or slide along it. Frame 0
+/// is the base, which is not listed.
+struct BatchFrame {
+  int parent;
+  bool slides;
+  std::array<float, 9> R;  // by columns
+  std::array<float, 3> p;
+};
+
+struct BatchBall {
+  std::array<float, 3> centre;  // in the link's frame
+  float radius;
+};
+
+/// A link: a ball around it, and balls that together contain it.
+struct BatchLink {
+  int frame;
+  BatchBall around;
+  int first, last;  // of the balls
+};
+
+/// Core of a body as the kernel knows it; all points within `radius` of it belong to the body.
+enum class BatchCore : std::uint8_t { kBox, kCylinder, kPlane };
+
+/// A solid that stands. A point and a segment along z are boxes without extents.
+struct BatchSolid {
+  BatchCore core;
+  int body;                     // whose it is, or part of; ascending
+  std::array<float, 9> R;       // of the world's axes into the solid's, by columns
+  std::array<float, 3> centre;  // of the core; of the ball around it
+  std::array<float, 3> half;    // extents; of a cylinder radius, -, half the length
+  float radius;
+  float reach;  // radius of a ball around all of it; infinite for a plane
+};
+
+struct BatchPair {
+  int link, other;
+  float share;  // of the margin that this pair has to keep
+};
+
+/// What shall not be looked at: a link and a body.
+struct BatchIgnored {
+  int link, body;
+};
+
+struct BatchScene {
+  std::vector<BatchFrame> frames;  // from frame 1 on
+  std::vector<BatchLink> links;
+  std::vector<BatchBall> balls;
+  std::vector<BatchPair> pairs;
+  std::vector<BatchSolid> solids;
+  std::vector<BatchIgnored> ignored;
+  int moving{0};  // links from this place on are moved by joints
+};
+
+/// What may be too near: a link and a body, or a pair of links (`body` -1), and in which lanes.
+struct BatchCandidate {
+  int link;
+  int body;
+  int pair;
+  unsigned lanes;
+};
+
+/// Room for what a check needs.
+struct BatchWorkspace {
+  explicit BatchWorkspace(const BatchScene& scene);
+  std::vector<LaneArray> frames;    // 12 each: columns of the rotation, position
+  std::vector<LaneArray> centres;   // 3 a link
+  std::vector<LaneArray> balls;     // 3 a ball
+  std::vector<unsigned char> done;  // links whose balls are there
+  std::vector<BatchCandidate> found;
+};
+
+/// What is nearer than `margin` (of an own pair, than its share of it) may be too near.
+struct BatchQuestion {
+  const LaneArray* motion;  // of each frame's joint: angle from -pi to pi, or way
+  float margin;
+  float error;     // m, that distances may be wrong by
+  unsigned lanes;  // that are asked for
+};
+
+/// Which of the lanes have something that may be too near; what it is, is in `work.found`.
+unsigned CheckLanes(const BatchScene& scene, const BatchQuestion& question, BatchWorkspace& work);
+/// The same, by instructions that every processor has.
+unsigned CheckLanesPortable(const BatchScene& scene, const BatchQuestion& question,
+                            BatchWorkspace& work);
+
+}  // namespace oca::planning::internal
