@@ -6,8 +6,6 @@
 namespace oca::planning {
 namespace {
 
-// What is farther need not be known: the joints cannot go farther in one step.
-constexpr double kFarthest = 0.5;
 // Steps shorter than this share of the motion count as contact.
 constexpr double kLeastShare = 1e-3;
 
@@ -21,7 +19,8 @@ CertifiedMotion::CertifiedMotion(robot::Clearance& clearance, double margin)
       path_(clearance.model().num_positions()),
       distances_(static_cast<std::size_t>(clearance.model().num_links())),
       own_distances_(clearance.own_pairs().size()),
-      travel_(static_cast<std::size_t>(clearance.model().num_links())) {}
+      travel_(static_cast<std::size_t>(clearance.model().num_links())),
+      approach_(clearance.own_pairs().size()) {}
 
 bool CertifiedMotion::Clear(const Eigen::Ref<const Eigen::VectorXd>& q) {
   clearance_.MoveTo(q);
@@ -50,22 +49,28 @@ double CertifiedMotion::ClearShare(const Eigen::Ref<const Eigen::VectorXd>& q_0,
 
 double CertifiedMotion::FreeShare() {
   bound_.Calc(clearance_.X_WL(), path_, travel_);
-  clearance_.LinkDistances(margin_ + kFarthest, distances_);
-  clearance_.OwnDistances(margin_ + kFarthest, own_distances_);
+  bound_.CalcApproach(clearance_.X_WL(), path_, clearance_.own_pairs(), approach_);
+  // What is farther than the whole rest of the path can lead need not be known.
+  for (std::size_t link = 0; link < travel_.size(); ++link) {
+    distances_[link] = margin_ + travel_[link];
+  }
+  for (std::size_t i = 0; i < approach_.size(); ++i) {
+    own_distances_[i] = margin_ / clearance_.own_scales()[i] + approach_[i];
+  }
+  clearance_.LinkDistances(distances_);
+  clearance_.OwnDistances(own_distances_);
   // A share of the path costs at most that share of its travel: the bound grows faster than the
   // path.
   double share = 1.0;
   const auto limit = [&](double distance, double margin, double travel) {
-    const double room = std::max(distance - margin, 0.0);
-    if (travel > room) share = std::min(share, room / travel);
+    if (travel == 0.0 || distance >= margin + travel) return;
+    share = std::min(share, std::max(distance - margin, 0.0) / travel);
   };
   for (std::size_t link = 0; link < travel_.size(); ++link) {
     limit(distances_[link], margin_, travel_[link]);
   }
   for (std::size_t i = 0; i < own_distances_.size(); ++i) {
-    const auto& pair = clearance_.own_pairs()[i];
-    limit(own_distances_[i], margin_ / clearance_.own_scales()[i],
-          travel_[pair.first] + travel_[pair.second]);
+    limit(own_distances_[i], margin_ / clearance_.own_scales()[i], approach_[i]);
   }
   return share;
 }

@@ -38,7 +38,7 @@ class CertifiedMotion {
   const double margin_;
   const robot::TravelBound bound_;
   Eigen::VectorXd q_, path_;
-  std::vector<double> distances_, own_distances_, travel_;
+  std::vector<double> distances_, own_distances_, travel_, approach_;
 };
 
 }  // namespace oca::planning

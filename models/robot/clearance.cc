@@ -133,6 +133,10 @@ void Clearance::Collect(double max_distance, std::vector<NearPair>& pairs) const
 
 void Clearance::LinkDistances(double max_distance, std::span<double> least) const {
   std::fill(least.begin(), least.end(), max_distance);
+  LinkDistances(least);
+}
+
+void Clearance::LinkDistances(std::span<double> least) const {
   for (const LinkCollider& link : links_) {
     if (model_->body(link.number) < 0) continue;
     double& nearest = least[link.number];
@@ -147,9 +151,14 @@ void Clearance::LinkDistances(double max_distance, std::span<double> least) cons
 }
 
 void Clearance::OwnDistances(double max_distance, std::span<double> least) const {
+  std::fill(least.begin(), least.end(), max_distance);
+  OwnDistances(least);
+}
+
+void Clearance::OwnDistances(std::span<double> least) const {
   for (std::size_t i = 0; i < own_pairs_.size(); ++i) {
-    const geometry::SignedDistance found = OwnDistance(i, max_distance);
-    least[i] = found.status == geometry::DistanceStatus::kBeyond ? max_distance : found.distance;
+    const geometry::SignedDistance found = OwnDistance(i, least[i]);
+    if (found.status != geometry::DistanceStatus::kBeyond) least[i] = found.distance;
   }
 }
 

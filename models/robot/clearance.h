@@ -81,8 +81,11 @@ class Clearance {
   /// The least distance of each link to any body, or `max_distance` where that is less; `least`
   /// has num_links().
   void LinkDistances(double max_distance, std::span<double> least) const;
+  /// The same with a maximum of each link, that `least` holds at first.
+  void LinkDistances(std::span<double> least) const;
   /// The same of the pairs of own links, in m whatever they count; `least` has an entry a pair.
   void OwnDistances(double max_distance, std::span<double> least) const;
+  void OwnDistances(std::span<double> least) const;
   /// The pairs of own links that count, as numbers of links.
   const std::vector<std::pair<int, int>>& own_pairs() const { return own_pairs_; }
   /// How many times the distance of each counts.

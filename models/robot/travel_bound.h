@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "oca/models/robot/robot_model.h"
@@ -30,6 +31,11 @@ class TravelBound {
   /// link without solids. No heap.
   void Calc(std::span<const Eigen::Isometry3d> X_WL, const Eigen::Ref<const Eigen::VectorXd>& path,
             std::span<double> travel) const;
+  /// How much nearer the solids of two links can come, m: what both travel as seen from the link
+  /// that carries both. `pairs` are numbers of links, `approach` has an entry for each. No heap.
+  void CalcApproach(std::span<const Eigen::Isometry3d> X_WL,
+                    const Eigen::Ref<const Eigen::VectorXd>& path,
+                    std::span<const std::pair<int, int>> pairs, std::span<double> approach) const;
 
  private:
   struct LinkBall {
@@ -37,6 +43,11 @@ class TravelBound {
     Eigen::Vector3d centre;  // in the link's frame
     double radius;
   };
+  int CarrierOf(int link, int other) const;
+  /// Of the solids of a link, as seen from a link that carries it.
+  double TravelFrom(int carrier, const LinkBall& ball, std::span<const Eigen::Isometry3d> X_WL,
+                    const Eigen::Ref<const Eigen::VectorXd>& path) const;
+
   const RobotModel* model_;
   std::vector<LinkBall> balls_;
 };

@@ -4,9 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "oca/models/geometry/distance.h"
+#include "oca/models/robot/clearance.h"
 #include "oca/models/robot/kinematics.h"
 #include "oca/models/robot/urdf.h"
 
@@ -68,6 +72,44 @@ TEST(TravelBoundTest, IsNeverBelowThePathOfAnyPoint) {
     }
   }
   EXPECT_LT(tightest, 1.5);  // nor is it far above
+}
+
+TEST(TravelBoundTest, LinksComeNearerOnlyByTheJointsBetweenThem) {
+  const RobotModel arm = Arm("planar2");
+  const std::vector<std::pair<int, int>> pairs{
+      {arm.FindLink("planar2_link_1"), arm.FindLink("planar2_link_2")}, {0, 1}};
+  std::vector<double> approach(2);
+  const auto poses = LinkPoses(arm, Eigen::Vector2d::Zero());
+  TravelBound(arm).CalcApproach(poses, Eigen::Vector2d(0.2, 0.1), pairs, approach);
+  EXPECT_NEAR(approach[0], 0.045, 1e-12) << "joint 1 carries both";
+  EXPECT_NEAR(approach[1], Travel(arm, Eigen::Vector2d::Zero(), Eigen::Vector2d(0.2, 0.1))[1],
+              1e-12);
+}
+
+TEST(TravelBoundTest, NoTwoLinksComeNearerByMore) {
+  const auto arm = std::make_shared<const RobotModel>(Arm("lwr4_dual"));
+  Clearance clearance(arm, true);
+  const auto& pairs = clearance.own_pairs();
+  std::vector<double> before(pairs.size()), after(pairs.size()), approach(pairs.size());
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> angle(-2.0, 2.0), step(-0.3, 0.3);
+  double most = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    Eigen::VectorXd from(arm->num_positions()), to(from.size());
+    for (int j = 0; j < from.size(); ++j) from[j] = angle(random), to[j] = from[j] + step(random);
+    clearance.MoveTo(from);
+    clearance.OwnDistances(3.0, before);
+    TravelBound(*arm).CalcApproach(clearance.X_WL(), (to - from).cwiseAbs(), pairs, approach);
+    clearance.MoveTo(to);
+    clearance.OwnDistances(3.0, after);
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      ASSERT_LE(std::abs(before[k] - after[k]), approach[k] + 1e-9);
+      if (approach[k] > 0.05) {
+        most = std::max(most, std::abs(before[k] - after[k]) / approach[k]);
+      }
+    }
+  }
+  EXPECT_GT(most, 0.5);  // nor is it far above
 }
 
 TEST(LeastDistanceBetweenTest, IsExactHeadOnAndNeverAboveTheEnds) {
