@@ -17,7 +17,6 @@
 #include "oca/diagrams/record/robot_drawing.h"
 #include "oca/models/geometry/convex_hull.h"
 #include "oca/models/robot/clearance.h"
-#include "oca/models/robot/inertia.h"
 #include "oca/models/robot/joint_limits.h"
 #include "oca/models/robot/kinematics.h"
 #include "oca/models/robot/unseen_links.h"
@@ -77,12 +76,6 @@ std::vector<int> LinksIn(const std::string& line, const RobotModel& model) {
   std::vector<int> found = NamedAfter("link", line, links);
   for (const int joint : NamedAfter("joint", line, joints)) {
     found.push_back(model.joints()[static_cast<std::size_t>(joint)].child_link);
-  }
-  if (line == robot::InertiaWarning(model)) {  // it names the first one only
-    for (int i = 0; i < model.num_links(); ++i) {
-      const auto& inertia = model.links()[static_cast<std::size_t>(i)].inertia;
-      if (!robot::ImpossibleInertia(inertia).empty()) found.push_back(i);
-    }
   }
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());

@@ -25,18 +25,20 @@ std::string ImpossibleInertia(const Inertia& inertia) {
                      moments[2], negative ? "one below 0" : "the last above the sum of the others");
 }
 
-std::string InertiaWarning(const RobotModel& model) {
-  std::string first;
-  int more = -1;
+std::vector<std::string> InertiaWarnings(const RobotModel& model, bool sum_up) {
+  std::vector<std::string> lines;
   for (const Link& link : model.links()) {
     const std::string why = ImpossibleInertia(link.inertia);
     if (why.empty()) continue;
-    if (first.empty()) first = fmt::format("link '{}' has {}", link.name.text(), why);
-    ++more;
+    lines.push_back(
+        fmt::format("inertias that no body can have, which nothing here reads: link '{}' has {}",
+                    link.name.text(), why));
   }
-  if (first.empty()) return "";
-  return fmt::format("inertias that no body can have, which nothing here reads: {}{}", first,
-                     more > 0 ? fmt::format("; and {} more links", more) : "");
+  if (sum_up && lines.size() > 1) {
+    lines.front() += fmt::format("; and {} more links", lines.size() - 1);
+    lines.resize(1);
+  }
+  return lines;
 }
 
 }  // namespace oca::robot

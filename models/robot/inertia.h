@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "oca/models/robot/robot_model.h"
 
@@ -13,8 +14,8 @@ namespace oca::robot {
 /// source Featherstone, Rigid Body Dynamics Algorithms, section 2.13
 std::string ImpossibleInertia(const Inertia& inertia);
 
-/// A line about the links whose inertias no body can have; empty if there are none. Nothing that
-/// avoids obstacles reads inertias.
-std::string InertiaWarning(const RobotModel& model);
+/// Lines about the links whose inertias no body can have, if `sum_up` one that names the first and
+/// counts the rest. Nothing that avoids obstacles reads inertias.
+std::vector<std::string> InertiaWarnings(const RobotModel& model, bool sum_up);
 
 }  // namespace oca::robot

@@ -6,6 +6,7 @@
 #include <tinyxml.h>
 
 #include <algorithm>
+#include <ranges>
 
 #include "oca/models/error.h"
 #include "oca/models/geometry/decomposition.h"
@@ -37,7 +38,7 @@ class UrdfReader {
     const XmlDocument document = ParseXml(text, where_);
     root_ = document->RootElement();
     newer_ = RewriteNewerUrdf(*document->RootElement(), where_, errors_);
-    for (const std::string& line : RepairUrdf(*document->RootElement())) {
+    for (const std::string& line : RepairUrdf(*document->RootElement(), options_.sum_up)) {
       if (options_.warn) options_.warn(line);
     }
     outline_ = ReadUrdfOutline(*document->RootElement(), where_, errors_);
@@ -94,7 +95,7 @@ class UrdfReader {
 
   void Warn(const RobotModel& model) const {
     WarnOfMissingVisuals();
-    if (const std::string line = InertiaWarning(model); !line.empty()) options_.warn(line);
+    for (const std::string& line : InertiaWarnings(model, options_.sum_up)) options_.warn(line);
     for (const UrdfOutline::Joint& joint : outline_.joints) {
       if (!joint.fixed || joint.mimic.empty()) continue;
       options_.warn(fmt::format("joint '{}': fixed, so its <mimic> of '{}' does nothing",
@@ -272,10 +273,12 @@ class UrdfReader {
   }
 
   void WarnOfMissingVisuals() const {
-    if (missing_visuals_.empty()) return;
-    const std::size_t more = missing_visuals_.size() - 1;
-    options_.warn(fmt::format("not drawn: {}{}", missing_visuals_.front(),
-                              more == 0 ? "" : fmt::format("; and {} more visuals", more)));
+    const std::size_t told = options_.sum_up ? 1 : missing_visuals_.size();
+    const std::size_t more = missing_visuals_.size() - std::min(told, missing_visuals_.size());
+    const std::string rest = more == 0 ? "" : fmt::format("; and {} more visuals", more);
+    for (const std::string& why : missing_visuals_ | std::views::take(told)) {
+      options_.warn(fmt::format("not drawn: {}{}", why, rest));
+    }
   }
 
   static std::string TextOf(const TiXmlDocument& document) {

@@ -51,6 +51,8 @@ struct LoadOptions {
   /// unset. The line of a mesh ends with `hull_advice`.
   std::function<void(const std::string& line)> warn{};
   std::string hull_advice{};
+  /// false: a line for each thing, where one line would name the first of a kind and count the rest.
+  bool sum_up{true};
   /// false: meshes that are only drawn need not exist, and their elements name no file.
   bool load_visuals{true};
   /// Of a xacro file.

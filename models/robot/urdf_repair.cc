@@ -48,7 +48,7 @@ constexpr const char* kNoColour =
 
 class Repair {
  public:
-  Names Run(TiXmlElement& root) {
+  Names Run(TiXmlElement& root, bool sum_up) {
     DropAttributes(root);
     std::set<std::string> materials;
     Names children;
@@ -75,7 +75,7 @@ class Repair {
       }
       e = next;
     }
-    return Lines();
+    return sum_up ? Sums() : Lines();
   }
 
  private:
@@ -213,6 +213,14 @@ class Repair {
   }
 
   Names Lines() const {
+    Names lines;
+    for (const auto& [what, places] : places_) {
+      for (const std::string& place : places) lines.push_back(fmt::format("{}: {}", what, place));
+    }
+    return lines;
+  }
+
+  Names Sums() const {
     constexpr std::size_t kShown = 3;
     Names lines;
     for (const auto& [what, places] : places_) {
@@ -231,6 +239,8 @@ class Repair {
 
 }  // namespace
 
-std::vector<std::string> RepairUrdf(TiXmlElement& root) { return Repair().Run(root); }
+std::vector<std::string> RepairUrdf(TiXmlElement& root, bool sum_up) {
+  return Repair().Run(root, sum_up);
+}
 
 }  // namespace oca::robot

@@ -16,8 +16,8 @@ namespace oca::robot {
 /// below 0 becomes 0, which means none (LimitWarnings). An attribute within two letters of one of URDF's stays,
 /// to be refused as a slip of the pen.
 ///
-/// Returns what was done, a line a kind: `attributes that URDF does not have, left out: 'a:b' of
+/// Returns what was done, if `sum_up` a line a kind, else a line for each: `attributes that URDF does not have, left out: 'a:b' of
 /// <origin> of link 'upper' (line 12), ... and 20 more`.
-std::vector<std::string> RepairUrdf(TiXmlElement& root);
+std::vector<std::string> RepairUrdf(TiXmlElement& root, bool sum_up);
 
 }  // namespace oca::robot

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <ranges>
 #include <string>
 #include <utility>
 
@@ -25,6 +27,8 @@
 namespace oca::tools {
 namespace {
 
+constexpr std::size_t kMostTold = 20;  // warnings on the terminal
+
 struct ShowArguments {
   RobotArguments robot;
   std::string srdf;    ///< empty: none
@@ -39,6 +43,7 @@ record::RobotRecord ReadRobot(const ShowArguments& arguments) {
   source.srdf = arguments.srdf;
   source.remedy = "--visual-as-collision missing";
   if (!arguments.srdf.empty()) options.srdf = files::ResolvePath(arguments.srdf, {}, {});
+  options.sum_up = false;  // so that each is marked at its link
   options.warn = [&source](const std::string& line) { source.warnings.push_back(line); };
   const auto model = std::make_shared<const robot::RobotModel>(
       robot::LoadUrdf(files::ResolvePath(arguments.robot.urdf, {}, {}), options));
@@ -59,8 +64,13 @@ void WritePage(const std::string& file, const std::string& mcap) {
 int ShowCommand(const ShowArguments& arguments) {
   models::OpenedFiles opened;
   record::RobotRecord record = ReadRobot(arguments);
-  for (const std::string& line : record.warnings) {
+  const std::size_t told = std::min(record.warnings.size(), kMostTold);
+  for (const std::string& line : record.warnings | std::views::take(told)) {
     Tell("{}: warning: {}\n", arguments.robot.urdf, line);
+  }
+  if (record.warnings.size() > told) {
+    Tell("{}: {} more warnings, on the page\n", arguments.robot.urdf,
+         record.warnings.size() - told);
   }
   if (arguments.output.empty()) {
     return ServeRecord(arguments.robot.urdf, std::move(record.mcap), arguments.view);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What nothing here reads is taken out of a description with a word about it, instead of a refusal.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "oca/models/error.h"
@@ -32,6 +33,33 @@ Loaded LoadLink(const std::string& content) {
 }
 
 const std::string kShape = "<geometry><sphere radius='1'/></geometry>";
+
+TEST(UrdfRepairTest, KindsAreSummedUpOrToldEach) {
+  std::string links;
+  for (const char* name : {"a", "b", "c", "d", "e"}) {
+    links += fmt::format(
+        "<link name='{}'><visual><geometry><box size='0 0 0'/></geometry>"
+        "</visual></link>\n",
+        name);
+    if (*name == 'a') continue;
+    links += fmt::format(
+        "<joint name='j{}' type='fixed'><parent link='a'/><child link='{}'/>"
+        "</joint>",
+        name, name);
+  }
+  const auto warnings = [&](bool sum_up) {
+    std::vector<std::string> lines;
+    LoadOptions options;
+    options.sum_up = sum_up;
+    options.warn = [&](const std::string& line) { lines.push_back(line); };
+    ParseUrdf("<robot name='r'>\n" + links + "</robot>", "r.urdf", options);
+    return lines;
+  };
+  EXPECT_THAT(warnings(true), ElementsAre(AllOf(HasSubstr("link 'c'"), HasSubstr("and 2 more"))));
+  const auto each = warnings(false);
+  ASSERT_EQ(each.size(), 5u);
+  EXPECT_THAT(each[4], HasSubstr("visuals of no size, not drawn: of link 'e'"));
+}
 
 TEST(UrdfRepairTest, NothingIsSaidOfWhatIsRight) {
   EXPECT_THAT(LoadLink("<visual>" + kShape + "<material name='a'><color rgba='1 0 0 1'/>" +
