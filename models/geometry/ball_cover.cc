@@ -166,6 +166,34 @@ Ball EnclosingBall(const std::vector<Eigen::Vector3d>& points) {
   return {centre, (1.0 + 1e-12) * (farthest() - centre).norm()};
 }
 
+double InnerRadius(const Collider& solid, const Eigen::Vector3d& point) {
+  const Eigen::Vector3d to_side = solid.half() - point.cwiseAbs();
+  double room = 0.0;  // within the core
+  switch (solid.core()) {
+    case Core::kPoint:
+      return std::max(solid.radius() - point.norm(), 0.0);
+    case Core::kSegment: {
+      const double beyond = std::max(-to_side.z(), 0.0);
+      return std::max(solid.radius() - std::hypot(point.x(), point.y(), beyond), 0.0);
+    }
+    case Core::kBox:
+      room = to_side.minCoeff();
+      break;
+    case Core::kCylinder:
+      room = std::min(solid.half().x() - std::hypot(point.x(), point.y()), to_side.z());
+      break;
+    case Core::kHull:
+      room = std::numeric_limits<double>::infinity();
+      for (const ConvexHull::Plane& plane : solid.hull()->planes) {
+        room = std::min(room, plane.offset - plane.normal.dot(point));
+      }
+      break;
+    default:
+      return 0.0;
+  }
+  return room > 0.0 ? room + solid.radius() : 0.0;
+}
+
 std::vector<Ball> CoverWithBalls(const Collider& solid, int most, double slack) {
   std::vector<Ball> balls;
   switch (solid.core()) {

@@ -18,6 +18,10 @@ namespace oca::geometry {
 /// A half-space has none.
 std::vector<Ball> CoverWithBalls(const Collider& solid, int most, double slack);
 
+/// Radius of a ball about `point` (the solid's frame) that the solid contains, m, as large as there
+/// is; 0 where there is none, and of cones, ellipsoids, half-spaces and compounds.
+double InnerRadius(const Collider& solid, const Eigen::Vector3d& point);
+
 /// A ball that contains all of `points`, nearly the smallest.
 /// source Badoiu, Clarkson, Smaller core-sets for balls, 2003
 Ball EnclosingBall(const std::vector<Eigen::Vector3d>& points);

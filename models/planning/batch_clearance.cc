@@ -40,8 +40,16 @@ std::array<float, 9> ToFloat(const Eigen::Matrix3d& R) {
   return columns;
 }
 
-internal::BatchBall ToFloat(const geometry::Ball& ball) {
-  return {ToFloat(ball.centre), Above(ball.radius)};
+internal::BatchBall ToFloat(const geometry::Ball& ball, double inner) {
+  return {ToFloat(ball.centre), Above(ball.radius), static_cast<float>(inner)};
+}
+
+/// Whether the kernel's form of a solid is the solid itself.
+bool IsItself(const geometry::Collider& solid) {
+  using geometry::Core;
+  const Core core = solid.core();
+  return core == Core::kPoint || core == Core::kSegment || core == Core::kBox ||
+         core == Core::kCylinder || core == Core::kHalfSpace;
 }
 
 /// That turns the axis z to `axis`.
@@ -118,13 +126,14 @@ void BatchClearance::AddLinks() {
       for (const geometry::Ball& ball :
            geometry::CoverWithBalls(*element.collider, kMostBalls, kSlack)) {
         scene_.balls.push_back(
-            ToFloat(geometry::Ball{X_FL * element.X_LC * ball.centre, ball.radius}));
+            ToFloat(geometry::Ball{X_FL * element.X_LC * ball.centre, ball.radius},
+                    geometry::InnerRadius(*element.collider, ball.centre)));
       }
     }
     place[number] = static_cast<int>(scene_.links.size());
     numbers_.push_back(link.number);
     scene_.links.push_back({frame_of_[number],
-                            ToFloat(geometry::Ball{X_FL * link.centre, link.radius}), first,
+                            ToFloat(geometry::Ball{X_FL * link.centre, link.radius}, 0.0), first,
                             num_balls()});
   };
   for (const robot::LinkCollider& link : clearance_.links()) {
@@ -188,11 +197,13 @@ void BatchClearance::AddSolid(int body, const geometry::Collider& solid, const I
        ToFloat(centre),
        {Above(half.x()), Above(half.y()), Above(half.z())},
        Above(radius),
+       IsItself(solid) ? static_cast<float>(std::max(radius - 3.0 * error, 0.0)) : -1.0f,
        Above(core == BatchCore::kPlane ? std::numeric_limits<double>::infinity()
                                        : half.norm() * (1.0 + kRounding) + radius)});
 }
 
-unsigned BatchClearance::Ask(const Eigen::Ref<const Eigen::MatrixXd>& q, int count, double margin) {
+internal::BatchAnswer BatchClearance::Ask(const Eigen::Ref<const Eigen::MatrixXd>& q, int count,
+                                          double margin) {
   assert(count > 0 && count <= kLanes && q.cols() >= count && q.rows() == samples_.rows());
   for (std::size_t i = 0; i < movers_.size(); ++i) {
     const Mover& mover = movers_[i];
@@ -213,13 +224,14 @@ unsigned BatchClearance::Ask(const Eigen::Ref<const Eigen::MatrixXd>& q, int cou
 
 unsigned BatchClearance::SurelyClear(const Eigen::Ref<const Eigen::MatrixXd>& q, int count,
                                      double margin) {
-  return ((1u << count) - 1u) & ~Ask(q, count, margin);
+  return ((1u << count) - 1u) & ~Ask(q, count, margin).open;
 }
 
 unsigned BatchClearance::Clear(const Eigen::Ref<const Eigen::MatrixXd>& q, int count,
                                double margin) {
-  const unsigned open = Ask(q, count, margin);
-  unsigned clear = ((1u << count) - 1u) & ~open;
+  const internal::BatchAnswer answer = Ask(q, count, margin);
+  const unsigned open = answer.open & ~answer.surely;
+  unsigned clear = ((1u << count) - 1u) & ~answer.open;
   for (int lane = 0; lane < count; ++lane) {
     const unsigned bit = 1u << lane;
     if ((open & bit) != 0 && ExactlyClear(q.col(lane), bit, margin)) clear |= bit;

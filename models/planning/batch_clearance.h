@@ -15,7 +15,7 @@ namespace oca::planning {
 /// links against bodies, or what contains these, in single precision; then exactly, where that
 /// cannot decide, the pairs in question alone.
 ///
-/// What it calls clear is clear. What the balls alone call clear is too: their thresholds are
+/// Balls that the links contain prove contact the same way. What it calls clear is clear. What the balls alone call clear is too: their thresholds are
 /// widened by what single precision may err, 2e-6 (n + 2) of the arm's reach and 2e-6 of how far a
 /// body's middle is from the base. All processors give the same bits.
 ///
@@ -51,7 +51,7 @@ class BatchClearance {
   void AddLinks();
   void AddBodies();
   void AddSolid(int body, const geometry::Collider& solid, const Eigen::Isometry3d& X_BO);
-  unsigned Ask(const Eigen::Ref<const Eigen::MatrixXd>& q, int count, double margin);
+  internal::BatchAnswer Ask(const Eigen::Ref<const Eigen::MatrixXd>& q, int count, double margin);
   bool ExactlyClear(const Eigen::Ref<const Eigen::VectorXd>& q, unsigned lane, double margin);
 
   robot::Clearance& clearance_;

@@ -131,14 +131,21 @@ OCA_INLINED void PlaceFrames(const BatchScene& scene, const LaneArray* motion,
   }
 }
 
-/// Where a solid comes within `reach` of the points.
-OCA_INLINED unsigned NearSolid(const BatchSolid& solid, const Point& at, float reach) {
+/// A ball's margins: something may be nearer, or surely is.
+struct Reach {
+  float may, surely;
+};
+
+/// Where a ball about `at` is near a solid.
+OCA_INLINED BatchAnswer NearSolid(const BatchSolid& solid, const Point& at, const Reach& reach) {
   const Point d{at.x - solid.centre[0], at.y - solid.centre[1], at.z - solid.centre[2]};
   const std::array<float, 9>& R = solid.R;
   const Lanes z = R[2] * d.x + R[5] * d.y + R[8] * d.z;
-  if (solid.core == BatchCore::kPlane) return MaskOf(!(z > reach + solid.radius));
-  const float around = reach + solid.reach;
-  if (MaskOf(!(SquaredNorm(d) > around * around)) == 0) return 0;
+  const float may = reach.may + solid.radius;
+  const float surely = solid.inner < 0.0f ? -1.0f : reach.surely + solid.inner;
+  if (solid.core == BatchCore::kPlane) return {MaskOf(!(z > may)), MaskOf(z < surely)};
+  const float around = reach.may + solid.reach;
+  if (MaskOf(!(SquaredNorm(d) > around * around)) == 0) return {0, 0};
   Point out{R[0] * d.x + R[3] * d.y + R[6] * d.z, R[1] * d.x + R[4] * d.y + R[7] * d.z,
             Positive(Abs(z) - solid.half[2])};
   if (solid.core == BatchCore::kCylinder) {
@@ -151,8 +158,9 @@ OCA_INLINED unsigned NearSolid(const BatchSolid& solid, const Point& at, float r
     out.x = Positive(Abs(out.x) - solid.half[0]);
     out.y = Positive(Abs(out.y) - solid.half[1]);
   }
-  const float near = reach + solid.radius;
-  return MaskOf(!(SquaredNorm(out) > near * near));
+  const Lanes square = SquaredNorm(out);
+  const unsigned sure = surely > 0.0f ? MaskOf(square < surely * surely) : 0u;
+  return {MaskOf(!(square > may * may)), sure};
 }
 
 /// Places the balls of a link, once.
@@ -186,70 +194,86 @@ OCA_INLINED bool IsIgnored(const BatchScene& scene, int link, int body) {
   return false;
 }
 
-OCA_INLINED unsigned CheckSolids(const BatchScene& scene, const BatchQuestion& question,
-                                 BatchWorkspace& work) {
-  unsigned all = 0;
-  const float slack = question.margin + question.error;
+OCA_INLINED Reach ReachOf(const BatchBall& ball, float margin, float error) {
+  return {margin + error + ball.radius, ball.inner > 0.0f ? margin - error + ball.inner : -1.0f};
+}
+
+/// Leaves the lanes that are surely decided out of the rest.
+OCA_INLINED void CheckSolids(const BatchScene& scene, const BatchQuestion& question,
+                             BatchWorkspace& work, BatchAnswer& answer) {
   for (int i = scene.moving; i < static_cast<int>(scene.links.size()); ++i) {
     const BatchLink& link = scene.links[static_cast<std::size_t>(i)];
     const Point centre = LoadPoint(work.centres.data() + 3 * i);
+    const Reach around = ReachOf(link.around, question.margin, question.error);
     for (const BatchSolid& solid : scene.solids) {
-      const unsigned near = NearSolid(solid, centre, slack + link.around.radius) & question.lanes;
+      const unsigned asked = question.lanes & ~answer.surely;
+      const unsigned near = NearSolid(solid, centre, around).open & asked;
       if (near == 0 || IsIgnored(scene, i, solid.body)) continue;
       PlaceBalls(scene, i, work);
-      unsigned found = 0;
-      for (int ball = link.first; ball < link.last && found != near; ++ball) {
-        const Point at = LoadPoint(work.balls.data() + 3 * ball);
-        found |=
-            NearSolid(solid, at, slack + scene.balls[static_cast<std::size_t>(ball)].radius) & near;
+      unsigned found = 0, surely = 0;
+      for (int k = link.first; k < link.last && surely != near; ++k) {
+        const BatchBall& ball = scene.balls[static_cast<std::size_t>(k)];
+        const BatchAnswer one = NearSolid(solid, LoadPoint(work.balls.data() + 3 * k),
+                                          ReachOf(ball, question.margin, question.error));
+        found |= one.open & near;
+        surely |= one.surely & near;
       }
-      if (found == 0) continue;
-      Note(i, solid.body, -1, found, work);
-      all |= found;
+      answer.open |= found;
+      answer.surely |= surely;
+      if ((found & ~surely) != 0) Note(i, solid.body, -1, found & ~surely, work);
+      if (answer.surely == question.lanes) return;
     }
   }
-  return all;
 }
 
-OCA_INLINED unsigned Within(const Point& a, const Point& b, float reach) {
+/// Where two balls are near each other.
+OCA_INLINED BatchAnswer NearEachOther(const Point& a, const Point& b, const Reach& reach) {
   const Point d{a.x - b.x, a.y - b.y, a.z - b.z};
-  return MaskOf(!(SquaredNorm(d) > reach * reach));
+  const Lanes square = SquaredNorm(d);
+  const unsigned sure = reach.surely > 0.0f ? MaskOf(square < reach.surely * reach.surely) : 0u;
+  return {MaskOf(!(square > reach.may * reach.may)), sure};
 }
 
-OCA_INLINED unsigned CheckPairs(const BatchScene& scene, const BatchQuestion& question,
-                                BatchWorkspace& work) {
-  unsigned all = 0;
-  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+OCA_INLINED void CheckPairs(const BatchScene& scene, const BatchQuestion& question,
+                            BatchWorkspace& work, BatchAnswer& answer) {
+  for (std::size_t i = 0; i < scene.pairs.size() && answer.surely != question.lanes; ++i) {
     const BatchPair& pair = scene.pairs[i];
     const BatchLink& a = scene.links[static_cast<std::size_t>(pair.link)];
     const BatchLink& b = scene.links[static_cast<std::size_t>(pair.other)];
-    const float slack = question.margin * pair.share + question.error;
-    const unsigned near = Within(LoadPoint(work.centres.data() + 3 * pair.link),
-                                 LoadPoint(work.centres.data() + 3 * pair.other),
-                                 slack + (a.around.radius + b.around.radius)) &
-                          question.lanes;
+    const float margin = question.margin * pair.share;
+    const Reach around{margin + question.error + a.around.radius + b.around.radius, -1.0f};
+    const unsigned near = NearEachOther(LoadPoint(work.centres.data() + 3 * pair.link),
+                                        LoadPoint(work.centres.data() + 3 * pair.other), around)
+                              .open &
+                          question.lanes & ~answer.surely;
     if (near == 0) continue;
     PlaceBalls(scene, pair.link, work);
     PlaceBalls(scene, pair.other, work);
-    unsigned found = 0;
-    for (int k = a.first; k < a.last && found != near; ++k) {
+    unsigned found = 0, surely = 0;
+    for (int k = a.first; k < a.last && surely != near; ++k) {
+      const BatchBall& ball = scene.balls[static_cast<std::size_t>(k)];
       const Point at = LoadPoint(work.balls.data() + 3 * k);
-      const float reach = slack + scene.balls[static_cast<std::size_t>(k)].radius;
-      for (int m = b.first; m < b.last && found != near; ++m) {
-        found |= Within(at, LoadPoint(work.balls.data() + 3 * m),
-                        reach + scene.balls[static_cast<std::size_t>(m)].radius) &
-                 near;
+      const Reach reach = ReachOf(ball, margin, question.error);
+      for (int m = b.first; m < b.last; ++m) {
+        const BatchBall& other = scene.balls[static_cast<std::size_t>(m)];
+        const bool known = reach.surely > 0.0f && other.inner > 0.0f;
+        const BatchAnswer one =
+            NearEachOther(at, LoadPoint(work.balls.data() + 3 * m),
+                          {reach.may + other.radius, known ? reach.surely + other.inner : -1.0f});
+        found |= one.open & near;
+        surely |= one.surely & near;
       }
     }
-    if (found == 0) continue;
-    Note(pair.link, -1, static_cast<int>(i), found, work);
-    all |= found;
+    answer.open |= found;
+    answer.surely |= surely;
+    if ((found & ~surely) != 0) {
+      Note(pair.link, -1, static_cast<int>(i), found & ~surely, work);
+    }
   }
-  return all;
 }
 
-OCA_INLINED unsigned Check(const BatchScene& scene, const BatchQuestion& question,
-                           BatchWorkspace& work) {
+OCA_INLINED BatchAnswer Check(const BatchScene& scene, const BatchQuestion& question,
+                              BatchWorkspace& work) {
   work.found.clear();
   std::fill(work.done.begin(), work.done.end(), static_cast<unsigned char>(0));
   PlaceFrames(scene, question.motion, work);
@@ -258,14 +282,17 @@ OCA_INLINED unsigned Check(const BatchScene& scene, const BatchQuestion& questio
     const Pose X = LoadPose(work.frames.data() + 12 * link.frame);
     StorePoint(Transform(X, link.around.centre), work.centres.data() + 3 * i);
   }
-  return CheckSolids(scene, question, work) | CheckPairs(scene, question, work);
+  BatchAnswer answer{0, 0};
+  CheckSolids(scene, question, work, answer);
+  CheckPairs(scene, question, work, answer);
+  return answer;
 }
 
 #if defined(__x86_64__)
 // Without FMA on purpose: fused products would round otherwise.
-__attribute__((target("avx2"))) unsigned CheckLanesAvx2(const BatchScene& scene,
-                                                        const BatchQuestion& question,
-                                                        BatchWorkspace& work) {
+__attribute__((target("avx2"))) BatchAnswer CheckLanesAvx2(const BatchScene& scene,
+                                                           const BatchQuestion& question,
+                                                           BatchWorkspace& work) {
   return Check(scene, question, work);
 }
 
@@ -283,12 +310,13 @@ BatchWorkspace::BatchWorkspace(const BatchScene& scene)
   found.reserve(scene.links.size() * scene.solids.size() + scene.pairs.size());
 }
 
-unsigned CheckLanesPortable(const BatchScene& scene, const BatchQuestion& question,
-                            BatchWorkspace& work) {
+BatchAnswer CheckLanesPortable(const BatchScene& scene, const BatchQuestion& question,
+                               BatchWorkspace& work) {
   return Check(scene, question, work);
 }
 
-unsigned CheckLanes(const BatchScene& scene, const BatchQuestion& question, BatchWorkspace& work) {
+BatchAnswer CheckLanes(const BatchScene& scene, const BatchQuestion& question,
+                       BatchWorkspace& work) {
 #if defined(__x86_64__)
   if (kHasAvx2) return CheckLanesAvx2(scene, question, work);
 #endif

@@ -26,6 +26,7 @@ struct BatchFrame {
 struct BatchBall {
   std::array<float, 3> centre;  // in the link's frame
   float radius;
+  float inner;  // of a ball about the centre that the link contains; 0: none
 };
 
 /// A link: a ball around it, and balls that together contain it.
@@ -45,8 +46,9 @@ struct BatchSolid {
   std::array<float, 9> R;       // of the world's axes into the solid's, by columns
   std::array<float, 3> centre;  // of the core; of the ball around it
   std::array<float, 3> half;    // extents; of a cylinder radius, -, half the length
-  float radius;
-  float reach;  // radius of a ball around all of it; infinite for a plane
+  float radius;                 // with what rounding may make of it
+  float inner;                  // of what the body surely contains; below 0: nothing is known
+  float reach;                  // radius of a ball around all of it; infinite for a plane
 };
 
 struct BatchPair {
@@ -95,10 +97,17 @@ struct BatchQuestion {
   unsigned lanes;  // that are asked for
 };
 
-/// Which of the lanes have something that may be too near; what it is, is in `work.found`.
-unsigned CheckLanes(const BatchScene& scene, const BatchQuestion& question, BatchWorkspace& work);
+/// What is known of the lanes, a bit each: that something may be too near, and that it surely is.
+struct BatchAnswer {
+  unsigned open;  // lanes of `surely` included
+  unsigned surely;
+};
+
+/// What may be too near is in `work.found`, of the lanes that are not surely decided.
+BatchAnswer CheckLanes(const BatchScene& scene, const BatchQuestion& question,
+                       BatchWorkspace& work);
 /// The same, by instructions that every processor has.
-unsigned CheckLanesPortable(const BatchScene& scene, const BatchQuestion& question,
-                            BatchWorkspace& work);
+BatchAnswer CheckLanesPortable(const BatchScene& scene, const BatchQuestion& question,
+                               BatchWorkspace& work);
 
 }  // namespace oca::planning::internal

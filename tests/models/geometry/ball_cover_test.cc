@@ -86,6 +86,25 @@ TEST(BallCoverTest, AHalfSpaceHasNone) {
   EXPECT_TRUE(CoverWithBalls(*MakeCollider(HalfSpace{}, "floor"), 4, 0.01).empty());
 }
 
+TEST(InnerRadiusTest, IsWhatFitsAboutAPoint) {
+  const auto of = [](const Shape& shape, const Eigen::Vector3d& p) {
+    return InnerRadius(*MakeCollider(shape, "solid"), p);
+  };
+  EXPECT_NEAR(of(Sphere{0.3}, {0.1, 0.0, 0.0}), 0.2, 1e-12);
+  EXPECT_NEAR(of(Capsule{0.1, 0.4}, {0.0, 0.03, 0.1}), 0.07, 1e-12);
+  EXPECT_NEAR(of(Capsule{0.1, 0.4}, {0.0, 0.0, 0.25}), 0.05, 1e-12);
+  EXPECT_NEAR(of(Box{{0.2, 0.4, 0.6}}, {0.0, 0.15, 0.0}), 0.05, 1e-12);
+  EXPECT_NEAR(of(Cylinder{0.1, 0.4}, {0.06, 0.0, 0.15}), 0.04, 1e-12);
+  EXPECT_EQ(of(Box{{0.2, 0.4, 0.6}}, {0.0, 0.25, 0.0}), 0.0) << "outside";
+  RandomBodies random(3);
+  const auto hull = MakeCollider(random.RandomShape(4), "hull");
+  const auto ball = MakeCollider(Sphere{1e-3}, "ball");
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.translation() = hull->centre();
+  const double depth = Distance(*ball, X, *hull, Eigen::Isometry3d::Identity()).distance + 1e-3;
+  EXPECT_NEAR(InnerRadius(*hull, hull->centre()), std::max(-depth, 0.0), 1e-9);
+}
+
 TEST(EnclosingBallTest, IsNearlyTheSmallest) {
   std::vector<Eigen::Vector3d> points;
   for (int corner = 0; corner < 8; ++corner) {
