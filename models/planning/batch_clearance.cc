@@ -7,18 +7,12 @@
 #include <limits>
 #include <numbers>
 
-#include "oca/models/geometry/ball_cover.h"
-
 namespace oca::planning {
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-// More balls keep closer to a solid and take longer; these leave to the exact distances about one
-// configuration in six of a search in shelves and boxes.
-constexpr int kMostBalls = 8;     // a solid of a link
-constexpr double kSlack = 0.004;  // m
 // A compound of more parts is looked at as one ball.
 constexpr std::size_t kMostParts = 64;
 // Of single precision, for a joint, with sine and cosine: see the class comment.
@@ -118,30 +112,26 @@ void BatchClearance::AddFrames() {
 void BatchClearance::AddLinks() {
   const robot::RobotModel& model = clearance_.model();
   std::vector<int> place(frame_of_.size(), -1);
-  const auto add = [&](const robot::LinkCollider& link) {
+  const std::vector<robot::LinkCollider>& links = clearance_.links();
+  const auto add = [&](std::size_t index) {
+    const robot::LinkCollider& link = links[index];
     const auto number = static_cast<std::size_t>(link.number);
     const Isometry3d& X_FL = X_FL_[number];
     const int first = num_balls();
-    for (const robot::LinkCollider::Element& element : link.elements) {
-      for (const geometry::Ball& ball :
-           geometry::CoverWithBalls(*element.collider, kMostBalls, kSlack)) {
-        scene_.balls.push_back(
-            ToFloat(geometry::Ball{X_FL * element.X_LC * ball.centre, ball.radius},
-                    geometry::InnerRadius(*element.collider, ball.centre)));
-      }
+    for (const robot::LinkBall& ball : clearance_.covers()[index]) {
+      scene_.balls.push_back(ToFloat({X_FL * ball.ball.centre, ball.ball.radius}, ball.inner));
     }
     place[number] = static_cast<int>(scene_.links.size());
     numbers_.push_back(link.number);
-    scene_.links.push_back({frame_of_[number],
-                            ToFloat(geometry::Ball{X_FL * link.centre, link.radius}, 0.0), first,
-                            num_balls()});
+    scene_.links.push_back(
+        {frame_of_[number], ToFloat({X_FL * link.centre, link.radius}, 0.0), first, num_balls()});
   };
-  for (const robot::LinkCollider& link : clearance_.links()) {
-    if (model.body(link.number) < 0) add(link);
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    if (model.body(links[i].number) < 0) add(i);
   }
   scene_.moving = static_cast<int>(scene_.links.size());
-  for (const robot::LinkCollider& link : clearance_.links()) {
-    if (model.body(link.number) >= 0) add(link);
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    if (model.body(links[i].number) >= 0) add(i);
   }
   for (std::size_t i = 0; i < clearance_.own_pairs().size(); ++i) {
     const auto& pair = clearance_.own_pairs()[i];

@@ -19,8 +19,8 @@ namespace oca::planning {
 /// widened by what single precision may err, 2e-6 (n + 2) of the arm's reach and 2e-6 of how far a
 /// body's middle is from the base. All processors give the same bits.
 ///
-/// Bodies, own pairs and what is ignored are those of the Clearance when this was made; it must
-/// outlive this, and is left at some position. No heap once made.
+/// Bodies, own pairs and what is ignored are those of the Clearance when this was made (compare its
+/// version()); it must outlive this, and is left at some position. No heap once made.
 /// source Thomason, Kingston, Kavraki, Motions in Microseconds via Vectorized Sampling-Based
 ///        Planning, 2024: configurations in lanes, balls, all of an edge at once
 class BatchClearance {

@@ -2,12 +2,15 @@
 #include "oca/models/planning/certified_motion.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace oca::planning {
 namespace {
 
 // Steps shorter than this share of the motion count as contact.
 constexpr double kLeastShare = 1e-3;
+// Of a shorter motion, rad and m, samples tell no more than the proof does.
+constexpr double kShort = 0.1;
 
 }  // namespace
 
@@ -17,6 +20,7 @@ CertifiedMotion::CertifiedMotion(robot::Clearance& clearance, double margin)
       bound_(clearance.model()),
       q_(clearance.model().num_positions()),
       path_(clearance.model().num_positions()),
+      samples_(clearance.model().num_positions(), BatchClearance::kLanes),
       distances_(static_cast<std::size_t>(clearance.model().num_links())),
       own_distances_(clearance.own_pairs().size()),
       travel_(static_cast<std::size_t>(clearance.model().num_links())),
@@ -34,6 +38,28 @@ bool CertifiedMotion::Clear(const Eigen::Ref<const Eigen::VectorXd>& q_0,
 
 double CertifiedMotion::ClearShare(const Eigen::Ref<const Eigen::VectorXd>& q_0,
                                    const Eigen::Ref<const Eigen::VectorXd>& q_1) {
+  const double seen = SampledShare(q_0, q_1);
+  if (seen == 1.0) return ProvedShare(q_0, q_1);
+  return seen == 0.0 ? 0.0 : seen * ProvedShare(q_0, q_0 + seen * (q_1 - q_0));
+}
+
+double CertifiedMotion::SampledShare(const Eigen::Ref<const Eigen::VectorXd>& q_0,
+                                     const Eigen::Ref<const Eigen::VectorXd>& q_1) {
+  constexpr int kSamples = BatchClearance::kLanes;
+  if ((q_1 - q_0).squaredNorm() < kShort * kShort) return 1.0;
+  if (!batch_ || batch_version_ != clearance_.version()) {
+    batch_.emplace(clearance_);
+    batch_version_ = clearance_.version();
+  }
+  for (int i = 0; i < kSamples; ++i) {
+    samples_.col(i) = q_0 + (i + 1.0) / kSamples * (q_1 - q_0);
+  }
+  const int clear = std::countr_one(batch_->Clear(samples_, kSamples, std::max(margin_, 0.0)));
+  return static_cast<double>(std::min(clear, kSamples)) / kSamples;
+}
+
+double CertifiedMotion::ProvedShare(const Eigen::Ref<const Eigen::VectorXd>& q_0,
+                                    const Eigen::Ref<const Eigen::VectorXd>& q_1) {
   double share = 0.0;
   while (share < 1.0) {
     q_ = q_0 + share * (q_1 - q_0);

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
+#include "oca/models/planning/batch_clearance.h"
 #include "oca/models/robot/clearance.h"
 #include "oca/models/robot/travel_bound.h"
 
@@ -14,6 +16,8 @@ namespace oca::planning {
 /// From a position at which every pair is `d` apart the joints may go on until a bound of the
 /// links' travel has used up `d - clearance`; there the distances are taken anew. So what is found
 /// clear is clear everywhere, not at samples only.
+/// Of a motion that is not short, samples are looked at first, eight at once, and what lies behind
+/// one that is not clear needs no proof.
 /// source conservative advancement: Mirtich 1996; the bound: TravelBound
 class CertifiedMotion {
  public:
@@ -31,6 +35,11 @@ class CertifiedMotion {
                     const Eigen::Ref<const Eigen::VectorXd>& q_1);
 
  private:
+  /// The share of the motion before the first sample that is not clear.
+  double SampledShare(const Eigen::Ref<const Eigen::VectorXd>& q_0,
+                      const Eigen::Ref<const Eigen::VectorXd>& q_1);
+  double ProvedShare(const Eigen::Ref<const Eigen::VectorXd>& q_0,
+                     const Eigen::Ref<const Eigen::VectorXd>& q_1);
   /// How far the joints may go on along `path` (one entry a position), as a share of it.
   double FreeShare();
 
@@ -38,6 +47,9 @@ class CertifiedMotion {
   const double margin_;
   const robot::TravelBound bound_;
   Eigen::VectorXd q_, path_;
+  std::optional<BatchClearance> batch_;
+  long batch_version_{0};
+  Eigen::MatrixXd samples_;  // n x lanes
   std::vector<double> distances_, own_distances_, travel_, approach_;
 };
 

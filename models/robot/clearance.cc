@@ -4,10 +4,15 @@
 #include <algorithm>
 #include <utility>
 
+#include "oca/models/geometry/ball_cover.h"
 #include "oca/models/robot/kinematics.h"
 
 namespace oca::robot {
 namespace {
+
+// More balls keep closer to a solid and take longer.
+constexpr int kMostBalls = 8;          // a solid
+constexpr double kCoverSlack = 0.004;  // m
 
 NearPair PairOf(const geometry::SignedDistance& found, int link, int body, int other_link) {
   return {found.distance, link, body, other_link, found.point_a, found.point_b, found.normal};
@@ -45,6 +50,24 @@ void Clearance::KeepOwn(const OwnRanges& ranges, double reference) {
     own_scales_[i] =
         std::max(reference / ranges.of(own_pairs_[i].first, own_pairs_[i].second), 1.0);
   }
+  ++version_;
+}
+
+const LinkCovers& Clearance::covers() {
+  if (covers_ != nullptr) return *covers_;
+  LinkCovers covers;
+  for (const LinkCollider& link : links_) {
+    auto& balls = covers.emplace_back();
+    for (const LinkCollider::Element& element : link.elements) {
+      for (const geometry::Ball& ball :
+           geometry::CoverWithBalls(*element.collider, kMostBalls, kCoverSlack)) {
+        balls.push_back({{element.X_LC * ball.centre, ball.radius},
+                         geometry::InnerRadius(*element.collider, ball.centre)});
+      }
+    }
+  }
+  covers_ = std::make_shared<const LinkCovers>(std::move(covers));
+  return *covers_;
 }
 
 void Clearance::MoveTo(const Eigen::Ref<const Eigen::VectorXd>& q) {

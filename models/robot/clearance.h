@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "oca/models/geometry/ball_tree.h"
 #include "oca/models/robot/link_colliders.h"
 #include "oca/models/robot/own_ranges.h"
 #include "oca/models/robot/robot_model.h"
@@ -32,6 +33,15 @@ struct NearPair {
   double scale{1.0};  ///< of the distance as it counts to what it is: see Clearance::KeepOwn
 };
 
+/// A ball of those that together contain a link, in the link's frame, and the radius of one about
+/// the same centre that the link contains; 0: none. m.
+struct LinkBall {
+  geometry::Ball ball;
+  double inner;
+};
+/// A list for each of Clearance::links().
+using LinkCovers = std::vector<std::vector<LinkBall>>;
+
 /// Signed distances of a robot at given joint positions to bodies in the world, for planners.
 ///
 /// Links that no joint moves are left out: what they touch, no motion can change. Pairs of the
@@ -49,15 +59,26 @@ class Clearance {
   void SetBodies(std::vector<PlacedBody> bodies) {
     bodies_ = std::move(bodies);
     ignored_.clear();
+    ++version_;
   }
   /// Those of the links that have solids, in the model's order.
   const std::vector<LinkCollider>& links() const { return links_; }
+  /// Balls that contain them, made when they are asked for first; copies share them.
+  const LinkCovers& covers();
   /// Leaves a pair out from now on: a link and a body, by their numbers.
-  void Ignore(int link, int body) { ignored_.emplace_back(link, body); }
+  void Ignore(int link, int body) {
+    ignored_.emplace_back(link, body);
+    ++version_;
+  }
   /// What is left out.
   const std::vector<std::pair<int, int>>& ignored() const { return ignored_; }
   /// Moves body number `body`, of a scene in which time goes on.
-  void MoveBody(int body, const Eigen::Isometry3d& X_WO) { bodies_[body].X_WO = X_WO; }
+  void MoveBody(int body, const Eigen::Isometry3d& X_WO) {
+    bodies_[body].X_WO = X_WO;
+    ++version_;
+  }
+  /// Another number whenever what is kept clear of, or how far, is another than it was.
+  long version() const { return version_; }
 
   /// From now on the distance of a pair of own links counts `reference` / range times, where its
   /// range is less than `reference` (m): who asks all pairs for `reference` asks this one for its
@@ -109,6 +130,8 @@ class Clearance {
   std::vector<PlacedBody> bodies_;
   std::vector<std::pair<int, int>> ignored_;  // link, body
   std::vector<Eigen::Isometry3d> X_WL_;
+  std::shared_ptr<const LinkCovers> covers_;
+  long version_{0};
 };
 
 }  // namespace oca::robot
