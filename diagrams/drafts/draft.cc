@@ -4,11 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <utility>
 
 #include "oca/diagrams/drafts/draft_text.h"
-#include "oca/diagrams/files/package_paths.h"
+#include "oca/diagrams/drafts/robot_reader.h"
 #include "oca/diagrams/loading/blueprint.h"
 #include "oca/diagrams/runs/output_files.h"
 #include "oca/diagrams/runs/run.h"
@@ -16,7 +15,6 @@
 #include "oca/models/error.h"
 #include "oca/models/robot/collision_check.h"
 #include "oca/models/robot/srdf.h"
-#include "oca/models/robot/unseen_links.h"
 
 namespace oca::drafts {
 namespace {
@@ -24,60 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostProposals = 60;
-
-/// The folder of a package that the robot's file is in, or that lies beside it or a folder above.
-fs::path PackageNear(const fs::path& file, const std::string& package) {
-  std::error_code error;
-  for (fs::path folder = fs::absolute(file, error).lexically_normal().parent_path();
-       folder.has_relative_path(); folder = folder.parent_path()) {
-    if (folder.filename() == package) return folder;
-    if (fs::is_directory(folder / package, error)) return folder / package;
-  }
-  return {};
-}
-
-/// Loads the robot of a draft in several ways.
-class RobotReader {
- public:
-  explicit RobotReader(const DraftOptions& options) : options_(options) {}
-
-  robot::RobotModel Read(robot::LoadOptions how, bool tell) {
-    how.srdf = options_.srdf;
-    how.xacro_arguments = options_.arguments;
-    how.package_directories = files::PackageFolders();
-    how.find_package = [this, known = how.package_directories](const std::string& package) {
-      return Find(package, known);
-    };
-    if (tell) how.warn = options_.warn;
-    return robot::LoadUrdf(options_.robot, how);
-  }
-  std::map<std::string, fs::path> packages() const { return packages_; }
-
- private:
-  /// What OCA knows goes first, as it does when the diagram is loaded.
-  fs::path Find(const std::string& package, const std::vector<fs::path>& known) {
-    std::error_code error;
-    for (const fs::path& folder : known) {
-      if (fs::is_directory(folder / package, error)) return folder / package;
-    }
-    fs::path found = PackageNear(options_.robot, package);
-    if (!found.empty()) packages_[package] = found;
-    return found;
-  }
-
-  const DraftOptions& options_;
-  std::map<std::string, fs::path> packages_;
-};
-
-/// The link at the end of an arm of which all other joints are held.
-int TipOf(const robot::RobotModel& model) { return planning::GuessArm(model).tip; }
-
-void Write(const fs::path& file, const std::string& text) {
-  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
-  stream << text;
-  stream.close();
-  if (!stream) throw ConfigError(fmt::format("{} cannot be written", file.string()));
-}
 
 /// One call of MakeDraft.
 class DraftMaker {
@@ -150,7 +94,7 @@ class DraftMaker {
   }
 
   void Keep(const fs::path& file, const std::string& text) {
-    Write(file, text);
+    internal::WriteDraft(file, text);
     draft_.files.push_back(file);
   }
 
@@ -169,9 +113,10 @@ class DraftMaker {
   void WriteDiagram(const planning::FirstMotion& motion) {
     const std::string srdf = srdf_.empty() ? internal::PathFrom(options_.folder, options_.srdf)
                                            : srdf_.filename().string();
-    Write(draft_.diagram,
-          internal::DiagramText(options_, draft_.robot, internal::TextOf(motion, draft_.robot),
-                                srdf, limits_.filename().string()));
+    internal::WriteDraft(
+        draft_.diagram,
+        internal::DiagramText(options_, draft_.robot, internal::TextOf(motion, draft_.robot), srdf,
+                              limits_.filename().string()));
     if (draft_.files.empty() || draft_.files.front() != draft_.diagram) {
       draft_.files.insert(draft_.files.begin(), draft_.diagram);
     }
@@ -211,31 +156,6 @@ bool Attempt::contact() const {
 }
 
 bool Attempt::evaded() const { return with.metrics && !with.failure && with.ExpectationsMet(); }
-
-DraftRobot ReadDraftRobot(const DraftOptions& options) {
-  RobotReader reader(options);
-  DraftRobot robot;
-  robot::LoadOptions how;
-  const robot::RobotModel whole = reader.Read(how, true);
-  robot.visuals = !robot::DescribeUnseen(whole, "").empty();
-  if (robot.visuals) how.visual_as_collision = robot::VisualAsCollision::kMissing;
-  if (options.group.empty()) {
-    for (const int joint : planning::GuessArm(whole).others) {
-      const robot::Joint& other = whole.joints()[static_cast<std::size_t>(joint)];
-      const Eigen::Index at = other.position_index;
-      robot.held[other.name.text()] =
-          std::clamp(0.0, whole.lower_limits()[at], whole.upper_limits()[at]);
-    }
-    how.held.positions = robot.held;
-  } else {
-    how.held.group = options.group;
-  }
-  robot.model = std::make_shared<const robot::RobotModel>(reader.Read(how, false));
-  robot.packages = reader.packages();
-  robot.tip = TipOf(*robot.model);
-  robot.reach = planning::ReachOf(*robot.model, robot.tip);
-  return robot;
-}
 
 Draft MakeDraft(const DraftOptions& options) { return DraftMaker(options).Make(); }
 

@@ -13,21 +13,25 @@
 #include "oca/diagrams/runs/run_result.h"
 #include "oca/models/planning/arm_guess.h"
 #include "oca/models/planning/first_motion.h"
+#include "oca/models/robot/srdf.h"
 #include "oca/models/robot/urdf.h"
 
 namespace oca::drafts {
 
 /// What a first diagram file is made of.
 struct DraftOptions {
-  std::filesystem::path robot{};         ///< URDF or xacro
-  std::string named{};                   ///< how the diagram names it; empty: by its path
-  robot::XacroArguments arguments{};     ///< of a xacro
-  std::filesystem::path srdf{};          ///< empty: pairs are found by sampling, and written
-  std::string group{};                   ///< of the SRDF, that is the arm; empty: it is guessed
-  std::string avoidance{"recommended"};  ///< parts/avoidance_NAME.yaml
-  std::filesystem::path folder{};        ///< where the files go; made if need be
-  std::uint64_t seed{0};                 ///< of sampled postures
-  int tries{12};                         ///< how many motions are run, at most; >= 1
+  std::filesystem::path robot{};      ///< URDF or xacro
+  std::string named{};                ///< how the diagram names it; empty: by its path
+  robot::XacroArguments arguments{};  ///< of a xacro
+  std::string named_srdf{};           ///< how the diagram names the SRDF; empty: by its path
+  std::filesystem::path srdf{};       ///< empty: pairs are found by sampling, and written
+  std::string group{};                ///< of the SRDF, that is the arm; empty: it is guessed
+  /// rad or m, by name: where joints that are not of the arm are held, else at 0.
+  std::map<std::string, double> stands{};
+  std::string avoidance{"recommended"};                 ///< parts/avoidance_NAME.yaml
+  std::filesystem::path folder{};                       ///< where the files go; made if need be
+  std::uint64_t seed{0};                                ///< of sampled postures
+  int tries{12};                                        ///< how many motions are run, at most; >= 1
   std::function<void(const std::string& line)> warn{};  ///< what loading the robot warns of
   std::function<bool()> interrupted{};                  ///< asked now and then; true: it ends
 };
@@ -60,6 +64,9 @@ struct Draft {
   Attempt attempt{};                           ///< the one that the file has
   int tries{0};                                ///< motions that were run
 };
+
+/// The SRDF of `options`; an empty one if it names none.
+robot::Srdf LoadSrdfOf(const DraftOptions& options, const robot::RobotModel& model);
 
 /// Loads a robot and guesses its arm (planning::GuessArm), or takes that of the group. Packages
 /// are looked for among the folders that lie above and beside its file too.

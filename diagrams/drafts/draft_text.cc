@@ -25,11 +25,6 @@ constexpr double kGuessedSpeed = 1.0;  // rad/s
 constexpr double kGuessedSlide = 0.2;  // m/s
 constexpr double kUsualReach = 1.0;    // m, of the arms that the distances of parts/ are for
 
-/// A text as YAML and JSON write it.
-std::string Quoted(const std::string& text) {
-  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
 std::string List(const VectorXd& numbers) {
   std::vector<std::string> texts;
   for (const double number : numbers) texts.push_back(fmt::format("{:.4g}", number));
@@ -48,7 +43,12 @@ double DurationOf(const planning::FirstMotion& motion, const robot::RobotModel& 
   return std::ceil(duration);
 }
 
-/// Distances of the parts, for an arm that is smaller than those that they are for.
+}  // namespace
+
+std::string Quoted(const std::string& text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 std::string SmallerDistances(double reach) {
   if (reach >= kUsualReach) return "";
   const double share = reach / kUsualReach;
@@ -74,14 +74,14 @@ std::string ModelText(const DraftOptions& options, const DraftRobot& robot, cons
                       const std::string& limits) {
   std::string text = fmt::format(
       "    {}: {}\n", robot::IsXacro(options.robot) ? "xacro" : "urdf",
-      Quoted(options.named.empty() ? PathFrom(options.folder, options.robot) : options.named));
+      Quoted(options.named.empty() ? PathBeside(options.folder, options.robot) : options.named));
   if (!options.arguments.empty()) {
     text += "    arguments:\n";
     for (const auto& [name, value] : options.arguments) {
       text += fmt::format("      {}: {}\n", Quoted(name), Quoted(value));
     }
   }
-  text += fmt::format("    srdf: {}\n", Quoted(srdf));
+  if (!srdf.empty()) text += fmt::format("    srdf: {}\n", Quoted(srdf));
   if (!limits.empty()) {
     text += fmt::format("    joint_limits: {}\n", Quoted(limits));
   }
@@ -99,7 +99,14 @@ std::string ModelText(const DraftOptions& options, const DraftRobot& robot, cons
   return text;
 }
 
-}  // namespace
+std::string PathBeside(const fs::path& folder, const fs::path& file) {
+  std::error_code error;
+  const fs::path whole = fs::absolute(folder, error);
+  const fs::path path =
+      fs::weakly_canonical(file, error).lexically_relative(fs::weakly_canonical(whole, error));
+  const bool inside = !path.empty() && *path.begin() != "..";
+  return inside ? path.string() : PathFrom(whole, file);
+}
 
 std::string PathFrom(const fs::path& folder, const fs::path& file) {
   std::error_code error;

@@ -16,6 +16,19 @@ std::string PlainName(const std::string& robot);
 /// else absolute.
 std::string PathFrom(const std::filesystem::path& folder, const std::filesystem::path& file);
 
+/// The same, of a file within the folder by its way from there.
+std::string PathBeside(const std::filesystem::path& folder, const std::filesystem::path& file);
+
+/// A text as YAML and JSON write it.
+std::string Quoted(const std::string& text);
+/// Parameters of the parts, for an arm that is smaller than those that their distances are for.
+std::string SmallerDistances(double reach);
+/// Section `packages`.
+std::string PackagesText(const DraftRobot& robot);
+/// What is below `models.arm`; `srdf` and `limits` (empty: none) as the diagram names them.
+std::string ModelText(const DraftOptions& options, const DraftRobot& robot, const std::string& srdf,
+                      const std::string& limits);
+
 /// A first motion as a diagram file has it.
 struct MotionText {
   std::string first, second;  ///< key points

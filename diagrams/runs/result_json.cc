@@ -113,8 +113,11 @@ std::string ResultJson(const loading::LoadedDiagram& loaded, const RunResult& re
     json["worst_overrun"] = result.statistics.worst_overrun;
   }
   for (const SystemTime& time : result.profile) {
-    json["profile"].push_back(
-        {{"system", time.system}, {"calls", time.calls}, {"seconds", time.seconds}});
+    json["profile"].push_back({{"system", time.system},
+                               {"calls", time.calls},
+                               {"seconds", time.seconds},
+                               {"slowest", time.slowest},
+                               {"times", time.times}});
   }
   if (result.failure) json["failure"] = result.failure->message;
   return oca::internal::JsonText(json, 2);

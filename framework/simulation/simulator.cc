@@ -67,8 +67,15 @@ std::vector<SystemTime> Simulator::profile() const {
   if (!profile_) return times;
   for (std::size_t i = 0; i < profile_->entries().size(); ++i) {
     const Profile::Entry& entry = profile_->entries()[i];
-    times.push_back({diagram_.schedule().paths[i], entry.calls,
-                     std::chrono::duration<double>(entry.time).count()});
+    const auto seconds = [](std::chrono::steady_clock::duration time) {
+      return std::chrono::duration<double>(time).count();
+    };
+    times.push_back(
+        {diagram_.schedule().paths[i], entry.calls, seconds(entry.time), seconds(entry.slowest)});
+    for (std::size_t place = 0; place < Profile::Entry::kClasses; ++place) {
+      const std::uint32_t calls = entry.classes[place];
+      if (calls > 0) times.back().times.emplace_back(Profile::Entry::TimeOf(place), calls);
+    }
   }
   return times;
 }

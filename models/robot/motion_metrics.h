@@ -21,7 +21,9 @@ struct MotionMetricsValue {
   std::optional<double> time_to_goal;  ///< since the first sample, s; none unless it is there
   std::optional<double> delta_sign_changes_per_second;  ///< mean over joints; 1/s
   std::optional<double> total_variation_ratio;  ///< path of q over path of the request, joint space
+  std::optional<double> path_length;            ///< of q, the 2-norm of each step; rad, m
   std::optional<double> max_joint_speed;        ///< rad/s, m/s
+  std::optional<double> final_speed;  ///< of the fastest joint in the last step; rad/s, m/s
   std::optional<double> max_joint_acceleration;  ///< rad/s^2, m/s^2
   std::optional<double> limit_violations;        ///< joints beyond a limit, summed over samples
   std::optional<double> stuck_time;              ///< longest standstill off the goal, s; 0: none

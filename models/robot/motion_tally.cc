@@ -123,6 +123,7 @@ void MotionTally::AddPosition(Positions position, const RobotModel* model, doubl
     velocity_.assign(static_cast<std::size_t>(position.size()), 0.0);
   } else {
     position_path_ += PathLength(position, position_);
+    path_length_ += (position - View(position_)).stableNorm();  // squares may overflow
     for (Eigen::Index i = 0; i < position.size(); ++i) {
       const double velocity = (position[i] - position_[i]) / step;
       max_speed_ = std::max(max_speed_, std::fabs(velocity));
@@ -206,7 +207,11 @@ MotionMetricsValue MotionTally::At(const MotionSample& now) const {
           reversals_ / (static_cast<double>(now.delta->size()) * duration);
     }
   }
-  if (now.position && samples_ > 1) value.max_joint_speed = max_speed_;
+  if (now.position && samples_ > 1) {
+    value.path_length = path_length_;
+    value.max_joint_speed = max_speed_;
+    value.final_speed = MaxNorm(View(velocity_));
+  }
   if (now.position && samples_ > 2) value.max_joint_acceleration = max_acceleration_;
   if (now.position && request_path_ > 0.0) {
     value.total_variation_ratio = position_path_ / request_path_;
@@ -225,6 +230,7 @@ bool MotionTally::finite() const {
                             contact_time_,
                             max_abs_delta_,
                             position_path_,
+                            path_length_,
                             request_path_,
                             max_speed_,
                             max_acceleration_,

@@ -94,6 +94,7 @@ class MotionTally {
   double reversals_{0.0};
   double position_path_{0.0};
   double request_path_{0.0};
+  double path_length_{0.0};
   double max_speed_{0.0};
   double max_acceleration_{0.0};
   double limit_violations_{0.0};

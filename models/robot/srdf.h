@@ -35,10 +35,12 @@ struct Srdf {
   std::vector<SrdfGroup> groups{};
   std::vector<NamedState> states{};    ///< of joints of the URDF that have one number
   std::vector<std::string> passive{};  ///< joints without a motor
+  /// Frames that virtual joints stand the robot in, as `world`.
+  std::vector<std::string> frames{};
 };
 
-/// Reads an SRDF file. The other elements of MoveIt's format (end effectors, virtual joints) are
-/// checked, not used: what they name must be there.
+/// Reads an SRDF file. The other elements of MoveIt's format (end effectors) are checked, not
+/// used: what they name must be there.
 ///
 /// throws ModelError naming file and line, with the nearest name: for an element or attribute that
 ///        is none of the format, as a misspelt one would leave a pair unchecked; for an unknown

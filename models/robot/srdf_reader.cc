@@ -55,7 +55,10 @@ class SrdfReader {
       CheckShape(*e);
       const std::string& name = e->ValueStr();
       if (name == "group") AddGroup(*e);
-      if (name == "virtual_joint") joints_.push_back(Attribute(*e, "name"));
+      if (name == "virtual_joint") {
+        joints_.push_back(Attribute(*e, "name"));
+        srdf_.frames.push_back(Attribute(*e, "parent_frame"));
+      }
     }
     joints_.insert(joints_.end(), robot_.joints.begin(), robot_.joints.end());
     for (auto* e = root_.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {

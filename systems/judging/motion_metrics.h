@@ -46,7 +46,9 @@ namespace oca::systems {
 /// - delta_sign_changes_per_second: how often the change of delta from sample to sample, where it
 ///   is above 1e-6, reverses; a joint and s
 /// - total_variation_ratio: sum |d position| / sum |d request| over joints and samples
+/// - path_length: sum ||d position||, 2-norm over the joints, over the samples
 /// - max_joint_speed: largest |d position| / period
+/// - final_speed: largest |d position| / period of the last sample
 /// - max_joint_acceleration: largest |change of d position| / period^2
 /// - limit_violations: joints of `model` beyond a limit of their position, speed or acceleration,
 ///   by more than rounding, summed over the samples; null without a model

@@ -34,7 +34,9 @@ constexpr std::array kNumbers{
     NumberField{"delta_sign_changes_per_second",
                 &MotionMetricsValue::delta_sign_changes_per_second},
     NumberField{"total_variation_ratio", &MotionMetricsValue::total_variation_ratio},
+    NumberField{"path_length", &MotionMetricsValue::path_length},
     NumberField{"max_joint_speed", &MotionMetricsValue::max_joint_speed},
+    NumberField{"final_speed", &MotionMetricsValue::final_speed},
     NumberField{"max_joint_acceleration", &MotionMetricsValue::max_joint_acceleration},
     NumberField{"limit_violations", &MotionMetricsValue::limit_violations},
     NumberField{"stuck_time", &MotionMetricsValue::stuck_time}};

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Descriptions of robots.
+// Descriptions of robots, and of scenes that they stand in.
 #include "oca/models/robot/joint_limits_file.h"
 #include "oca/models/robot/srdf.h"
 #include "oca/models/robot/urdf.h"
 #include "oca/models/robot/xacro.h"
+#include "oca/models/scenes/motion_request.h"
+#include "oca/models/scenes/planning_scene.h"
 #include "tests/fuzz/foreign_bytes.h"
 
 namespace oca::test {
@@ -42,11 +44,26 @@ bool ReadJointLimits(std::string_view bytes) {
   return Accepts([&] { robot::JointLimitsFile limits(FileOf("fuzz_limits.yaml", bytes)); });
 }
 
+bool ReadPlanningScene(std::string_view bytes) {
+  return Accepts([&] { scenes::ReadPlanningScene(FileOf("fuzz_scene.yaml", bytes)); });
+}
+
+bool ReadSceneText(std::string_view bytes) {
+  return Accepts([&] { scenes::ReadPlanningScene(FileOf("fuzz.scene", bytes)); });
+}
+
+bool ReadMotionRequest(std::string_view bytes) {
+  return Accepts([&] { scenes::ReadMotionRequest(FileOf("fuzz_request.yaml", bytes)); });
+}
+
 }  // namespace
 
 std::vector<Reader> RobotReaders() {
   using enum Reader::Kind;
   return {{"joint_limits", kText, ReadJointLimits},
+          {"motion_request", kText, ReadMotionRequest},
+          {"planning_scene", kText, ReadPlanningScene},
+          {"scene_text", kText, ReadSceneText},
           {"srdf", kText, ReadSrdf},
           {"urdf", kText, ReadUrdf},
           {"xacro", kText, ReadXacro},

@@ -77,7 +77,9 @@ class PlanCommandTest : public testing::Test {
     const Ran ran = run("$S plan " + arguments);
     EXPECT_EQ(ran.status, status) << ran.err;
     json plan = json::parse(ran.out, nullptr, false);
-    if (plan.is_object()) plan.erase("seconds");
+    if (plan.is_object()) {
+      for (const char* took : {"seconds", "search_seconds"}) plan.erase(took);
+    }
     return plan;
   }
   double RequestedDistance(const std::string& arguments) {
@@ -164,6 +166,22 @@ TEST_F(PlanCommandTest, MeasuresARequestThatIsClearAsARunOfItDoes) {
   EXPECT_NEAR(plan.at("min_distance").get<double>(), RequestedDistance(file), 1e-9);
 }
 
+TEST_F(PlanCommandTest, ComparesItsWayWithTheShortestThatSearchesFind) {
+  const json plan = Plan("diagrams/first.yaml --reference 0.05");
+  EXPECT_TRUE(plan.at("arrived").get<bool>());
+  // Straight it would be 2.6 rad, through the box.
+  const double reference = plan.at("reference_length").get<double>();
+  EXPECT_GT(reference, 2.6);
+  EXPECT_LT(reference, 8.0);
+  EXPECT_GT(plan.at("path_length").get<double>(), 2.6);
+  EXPECT_GT(plan.at("time_to_goal").get<double>(), 6.0);
+  EXPECT_LE(plan.at("time_to_goal").get<double>(), 10.0);
+  EXPECT_FALSE(Plan("diagrams/first.yaml").contains("reference_length"));
+  // The cube moves.
+  EXPECT_TRUE(
+      Plan("diagrams/scenarios/head_on.yaml --reference 0").at("reference_length").is_null());
+}
+
 TEST_F(PlanCommandTest, LeavesOutThePairsThatTheDistanceBlockIgnores) {
   const std::string file = TwoArms() +
                            "-s systems.right_spline.key_points.1.position=[2.5,0,0] "
@@ -217,7 +235,7 @@ TEST_F(PlanCommandTest, SaysInItsHelpWhatItPrintsAndHowItEnds) {
   const Ran ran = run("$S plan --help");
   EXPECT_EQ(ran.status, 0);
   for (const char* word : {"min_distance", "acceleration_judged", "final_error", "sees", "tries",
-                           "Exit status", "3 if"}) {
+                           "reference_length", "Exit status", "3 if"}) {
     EXPECT_THAT(ran.out, HasSubstr(word));
   }
 }

@@ -48,8 +48,9 @@ struct PlanArguments {
   std::optional<int> seed;  ///< of the first sample; none: the file's
   int samples{1};           ///< seeds seed, seed + 1, ...
   int starts{30};
-  std::string model;               ///< empty: the only one that is judged
-  std::optional<double> duration;  ///< s; instead of the file's
+  std::string model;                ///< empty: the only one that is judged
+  std::optional<double> duration;   ///< s; instead of the file's
+  std::optional<double> reference;  ///< s; of each search for the shortest way; none: not sought
 };
 /// Whether an optimiser that knows the whole script finds a clear motion: a JSON object a line,
 /// as docs/how-to/plan.md says. kExpectationNotMet if it finds none for any of the samples.

@@ -21,6 +21,7 @@
 #include "tools/simulator/file_name.h"
 #include "tools/simulator/live_commands.h"
 #include "tools/simulator/record_commands.h"
+#include "tools/simulator/scene_commands.h"
 #include "tools/simulator/show_command.h"
 #include "tools/simulator/sweep_commands.h"
 #include "tools/simulator/terminal.h"
@@ -47,6 +48,7 @@ class CommandLine {
     app_.require_subcommand(1);
     app_.set_version_flag("--version", std::string("simulator (OCA) ") + Version());
     AddNew();
+    AddSceneCommands(app_, command_);
     AddRun();
     AddView();
     AddFileCommands();
@@ -180,6 +182,9 @@ class CommandLine {
         ->capture_default_str();
     plan->add_option("--model", plan_.model, "the robot; needed if the file judges several");
     plan->add_option("-t,--duration", plan_.duration, "s, instead of the file's");
+    plan->add_option("--reference", plan_.reference,
+                     "also seek the shortest way, in ten searches of so many seconds")
+        ->check(CLI::Range(0.0, 3600.0));
     plan->footer(PlanFooter());
     plan->callback([this] { command_ = [this] { return PlanCommand(plan_, catalogue_); }; });
 

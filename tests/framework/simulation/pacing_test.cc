@@ -2,8 +2,10 @@
 // The simulator's contract, line 9: wall-clock pacing, overruns counted and the worst one kept.
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <cmath>
 
+#include "oca/framework/dataflow/profile.h"
 #include "oca/framework/simulation/pacer.h"
 #include "oca/framework/simulation/simulator.h"
 #include "tests/framework/dataflow/blocks.h"
@@ -126,6 +128,26 @@ TEST(ProfileTest, CountsTheCallsOfEachSystemByItsPath) {
   EXPECT_EQ(profile[1].calls, 5);
   EXPECT_EQ(profile[2].system, "idle");
   EXPECT_EQ(profile[2].calls, 0);
+}
+
+TEST(ProfileTest, SortsCallsIntoClassesThatAreNarrowAndInOrder) {
+  using Entry = Profile::Entry;
+  std::size_t last = 0;
+  for (std::uint64_t time = 0; time < 3'000'000'000; time += 1 + time / 40) {
+    const std::size_t place = Entry::ClassOf(time);
+    EXPECT_GE(place, last) << time;
+    EXPECT_NEAR(1e9 * Entry::TimeOf(place), static_cast<double>(time),
+                0.04 * static_cast<double>(time) + 1e-9)
+        << time;
+    last = place;
+  }
+  EXPECT_EQ(Entry::ClassOf(~std::uint64_t{0}), Entry::kClasses - 1);
+  Entry entry;
+  entry.Add(std::chrono::milliseconds(2));
+  entry.Add(std::chrono::microseconds(1));
+  EXPECT_EQ(entry.calls, 2);
+  EXPECT_EQ(entry.slowest, std::chrono::milliseconds(2));
+  EXPECT_EQ(entry.classes[Entry::ClassOf(2'000'000)], 1u);
 }
 
 TEST(ProfileTest, BelongsToItsSimulatorAndNotToCopiesOfItsContext) {

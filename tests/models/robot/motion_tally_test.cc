@@ -68,6 +68,20 @@ TEST_F(MotionTallyTest, IsAtTheGoalFromTheFirstOfTheLastSamplesThatAre) {
   EXPECT_NEAR(Now().max_joint_speed.value(), 9.95, 1e-12);
 }
 
+TEST_F(MotionTallyTest, AddsUpTheWayOfTheJointsAndTellsTheSpeedOfTheLastStep) {
+  const Eigen::Vector2d points[] = {{0.0, 0.0}, {0.3, 0.4}, {0.3, -0.6}, {0.3, -0.61}};
+  for (const Eigen::Vector2d& point : points) {
+    q_ = point;
+    Add();
+    if (tally_.samples() == 1) {
+      EXPECT_FALSE(Now().path_length || Now().final_speed);
+    }
+  }
+  EXPECT_NEAR(Now().path_length.value(), 0.5 + 1.0 + 0.01, 1e-12);
+  EXPECT_NEAR(Now().final_speed.value(), 0.1, 1e-9);
+  EXPECT_NEAR(Now().max_joint_speed.value(), 10.0, 1e-9);
+}
+
 TEST_F(MotionTallyTest, CountsReversalsOfTheDeltaThatAreNoRounding) {
   for (const double delta : {0.0, 0.1, 0.1 - 1e-7, 0.2, 0.1, 0.2}) {
     delta_ = Eigen::VectorXd::Constant(1, delta);

@@ -105,7 +105,7 @@ TEST(MotionMetricsTest, HasNoValueWithoutASource) {
       R"({"min_distance":null,"min_distance_pair":null,"min_distance_time":null,)"
       R"("certified_min_distance":null,"contact_time":null,"first_contact_time":null,"max_abs_delta":null,)"
       R"("final_error":null,"time_to_goal":null,"delta_sign_changes_per_second":null,)"
-      R"("total_variation_ratio":null,"max_joint_speed":null,)"
+      R"("total_variation_ratio":null,"path_length":null,"max_joint_speed":null,"final_speed":null,)"
       R"("max_joint_acceleration":null,"limit_violations":null,)"
       R"("stuck_time":null,"stuck_pair":null})");
 }

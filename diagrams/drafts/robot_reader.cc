@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "oca/diagrams/drafts/robot_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+#include <system_error>
+
+#include "oca/diagrams/files/package_paths.h"
+#include "oca/framework/dataflow/error.h"
+#include "oca/models/robot/srdf.h"
+#include "oca/models/robot/unseen_links.h"
+
+namespace oca::drafts {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The folder of a package that the robot's file is in, or that lies beside it or a folder above.
+fs::path PackageNear(const fs::path& file, const std::string& package) {
+  std::error_code error;
+  for (fs::path folder = fs::absolute(file, error).lexically_normal().parent_path();
+       folder.has_relative_path(); folder = folder.parent_path()) {
+    if (folder.filename() == package) return folder;
+    if (fs::is_directory(folder / package, error)) return folder / package;
+  }
+  return {};
+}
+
+/// The link at the end of an arm of which all other joints are held.
+int TipOf(const robot::RobotModel& model) { return planning::GuessArm(model).tip; }
+
+/// The joints that a task of `options` does not move, as numbers, and that have a position.
+std::vector<int> JointsBeside(const DraftOptions& options, const robot::RobotModel& whole) {
+  if (options.group.empty()) return planning::GuessArm(whole).others;
+  const auto group = robot::JointsOfGroup(whole, LoadSrdfOf(options, whole).groups, options.group);
+  const std::set<int> within(group.begin(), group.end());
+  std::vector<int> beside;
+  for (int j = 0; j < whole.num_joints(); ++j) {
+    if (whole.joints()[static_cast<std::size_t>(j)].position_index >= 0 && !within.contains(j)) {
+      beside.push_back(j);
+    }
+  }
+  return beside;
+}
+
+}  // namespace
+
+namespace internal {
+
+fs::path RobotReader::FindPackage(const std::string& package) {
+  std::error_code error;
+  // What OCA knows goes first, as it does when the diagram is loaded.
+  for (const fs::path& folder : files::PackageFolders()) {
+    if (fs::is_directory(folder / package, error)) return folder / package;
+  }
+  fs::path found = PackageNear(options_.robot, package);
+  if (!found.empty()) packages_[package] = found;
+  return found;
+}
+
+robot::RobotModel RobotReader::Read(robot::LoadOptions how, bool tell) {
+  how.srdf = options_.srdf;
+  how.xacro_arguments = options_.arguments;
+  how.package_directories = files::PackageFolders();
+  how.find_package = [this](const std::string& package) { return FindPackage(package); };
+  if (tell) how.warn = options_.warn;
+  return robot::LoadUrdf(options_.robot, how);
+}
+
+void CheckAbsent(const fs::path& file) {
+  std::error_code error;
+  if (!fs::exists(file, error)) return;
+  throw ConfigError(
+      fmt::format("{} is there already; expected a name that is not taken", file.string()));
+}
+
+void WriteDraft(const fs::path& file, const std::string& text) {
+  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
+  stream << text;
+  stream.close();
+  if (!stream) throw ConfigError(fmt::format("{} cannot be written", file.string()));
+}
+
+}  // namespace internal
+
+robot::Srdf LoadSrdfOf(const DraftOptions& options, const robot::RobotModel& model) {
+  if (options.srdf.empty()) return {};
+  robot::SrdfRobot names{model.name().text(), {}, {}};
+  for (const robot::Link& link : model.links()) names.links.push_back(link.name.text());
+  for (const robot::Joint& joint : model.joints()) names.joints.push_back(joint.name.text());
+  return robot::LoadSrdf(options.srdf, names);
+}
+
+DraftRobot ReadDraftRobot(const DraftOptions& options) {
+  internal::RobotReader reader(options);
+  DraftRobot robot;
+  robot::LoadOptions how;
+  const robot::RobotModel whole = reader.Read(how, true);
+  robot.visuals = !robot::DescribeUnseen(whole, "").empty();
+  if (robot.visuals) how.visual_as_collision = robot::VisualAsCollision::kMissing;
+  how.held.group = options.group;
+  for (const int joint : JointsBeside(options, whole)) {
+    const robot::Joint& other = whole.joints()[static_cast<std::size_t>(joint)];
+    const Eigen::Index at = other.position_index;
+    const auto stands = options.stands.find(other.name.text());
+    // A group tells by itself what is held, though not where.
+    if (!options.group.empty() && stands == options.stands.end()) continue;
+    robot.held[other.name.text()] =
+        std::clamp(stands == options.stands.end() ? 0.0 : stands->second, whole.lower_limits()[at],
+                   whole.upper_limits()[at]);
+  }
+  how.held.positions = robot.held;
+  robot.model = std::make_shared<const robot::RobotModel>(reader.Read(how, false));
+  robot.packages = reader.packages();
+  robot.tip = TipOf(*robot.model);
+  robot.reach = planning::ReachOf(*robot.model, robot.tip);
+  return robot;
+}
+
+}  // namespace oca::drafts
