@@ -18,6 +18,8 @@ namespace oca::robot {
 struct PlacedBody {
   std::shared_ptr<const geometry::Collider> collider;
   Eigen::Isometry3d X_WO{Eigen::Isometry3d::Identity()};
+  /// Of its position, m^2: the distance along a normal counts less by geometry::Uncertainty.
+  Eigen::Matrix3d covariance{Eigen::Matrix3d::Zero()};
 };
 
 /// A link and what is near it: a body, or another link of the robot.
@@ -55,6 +57,10 @@ class Clearance {
   /// Moves body number `body`, of a scene in which time goes on.
   void MoveBody(int body, const Eigen::Isometry3d& X_WO) { bodies_[body].X_WO = X_WO; }
 
+  void SetCovariance(int body, const Eigen::Matrix3d& covariance) {
+    bodies_[body].covariance = covariance;
+  }
+
   /// From now on the distance of a pair of own links counts `reference` / range times, where its
   /// range is less than `reference` (m): who asks all pairs for `reference` asks this one for its
   /// range, and what he looks at beyond is nearer too in that proportion.
@@ -86,6 +92,8 @@ class Clearance {
  private:
   template <class Visit>
   void ForEach(double max_distance, const Visit& visit) const;
+  geometry::SignedDistance BodyDistance(const LinkCollider& link, const PlacedBody& body,
+                                        double max_distance) const;
   geometry::SignedDistance OwnDistance(std::size_t pair, double max_distance) const;
   bool Ignored(int link, int body) const;
 
