@@ -12,6 +12,7 @@
 #include "oca/framework/dataflow/json_text.h"
 #include "oca/models/error.h"
 #include "oca/models/planning/clairvoyant.h"
+#include "oca/models/planning/first_sight.h"
 #include "tools/simulator/commands.h"
 #include "tools/simulator/terminal.h"
 
@@ -67,6 +68,9 @@ ordered_json Plan(const PlanArguments& arguments, const files::Catalogue& catalo
   const auto plan = planning::PlanClairvoyantly(scene.model(), task);
   ordered_json json{{"seed", loaded.simulator.seed}};
   json.update(Describe(*scene.model(), plan));
+  const planning::FirstSight sight = planning::LookAtFirstSight(scene.model(), task);
+  json["first_sight"] = sight.time ? ordered_json(*sight.time) : ordered_json(nullptr);
+  json["too_late"] = sight.too_late;
   json["model"] = scene.model_name();
   json["judge"] = scene.judge();
   json["sees"] = scene.sees();
@@ -94,6 +98,8 @@ const char* PlanFooter() {
   jerk_judged          false, if the model has limits of the jerk: they are not looked at
   start                what the motion was made from: request, pause, detour, random, path
   tries                motions that it took; 0: the request itself is clear
+  first_sight          s, at which something is first seen to move; null if nothing does
+  too_late             true: nobody who sees it then can evade, proven
   model, judge         the robot, and the system by which a run of the file is judged
   sees                 what was looked at: all that the judge's distance block sees, and no more
   not_seen             what that block does not look at: links without collision shapes, other models
