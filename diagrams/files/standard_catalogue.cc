@@ -40,6 +40,7 @@
 #include "oca/systems/sensing/bullet_distance.h"
 #include "oca/systems/sensing/obstacle_sensor.h"
 #include "oca/systems/sensing/obstacle_source.h"
+#include "oca/systems/sensing/obstacle_tracker.h"
 #include "oca/systems/sensing/robot_kinematics.h"
 
 namespace oca::files {
@@ -71,6 +72,7 @@ Catalogue AllOfOca() {
   all.Add<systems::MotionMetrics>("MotionMetrics");
   all.Add<systems::ObstacleSensor>("ObstacleSensor");
   all.Add<systems::ObstacleSource>("ObstacleSource");
+  all.Add<systems::ObstacleTracker>("ObstacleTracker");
   all.Add<systems::RampSource>("RampSource");
   all.Add<systems::RepulsiveField>("RepulsiveField");
   all.Add<systems::RobotKinematics>("RobotKinematics");

@@ -11,35 +11,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A tree all of which stands at one place.
-class Tree {
- public:
-  explicit Tree(const Location& location) : location_(location) {}
-
-  Value Number(double x) const { return Value(x, location_); }
-  Value Text(const std::string& text) const { return Value(text, location_); }
-  Value List(const Eigen::Ref<const Eigen::VectorXd>& numbers) const {
-    Value::List list;
-    for (const double x : numbers) list.push_back(Number(x));
-    return Value(std::move(list), location_);
-  }
-  Value Map(std::initializer_list<std::pair<const char*, Value>> entries) const {
-    Value::Map map;
-    for (const auto& [key, value] : entries) map.push_back({key, location_, value});
-    return Value(std::move(map), location_);
-  }
-
- private:
-  const Location& location_;
-};
-
-Vector3d DrawDirection(models::Random& random) {
-  const double z = random.Uniform(-1.0, 1.0);
-  const double azimuth = random.Uniform(-std::numbers::pi, std::numbers::pi);
-  const double r = std::sqrt(1.0 - z * z);
-  return {r * std::cos(azimuth), r * std::sin(azimuth), z};
-}
-
 // Uniform rotation [x, y, z, w]. source Shoemake, Graphics Gems III, 1992, p. 124
 Eigen::Vector4d DrawRotation(models::Random& random) {
   const double share = random.Unit();
@@ -51,46 +22,11 @@ Eigen::Vector4d DrawRotation(models::Random& random) {
       .normalized();
 }
 
-// A point on the polyline through the origins of the moving links from one of them on.
-Vector3d DrawPointOfArm(models::Random& random, const TaskGeometry& task, const Eigen::VectorXd& q,
-                        const std::string& from_link) {
-  const auto& bodies = task.model().bodies();
-  const auto X_WL = task.LinkPosesAt(q);
-  const int first =
-      from_link.empty() ? bodies[bodies.size() > 2 ? 1 : 0] : task.model().FindLink(from_link);
-  std::vector<Vector3d> origins{X_WL[static_cast<std::size_t>(first)].translation()};
-  for (const int body : bodies) {
-    if (body > first) origins.push_back(X_WL[static_cast<std::size_t>(body)].translation());
-  }
-  double total = 0.0;
-  for (std::size_t i = 0; i + 1 < origins.size(); ++i) {
-    total += (origins[i + 1] - origins[i]).norm();
-  }
-  double left = random.Unit() * total;
-  for (std::size_t i = 0; i + 1 < origins.size(); ++i) {
-    const Vector3d piece = origins[i + 1] - origins[i];
-    if (left < piece.norm()) return origins[i] + left * piece.normalized();
-    left -= piece.norm();
-  }
-  return origins.back();
-}
-
 }  // namespace
 
 void ShellParams::Describe(Fields<ShellParams>& fields) {
   fields.Add("centre", &ShellParams::centre, "m", "in the world").Required();
   fields.Add("radius", &ShellParams::radius, "m", "of the inner and the outer sphere").Required();
-}
-
-void ApproachParams::Describe(Fields<ApproachParams>& fields) {
-  using P = ApproachParams;
-  fields.Add("speed", &P::speed, "m/s", "least and largest").Required();
-  fields.Add("distance", &P::distance, "m", "from its aim at the start, least and largest")
-      .Required();
-  fields.Add("start", &P::start, "s", "when it starts to move, earliest and latest").Required();
-  fields.Add("from_link", &P::from_link, "",
-             "first link that is aimed at; the second one that moves if left out: the first cannot "
-             "evade");
 }
 
 void RandomObstacleParams::Describe(Fields<RandomObstacleParams>& fields) {
@@ -117,10 +53,7 @@ RandomObstacles::RandomObstacles(const Value& value, Problems& problems) {
       radius_ = read(params_.shell->radius, 0.0, *value.Find("shell"), "radius");
     }
     if (params_.approach) {
-      const Value& approach = *value.Find("approach");
-      speed_ = read(params_.approach->speed, 1e-3, approach, "speed");
-      distance_ = read(params_.approach->distance, 0.0, approach, "distance");
-      start_ = read(params_.approach->start, 0.0, approach, "start");
+      approach_ = Approach(*params_.approach, *value.Find("approach"), where + ".approach", own);
     }
     if (params_.shell.has_value() == params_.approach.has_value()) {
       own.Add(value.location(), where + ": expected either shell or approach");
@@ -145,7 +78,14 @@ Value::List RandomObstacles::Draw(std::uint64_t seed, TaskGeometry& task,
   Value::List list;
   for (std::uint64_t i = 0; i < count; ++i) {
     models::Random own(models::Random::Seed(seed, i));
-    list.push_back(DrawOne(own, static_cast<int>(i) + 1, task, location));
+    const int number = static_cast<int>(i) + 1;
+    if (params_.approach && approach_.jaws()) {
+      for (Value& jaw : approach_.DrawJaws(own, number, extent_, task, location)) {
+        list.push_back(std::move(jaw));
+      }
+    } else {
+      list.push_back(DrawOne(own, number, task, location));
+    }
   }
   return list;
 }
@@ -159,10 +99,17 @@ Value RandomObstacles::DrawOne(models::Random& random, int number, TaskGeometry&
   const Value solid = DrawShape(random, shape, location);
   const Value rotation = tree.List(DrawRotation(random));
   if (params_.approach) {
-    Vector3d p_WO;
-    const Value motion = DrawMotion(random, task, location, p_WO);
-    const Value pose = tree.Map({{"xyz", tree.List(p_WO)}, {"quaternion", rotation}});
-    return tree.Map({{"id", tree.Text(id)}, {"shape", solid}, {"pose", pose}, {"motion", motion}});
+    const Coming coming = approach_.Draw(random, task, location);
+    const Value pose = tree.Map({{"xyz", tree.List(coming.p_WO)}, {"quaternion", rotation}});
+    if (coming.appear) {
+      return tree.Map({{"id", tree.Text(id)},
+                       {"shape", solid},
+                       {"pose", pose},
+                       {"motion", coming.motion},
+                       {"appear", tree.Number(*coming.appear)}});
+    }
+    return tree.Map(
+        {{"id", tree.Text(id)}, {"shape", solid}, {"pose", pose}, {"motion", coming.motion}});
   }
   const auto cube = [](double x) { return x * x * x; };
   const double radius = std::cbrt(random.Uniform(cube(radius_.lower), cube(radius_.upper)));
@@ -192,21 +139,6 @@ Value RandomObstacles::DrawShape(models::Random& random, SampledShape shape,
   return tree.Map({{"type", type},
                    {"radius", tree.Number(std::min(a, b) / 2)},
                    {"length", tree.Number(std::max(std::abs(a - b), kShortest))}});
-}
-
-Value RandomObstacles::DrawMotion(models::Random& random, TaskGeometry& task,
-                                  const Location& location, Vector3d& p_WO) const {
-  const Tree tree(location);
-  const double speed = speed_.Draw(random);
-  const double distance = distance_.Draw(random);
-  const double start = start_.Draw(random);
-  const Eigen::VectorXd q = task.Request(start + distance / speed);
-  const Vector3d aim = DrawPointOfArm(random, task, q, params_.approach->from_link);
-  const Vector3d from = DrawDirection(random);
-  p_WO = aim + distance * from;
-  return tree.Map({{"type", tree.Text("linear")},
-                   {"velocity", tree.List(-speed * from)},
-                   {"start", tree.Number(start)}});
 }
 
 }  // namespace oca::sampling

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "oca/diagrams/sampling/approach.h"
 #include "oca/diagrams/sampling/distribution.h"
 #include "oca/diagrams/sampling/task_geometry.h"
 #include "oca/framework/dataflow/params.h"
@@ -25,17 +26,6 @@ struct ShellParams {
   Eigen::Vector3d centre{Eigen::Vector3d::Zero()};
   Eigen::VectorXd radius{};
   static void Describe(Fields<ShellParams>& fields);
-};
-
-/// How obstacles come that move. Each aims at a point between the origins of the robot's links from
-/// `from_link` on, as requested at the instant when it would be there; it comes straight, from a
-/// uniformly random direction, and goes on beyond.
-struct ApproachParams {
-  Eigen::VectorXd speed{};
-  Eigen::VectorXd distance{};
-  Eigen::VectorXd start{};
-  std::string from_link{};
-  static void Describe(Fields<ApproachParams>& fields);
 };
 
 /// Section `sampling.obstacles`: obstacles that are added to those of the file.
@@ -66,11 +56,10 @@ class RandomObstacles {
   Value DrawOne(models::Random& random, int number, TaskGeometry& task,
                 const Location& location) const;
   Value DrawShape(models::Random& random, SampledShape shape, const Location& location) const;
-  Value DrawMotion(models::Random& random, TaskGeometry& task, const Location& location,
-                   Eigen::Vector3d& p_WO) const;
 
   RandomObstacleParams params_;
-  Interval count_, extent_, radius_, speed_, distance_, start_;
+  Interval count_, extent_, radius_;
+  Approach approach_{};
 };
 
 }  // namespace oca::sampling

@@ -42,6 +42,23 @@ struct LinearScript {
   double start{0.0};                                          ///< s
   std::optional<double> stop{};                               ///< s; absent: never
 };
+/// velocity turned by angular_velocity s, and the body with it:
+/// p_0 + integral_0^s exp(angular_velocity r) velocity dr, exp(angular_velocity s) R_0
+/// with s = clamp(t, start, stop) - start
+struct TurningScript {
+  Eigen::Vector3d velocity{Eigen::Vector3d::Zero()};          ///< m/s, at the start
+  Eigen::Vector3d angular_velocity{Eigen::Vector3d::Zero()};  ///< rad/s
+  double start{0.0};                                          ///< s
+  std::optional<double> stop{};                               ///< s; absent: never
+};
+/// p_0 + velocity s + acceleration s^2 / 2, R_0 with s = clamp(t, start, stop) - start, and from
+/// `stop` on as fast as it is then; it rests before `start`. What is thrown, falls or brakes.
+struct AcceleratingScript {
+  Eigen::Vector3d velocity{Eigen::Vector3d::Zero()};      ///< m/s, at the start
+  Eigen::Vector3d acceleration{Eigen::Vector3d::Zero()};  ///< m/s^2
+  double start{0.0};                                      ///< s
+  double stop{0.0};                                       ///< s
+};
 /// p_0 + amplitude sin(2 pi frequency t + phase), R_0
 struct SinusoidalScript {
   Eigen::Vector3d amplitude{Eigen::Vector3d::Zero()};  ///< m
@@ -59,15 +76,27 @@ struct CircularScript {
 // the start, a frequency that is not positive, an axis of length 0.
 ScriptedMotion MakeMotion(const LinearScript& script, const Eigen::Isometry3d& X_0,
                           const std::string& where);
+ScriptedMotion MakeMotion(const TurningScript& script, const Eigen::Isometry3d& X_0,
+                          const std::string& where);
+ScriptedMotion MakeMotion(const AcceleratingScript& script, const Eigen::Isometry3d& X_0,
+                          const std::string& where);
 ScriptedMotion MakeMotion(const SinusoidalScript& script, const Eigen::Isometry3d& X_0,
                           const std::string& where);
 ScriptedMotion MakeMotion(const CircularScript& script, const Eigen::Isometry3d& X_0,
                           const std::string& where);
 
-/// Linear between waypoints, held before and after; rotations on the shortest arc; without rpy R_0.
+/// How a body goes from one waypoint to the next.
+enum class Pace {
+  kEven,   ///< with one velocity
+  kSmooth  ///< from rest to rest with the least jerk, as a hand does: 10 x^3 - 15 x^4 + 6 x^5 of the
+           ///< way at the share x of the time (Flash, Hogan, J. Neuroscience 5 (7), 1985)
+};
+
+/// Straight between waypoints, held before and after; rotations on the shortest arc; without rpy
+/// R_0.
 /// throws ModelError naming `where` for no waypoints, numbers that are not finite, times that do
 ///        not rise, and waypoints only some of which have rpy
 ScriptedMotion MakeMotion(const std::vector<Waypoint>& waypoints, const Eigen::Isometry3d& X_0,
-                          const std::string& where);
+                          const std::string& where, Pace pace = Pace::kEven);
 
 }  // namespace oca::motion

@@ -10,6 +10,7 @@
 #include "oca/models/motion/trajectory.h"
 #include "oca/models/name.h"
 #include "oca/models/planning/band_planner.h"
+#include "oca/models/planning/obstacle_prediction.h"
 
 namespace oca::planning {
 
@@ -21,6 +22,8 @@ struct BandMemory {
   std::shared_ptr<const motion::Trajectory> request{};  ///< that next was made for
   robot::OwnRanges own{};                               ///< of that request
   std::vector<geometry::Obstacle> seen{};
+  std::vector<geometry::ObstacleEstimate> seen_estimates{};
+  VelocityChanges changes{};
   double seen_at{0.0};     ///< s
   double sure_from{0.0};   ///< s; from then on the bands were made for what is seen
   double held_until{0.0};  ///< s; at which held or next leave less than trust_distance

@@ -56,6 +56,9 @@ void BandOptimizer::Place(const Sample& sample, const Eigen::VectorXd& x) {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (!bodies_[b].stands) {
       clearance_.MoveBody(static_cast<int>(b), poses_[sample.first_pose + b]);
+      if (bodies_[b].covariance) {
+        clearance_.SetCovariance(static_cast<int>(b), bodies_[b].covariance(sample.time));
+      }
     }
   }
 }
@@ -71,7 +74,7 @@ void BandOptimizer::Prepare(const BandCurve& curve, const BandRequest& request,
   bodies_.assign(bodies.begin(), bodies.end());
   something_near_ = !bodies_.empty() || self_collision_;
   std::vector<robot::PlacedBody> placed;
-  for (const BandBody& body : bodies_) placed.push_back({body.collider, body.pose(curve.start())});
+  for (const BandBody& body : bodies_) placed.push_back(body.At(curve.start()));
   clearance_.SetBodies(std::move(placed));
   num_controls_ = static_cast<int>(curve.controls().cols());
   FixEnd(end_fixed);
@@ -301,7 +304,11 @@ void BandOptimizer::PlaceAt(const Eigen::VectorXd& q, double time) {
   ++evaluations_;
   clearance_.MoveTo(q);
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (!bodies_[b].stands) clearance_.MoveBody(static_cast<int>(b), bodies_[b].pose(time));
+    if (bodies_[b].stands) continue;
+    clearance_.MoveBody(static_cast<int>(b), bodies_[b].pose(time));
+    if (bodies_[b].covariance) {
+      clearance_.SetCovariance(static_cast<int>(b), bodies_[b].covariance(time));
+    }
   }
 }
 

@@ -21,6 +21,13 @@ struct BandBody {
   std::shared_ptr<const geometry::Collider> collider;
   std::function<Eigen::Isometry3d(double time)> pose;
   bool stands;
+  /// Of its position, m^2: distances count less by geometry::Uncertainty. Empty: known exactly.
+  std::function<Eigen::Matrix3d(double time)> covariance{};
+
+  robot::PlacedBody At(double time) const {
+    if (!covariance) return {collider, pose(time)};
+    return {collider, pose(time), covariance(time)};
+  }
 };
 
 bool Moves(std::span<const BandBody> bodies);

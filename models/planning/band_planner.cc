@@ -266,7 +266,7 @@ void BandPlanner::AddDetours(const BandTask& task, const BandCheck& trouble,
 void BandPlanner::TryPaths(const BandTask& task, BandPlan& best) {
   std::vector<robot::PlacedBody> placed;
   for (const BandBody& body : task.bodies) {
-    if (body.stands) placed.push_back({body.collider, body.pose(task.start)});
+    if (body.stands) placed.push_back(body.At(task.start));
   }
   if (placed.empty()) return;
   standing_->SetBodies(std::move(placed));

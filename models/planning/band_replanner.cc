@@ -35,7 +35,8 @@ void BandReplanner::TellClear(const BandSituation& now, const BandSituation::Pos
   if (now.request != memory.request) return;
   const bool followed = (now.measured - planned).cwiseAbs().maxCoeff() <= kOnPlan;
   if (memory.plans == 0 || now.time < memory.sure_from || !followed ||
-      !AsForeseen(memory.seen, now.obstacles, Since(now.time, memory))) {
+      !AsForeseen({memory.seen, memory.seen_estimates}, {now.obstacles, now.estimates},
+                  Since(now.time, memory))) {
     return;
   }
   const bool next = !memory.next.empty() && now.time >= memory.change;
@@ -43,7 +44,8 @@ void BandReplanner::TellClear(const BandSituation& now, const BandSituation::Pos
   motion.clear_for = std::clamp(until - now.time, 0.0, settings_.planner.most_horizon);
 }
 
-std::vector<BandBody> BandReplanner::MakeBodies(const BandSituation& now) const {
+std::vector<BandBody> BandReplanner::MakeBodies(const BandSituation& now,
+                                                Estimates estimates) const {
   std::vector<BandBody> bodies;
   for (const geometry::Obstacle& obstacle : now.obstacles) {
     const bool stands = Stands(obstacle) || settings_.prediction == 0.0;
@@ -52,8 +54,26 @@ std::vector<BandBody> BandReplanner::MakeBodies(const BandSituation& now) const 
       return stands ? obstacle.X_WO : Foreseen(obstacle, std::clamp(t - time, 0.0, longest));
     };
     bodies.push_back({obstacle.body->id, obstacle.body->collider, pose, stands});
+    if (estimates.empty()) continue;
+    Estimate(now.time, obstacle, estimates[bodies.size() - 1], bodies.back());
   }
   return bodies;
+}
+
+void BandReplanner::Estimate(double time, const geometry::Obstacle& obstacle,
+                             const geometry::ObstacleEstimate& estimate, BandBody& body) const {
+  const auto ahead = [time, longest = settings_.prediction](double t) {
+    return std::clamp(t - time, 0.0, longest);
+  };
+  if (!estimate.covariance.isZero(0.0)) {
+    body.covariance = [estimate, ahead, stands = body.stands](double t) -> Eigen::Matrix3d {
+      return CovarianceAhead(estimate, stands ? 0.0 : ahead(t));
+    };
+  }
+  if (body.stands) return;
+  body.pose = [obstacle, estimate, ahead](double t) {
+    return LikelyAhead(obstacle, estimate, ahead(t)).X_WO;
+  };
 }
 
 bool BandReplanner::Astray(const BandSituation& now, BandMemory& memory) const {
@@ -71,7 +91,7 @@ bool BandReplanner::Kept(const BandSituation& now, BandMemory& memory) const {
   return (memory.plans >= kFreshPlans ||
           (memory.plans > 0 && memory.start == BandStart::kRequest)) &&
          memory.clear && now.request == memory.request &&
-         SameStanding(memory.seen, now.obstacles) && !Astray(now, memory);
+         SameStanding(memory.seen, now.obstacles, now.estimates) && !Astray(now, memory);
 }
 
 void BandReplanner::Follow(const BandSituation& now, BandMemory& memory) const {
@@ -121,13 +141,19 @@ void BandReplanner::Plan(const BandSituation& now, double start,
                          BandMemory& memory) const {
   if (Kept(now, memory)) return;
   const bool foreseen = memory.plans > 0 && now.request == memory.request &&
-                        AsForeseen(memory.seen, now.obstacles, Since(now.time, memory)) &&
+                        AsForeseen({memory.seen, memory.seen_estimates},
+                                   {now.obstacles, now.estimates}, Since(now.time, memory)) &&
                         !Astray(now, memory);
   if (!memory.next.empty()) {
     memory.held = memory.next;
     memory.held_until = memory.next_until;
   }
-  const std::vector<BandBody> bodies = MakeBodies(now);
+  std::vector<geometry::ObstacleEstimate> estimates(now.estimates.begin(), now.estimates.end());
+  if (estimates.empty()) {
+    estimates =
+        Accelerations(memory.seen, now.obstacles, now.time - memory.seen_at, memory.changes);
+  }
+  const std::vector<BandBody> bodies = MakeBodies(now, estimates);
   const BandTask task = MakeTask(now, start, bodies, rate, memory);
   if (settings_.self_collision && now.request != memory.request) {
     memory.own = robot::OwnRangesAlong(model_, now.request.get(), settings_.self_distance);
@@ -142,6 +168,7 @@ void BandReplanner::Plan(const BandSituation& now, double start,
   memory.request = now.request;
   memory.seen_at = now.time;
   memory.seen = now.obstacles;
+  memory.seen_estimates = std::move(estimates);
   memory.plans += 1;
   memory.start = found.start;
   memory.clear = found.check.clear();

@@ -35,10 +35,14 @@ struct BandSituation {
   const std::shared_ptr<const motion::Trajectory>& request;
   const std::vector<geometry::Obstacle>& obstacles;
   Positions measured;  ///< where the arm is
+  /// One an obstacle, or none: then these are known exactly.
+  std::span<const geometry::ObstacleEstimate> estimates{};
 };
 
 /// Plans bands one after the other along a request, for an arm that follows them among obstacles
-/// that are taken to go on as now for `prediction` and then to stay.
+/// that are taken to go on for `prediction` as is likely (planning::LikelyAhead) and then to stay:
+/// straight, unless they were estimated to accelerate, or their velocity changes from plan to plan.
+/// Distances to what was estimated count less by what it is uncertain.
 ///
 /// A plan begins with the state that the band before it has at that time, or with the arm, if that
 /// is farther than restart_distance from where the band says. The first eight plans look for
@@ -69,7 +73,11 @@ class BandReplanner {
   double Since(double time, const BandMemory& memory) const;
   bool Kept(const BandSituation& now, BandMemory& memory) const;
   bool Astray(const BandSituation& now, BandMemory& memory) const;
-  std::vector<BandBody> MakeBodies(const BandSituation& now) const;
+  using Estimates = std::span<const geometry::ObstacleEstimate>;
+  std::vector<BandBody> MakeBodies(const BandSituation& now, Estimates estimates) const;
+  /// What an estimate adds to a body of an obstacle at a time.
+  void Estimate(double time, const geometry::Obstacle& obstacle,
+                const geometry::ObstacleEstimate& estimate, BandBody& body) const;
   BandTask MakeTask(const BandSituation& now, double start, std::span<const BandBody> bodies,
                     const std::optional<BandSituation::Positions>& rate, BandMemory& memory) const;
 

@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "oca/models/geometry/obstacle.h"
+
 namespace oca::planning {
 namespace {
 
@@ -149,17 +151,20 @@ void BatchClearance::AddBodies() {
   X_OW.translation() = -clearance_.model().X_WB().translation();
   for (std::size_t i = 0; i < clearance_.bodies().size(); ++i) {
     const robot::PlacedBody& body = clearance_.bodies()[i];
-    AddSolid(static_cast<int>(i), *body.collider, X_OW * body.X_WO);
+    const double variance = std::max(body.covariance.trace(), 0.0);
+    AddSolid(static_cast<int>(i), *body.collider, X_OW * body.X_WO,
+             geometry::kConfidence * std::sqrt(variance));
   }
 }
 
-void BatchClearance::AddSolid(int body, const geometry::Collider& solid, const Isometry3d& X_OB) {
+void BatchClearance::AddSolid(int body, const geometry::Collider& solid, const Isometry3d& X_OB,
+                              double uncertain) {
   using geometry::Core;
   using internal::BatchCore;
   const bool many = solid.core() == Core::kCompound && solid.parts().size() > kMostParts;
   if (solid.core() == Core::kCompound && !many) {
     for (const geometry::Collider::Part& part : solid.parts()) {
-      AddSolid(body, *part.collider, X_OB * part.X_SP);
+      AddSolid(body, *part.collider, X_OB * part.X_SP, uncertain);
     }
     return;
   }
@@ -176,7 +181,8 @@ void BatchClearance::AddSolid(int body, const geometry::Collider& solid, const I
   const Vector3d half = 0.5 * (high - low);
   const Vector3d centre = X_OB * middle;
   const double error = kRounding * centre.norm();
-  const double radius = (many ? solid.bounding_radius() : solid.radius()) + error;
+  const double round = many ? solid.bounding_radius() : solid.radius();
+  const double radius = round + error + uncertain;
   BatchCore core = BatchCore::kBox;
   if (solid.core() == Core::kCylinder || solid.core() == Core::kCone) core = BatchCore::kCylinder;
   if (solid.core() == Core::kHalfSpace) core = BatchCore::kPlane;
@@ -187,7 +193,8 @@ void BatchClearance::AddSolid(int body, const geometry::Collider& solid, const I
        ToFloat(centre),
        {Above(half.x()), Above(half.y()), Above(half.z())},
        Above(radius),
-       IsItself(solid) ? static_cast<float>(std::max(radius - 3.0 * error, 0.0)) : -1.0f,
+       static_cast<float>(IsItself(solid) ? round - 2.0 * error
+                                          : -std::numeric_limits<double>::infinity()),
        Above(core == BatchCore::kPlane ? std::numeric_limits<double>::infinity()
                                        : half.norm() * (1.0 + kRounding) + radius)});
 }

@@ -50,7 +50,9 @@ class BatchClearance {
   void AddFrames();
   void AddLinks();
   void AddBodies();
-  void AddSolid(int body, const geometry::Collider& solid, const Eigen::Isometry3d& X_BO);
+  /// `uncertain`: by how much nearer, m, the body counts at most.
+  void AddSolid(int body, const geometry::Collider& solid, const Eigen::Isometry3d& X_OB,
+                double uncertain);
   internal::BatchAnswer Ask(const Eigen::Ref<const Eigen::MatrixXd>& q, int count, double margin);
   bool ExactlyClear(const Eigen::Ref<const Eigen::VectorXd>& q, unsigned lane, double margin);
 

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
@@ -131,6 +132,8 @@ OCA_INLINED void PlaceFrames(const BatchScene& scene, const LaneArray* motion,
   }
 }
 
+constexpr float kNever = -std::numeric_limits<float>::infinity();
+
 /// A ball's margins: something may be nearer, or surely is.
 struct Reach {
   float may, surely;
@@ -142,7 +145,7 @@ OCA_INLINED BatchAnswer NearSolid(const BatchSolid& solid, const Point& at, cons
   const std::array<float, 9>& R = solid.R;
   const Lanes z = R[2] * d.x + R[5] * d.y + R[8] * d.z;
   const float may = reach.may + solid.radius;
-  const float surely = solid.inner < 0.0f ? -1.0f : reach.surely + solid.inner;
+  const float surely = reach.surely + solid.inner;
   if (solid.core == BatchCore::kPlane) return {MaskOf(!(z > may)), MaskOf(z < surely)};
   const float around = reach.may + solid.reach;
   if (MaskOf(!(SquaredNorm(d) > around * around)) == 0) return {0, 0};
@@ -195,7 +198,7 @@ OCA_INLINED bool IsIgnored(const BatchScene& scene, int link, int body) {
 }
 
 OCA_INLINED Reach ReachOf(const BatchBall& ball, float margin, float error) {
-  return {margin + error + ball.radius, ball.inner > 0.0f ? margin - error + ball.inner : -1.0f};
+  return {margin + error + ball.radius, ball.inner > 0.0f ? margin - error + ball.inner : kNever};
 }
 
 /// Leaves the lanes that are surely decided out of the rest.
@@ -241,7 +244,7 @@ OCA_INLINED void CheckPairs(const BatchScene& scene, const BatchQuestion& questi
     const BatchLink& a = scene.links[static_cast<std::size_t>(pair.link)];
     const BatchLink& b = scene.links[static_cast<std::size_t>(pair.other)];
     const float margin = question.margin * pair.share;
-    const Reach around{margin + question.error + a.around.radius + b.around.radius, -1.0f};
+    const Reach around{margin + question.error + a.around.radius + b.around.radius, kNever};
     const unsigned near = NearEachOther(LoadPoint(work.centres.data() + 3 * pair.link),
                                         LoadPoint(work.centres.data() + 3 * pair.other), around)
                               .open &
@@ -259,7 +262,7 @@ OCA_INLINED void CheckPairs(const BatchScene& scene, const BatchQuestion& questi
         const bool known = reach.surely > 0.0f && other.inner > 0.0f;
         const BatchAnswer one =
             NearEachOther(at, LoadPoint(work.balls.data() + 3 * m),
-                          {reach.may + other.radius, known ? reach.surely + other.inner : -1.0f});
+                          {reach.may + other.radius, known ? reach.surely + other.inner : kNever});
         found |= one.open & near;
         surely |= one.surely & near;
       }

@@ -47,7 +47,7 @@ struct BatchSolid {
   std::array<float, 3> centre;  // of the core; of the ball around it
   std::array<float, 3> half;    // extents; of a cylinder radius, -, half the length
   float radius;                 // with what rounding may make of it
-  float inner;                  // of what the body surely contains; below 0: nothing is known
+  float inner;                  // the same, of what it surely contains; minus infinity: not known
   float reach;                  // radius of a ball around all of it; infinite for a plane
 };
 

@@ -2,9 +2,11 @@
 #include "oca/models/robot/clearance.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "oca/models/geometry/ball_cover.h"
+#include "oca/models/geometry/obstacle.h"
 #include "oca/models/robot/kinematics.h"
 
 namespace oca::robot {
@@ -79,6 +81,24 @@ bool Clearance::Ignored(int link, int body) const {
          std::find(ignored_.begin(), ignored_.end(), std::pair(link, body)) != ignored_.end();
 }
 
+geometry::SignedDistance Clearance::BodyDistance(const LinkCollider& link, const PlacedBody& body,
+                                                 double max_distance) const {
+  const Eigen::Isometry3d& X_WL = X_WL_[link.number];
+  const double variance = body.covariance.trace();
+  if (!(variance > 0.0)) {
+    return DistanceToBody(link, X_WL, *body.collider, body.X_WO, max_distance);
+  }
+  const double most = geometry::kConfidence * std::sqrt(variance);
+  geometry::SignedDistance found =
+      DistanceToBody(link, X_WL, *body.collider, body.X_WO, max_distance + most);
+  if (found.status == geometry::DistanceStatus::kBeyond) return found;
+  const double nearer = geometry::Uncertainty(body.covariance, found.normal);
+  found.distance -= nearer;
+  found.point_b += nearer * found.normal;
+  if (found.distance > max_distance) found.status = geometry::DistanceStatus::kBeyond;
+  return found;
+}
+
 // Calls visit(pair) for each pair within the limit, which visit returns anew: below 0 ends the walk.
 template <class Visit>
 void Clearance::ForEach(double max_distance, const Visit& visit) const {
@@ -87,9 +107,7 @@ void Clearance::ForEach(double max_distance, const Visit& visit) const {
     if (model_->body(link.number) < 0) continue;
     for (int body = 0; body < std::ssize(bodies_); ++body) {
       if (Ignored(link.number, body)) continue;
-      const PlacedBody& other = bodies_[body];
-      const geometry::SignedDistance found =
-          DistanceToBody(link, X_WL_[link.number], *other.collider, other.X_WO, limit);
+      const geometry::SignedDistance found = BodyDistance(link, bodies_[body], limit);
       if (found.status == geometry::DistanceStatus::kBeyond) continue;
       limit = visit(PairOf(found, link.number, body, -1));
       if (limit < 0.0) return;
@@ -114,11 +132,10 @@ geometry::SignedDistance Clearance::OwnDistance(std::size_t pair, double max_dis
 }
 
 double Clearance::LinkDistance(int link, int body, double max_distance) const {
-  const LinkCollider& collider =
-      links_[static_cast<std::size_t>(places_[static_cast<std::size_t>(link)])];
-  const PlacedBody& other = bodies_[static_cast<std::size_t>(body)];
-  const geometry::SignedDistance found = DistanceToBody(
-      collider, X_WL_[static_cast<std::size_t>(link)], *other.collider, other.X_WO, max_distance);
+  const int place = places_[static_cast<std::size_t>(link)];
+  const geometry::SignedDistance found =
+      BodyDistance(links_[static_cast<std::size_t>(place)], bodies_[static_cast<std::size_t>(body)],
+                   max_distance);
   return found.status == geometry::DistanceStatus::kBeyond ? kUnlimited : found.distance;
 }
 
@@ -165,8 +182,7 @@ void Clearance::LinkDistances(std::span<double> least) const {
     double& nearest = least[link.number];
     for (int b = 0; b < std::ssize(bodies_); ++b) {
       if (Ignored(link.number, b)) continue;
-      const geometry::SignedDistance found = DistanceToBody(
-          link, X_WL_[link.number], *bodies_[b].collider, bodies_[b].X_WO, std::max(nearest, 0.0));
+      const geometry::SignedDistance found = BodyDistance(link, bodies_[b], std::max(nearest, 0.0));
       if (found.status != geometry::DistanceStatus::kBeyond)
         nearest = std::min(nearest, found.distance);
     }

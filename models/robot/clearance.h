@@ -19,6 +19,8 @@ namespace oca::robot {
 struct PlacedBody {
   std::shared_ptr<const geometry::Collider> collider;
   Eigen::Isometry3d X_WO{Eigen::Isometry3d::Identity()};
+  /// Of its position, m^2: the distance along a normal counts less by geometry::Uncertainty.
+  Eigen::Matrix3d covariance{Eigen::Matrix3d::Zero()};
 };
 
 /// A link and what is near it: a body, or another link of the robot.
@@ -80,6 +82,12 @@ class Clearance {
   /// Another number whenever what is kept clear of, or how far, is another than it was.
   long version() const { return version_; }
 
+  void SetCovariance(int body, const Eigen::Matrix3d& covariance) {
+    bodies_[body].covariance = covariance;
+    ++version_;
+    ++version_;
+  }
+
   /// From now on the distance of a pair of own links counts `reference` / range times, where its
   /// range is less than `reference` (m): who asks all pairs for `reference` asks this one for its
   /// range, and what he looks at beyond is nearer too in that proportion.
@@ -118,6 +126,8 @@ class Clearance {
  private:
   template <class Visit>
   void ForEach(double max_distance, const Visit& visit) const;
+  geometry::SignedDistance BodyDistance(const LinkCollider& link, const PlacedBody& body,
+                                        double max_distance) const;
   geometry::SignedDistance OwnDistance(std::size_t pair, double max_distance) const;
   bool Ignored(int link, int body) const;
 

@@ -191,8 +191,8 @@ void ElasticBand::Sample(double time, const RequestAhead& request, const BandMem
 void ElasticBand::CalcClear(double time, const RequestAhead& request, const ObstacleSet& set,
                             VectorView measured, VectorView planned, const BandMemory& memory,
                             ClearMotion& motion) const {
-  replanner_.TellClear({time, request.trajectory, set.obstacles, measured}, planned, memory,
-                       motion);
+  replanner_.TellClear({time, request.trajectory, set.obstacles, measured, set.estimates}, planned,
+                       memory, motion);
 }
 
 void ElasticBand::Report(double time, const BandMemory& memory, Log& log) const {
@@ -210,7 +210,8 @@ void ElasticBand::Plan(double time, Log& log, const RequestAhead& request, const
                        BandMemory& memory) const {
   if (!request.trajectory || !params_.enabled) return;
   RequireSize(*request.trajectory, measured.size());
-  const planning::BandSituation now{time, request.trajectory, set.obstacles, measured};
+  const planning::BandSituation now{time, request.trajectory, set.obstacles, measured,
+                                    set.estimates};
   const bool was_stuck = memory.stuck;
   replanner_.Follow(now, memory);
   if (memory.stuck && !was_stuck) Report(time, memory, log);

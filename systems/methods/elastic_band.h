@@ -21,7 +21,10 @@ namespace oca::systems {
 ///     position = request(t) + x(t),   x the deviation of planning::BandOptimizer
 ///
 /// A plan looks ahead to the end of the request and a little further, at least least_horizon. It
-/// takes every obstacle to go on as it does now for `prediction` seconds and then to stay. It
+/// takes every obstacle to go on as it does now for `prediction` seconds and then to stay; of one that
+/// a tracker estimated it takes what it is likely to do (planning::LikelyAhead), and counts the
+/// distance less by what its place is uncertain. Of one whose velocity nobody knows it takes the place
+/// alone, and trusts no plan. It
 /// begins plan_period after the instant that it is made at, which is the time there is to compute
 /// it, from the state that the band before it then has: position, velocity and acceleration are
 /// continuous. If the arm is farther than restart_distance from where the band says, the next band

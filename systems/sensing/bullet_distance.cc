@@ -44,6 +44,13 @@ Proximity Mirrored(const Proximity& pair, models::Name obstacle) {
   return mirrored;
 }
 
+/// What the distance along `normal` to an obstacle of a set counts for less, m.
+double UncertaintyOf(const ObstacleSet& set, int place, const Eigen::Vector3d& normal) {
+  if (set.estimates.empty()) return 0.0;
+  const ObstacleEstimate& estimate = set.estimates[static_cast<std::size_t>(place)];
+  return geometry::Uncertainty(estimate.PositionCovariance(), normal);
+}
+
 // Bound on the speed of all points of a link; 0 if its pose does not come in.
 double SpeedOf(const LinkCollider& link, const LinkPoses& poses) {
   const int at = poses.Find(link.link, link.number);
@@ -176,7 +183,8 @@ void BulletDistance::CalcNear(const LinkPoses& poses, const ObstacleScene& of,
     if (index < 0) {
       result.AddNone();
     } else {
-      result.Add(of.balls(), poses.poses[index] * link.centre, link.radius + max_distance_);
+      result.Add(of.balls(), poses.poses[index] * link.centre,
+                 link.radius + max_distance_ + of.uncertainty());
     }
   }
 }
@@ -188,12 +196,13 @@ void BulletDistance::CalcProximities(const LinkPoses& poses, const ObstacleSet& 
                                      ProximitySet& result) const {
   const std::array<const LinkPoses*, sizeof...(Poses)> poses_of_others{&others...};
   result.fastest = of.fastest();
-  Find(poses, set, candidates, asked.ranges, poses_of_others, result);
+  Find(poses, set, candidates, of.uncertainty(), asked.ranges, poses_of_others, result);
 }
 
 void BulletDistance::Find(const LinkPoses& poses, const ObstacleSet& set,
-                          const NearObstacles& candidates, const robot::OwnRanges& ranges,
-                          std::span<const LinkPoses* const> others, ProximitySet& result) const {
+                          const NearObstacles& candidates, double uncertainty,
+                          const robot::OwnRanges& ranges, std::span<const LinkPoses* const> others,
+                          ProximitySet& result) const {
   result.max_distance = max_distance_;
   result.compared = Compares(poses, set);
   for (std::size_t i = 0; i < others.size(); ++i) {
@@ -210,7 +219,7 @@ void BulletDistance::Find(const LinkPoses& poses, const ObstacleSet& set,
     const LinkCollider& link = movable_[i];
     const int index = poses.Find(link.link, link.number);
     if (index < 0) continue;
-    AddObstacles(link, poses.poses[index], set, candidates.of(i), result);
+    AddObstacles(link, poses.poses[index], set, candidates.of(i), uncertainty, result);
     AddOwnLinks(link, poses, index, ranges, result);
     if (link_forces_) AddLinksOfOthers(link, poses.poses[index], others, result);
   }
@@ -218,17 +227,23 @@ void BulletDistance::Find(const LinkPoses& poses, const ObstacleSet& set,
 
 void BulletDistance::AddObstacles(const LinkCollider& link, const Eigen::Isometry3d& X_WL,
                                   const ObstacleSet& set, std::span<const int> candidates,
-                                  ProximitySet& result) const {
+                                  double uncertainty, ProximitySet& result) const {
+  const double reach = max_distance_ + uncertainty;
   for (const int place : candidates) {
     const Obstacle& obstacle = set.obstacles[static_cast<std::size_t>(place)];
     if (Ignored(link.link, obstacle.body->id)) continue;
     const geometry::Collider& collider = *obstacle.body->collider;
-    const auto found = DistanceToBody(link, X_WL, collider, obstacle.X_WO, max_distance_);
+    const auto found = DistanceToBody(link, X_WL, collider, obstacle.X_WO, reach);
     if (found.status == geometry::DistanceStatus::kBeyond) continue;
+    const double nearer = UncertaintyOf(set, place, found.normal);
+    if (found.distance - nearer > max_distance_) continue;
     Proximity& proximity =
         result.proximities.emplace_back(ToProximity(link.link, obstacle.body->id, found));
     proximity.obstacle_velocity = obstacle.VelocityAt(found.point_b);
     proximity.obstacle_speed = SpeedBound(obstacle);
+    if (nearer == 0.0) continue;
+    proximity.distance -= nearer;
+    proximity.point_on_obstacle += nearer * found.normal;
   }
 }
 

@@ -45,6 +45,10 @@ namespace oca::systems {
 /// the obstacles form a tree, which only obstacles that move make work for, so many far ones cost
 /// little.
 ///
+/// Of an obstacle that is known with a covariance P of its position (ObstacleSet::estimates), the
+/// distance counts for less by 3 sqrt(n^T P n) along the normal n, geometry::Uncertainty, as if its
+/// nearest point were so much nearer.
+///
 /// Every tick is computed afresh: warm starts would let the last bits depend on which ticks were
 /// looked at before.
 ///
@@ -127,10 +131,11 @@ class BulletDistance final : public System {
                        const NearObstacles& candidates, const Asked& asked, const Poses&... others,
                        ProximitySet& result) const;
   void Find(const LinkPoses& poses, const ObstacleSet& set, const NearObstacles& candidates,
-            const robot::OwnRanges& ranges, std::span<const LinkPoses* const> others,
-            ProximitySet& result) const;
+            double uncertainty, const robot::OwnRanges& ranges,
+            std::span<const LinkPoses* const> others, ProximitySet& result) const;
   void AddObstacles(const LinkCollider& link, const Eigen::Isometry3d& X_WL, const ObstacleSet& set,
-                    std::span<const int> candidates, ProximitySet& result) const;
+                    std::span<const int> candidates, double uncertainty,
+                    ProximitySet& result) const;
   void AddOwnLinks(const LinkCollider& link, const LinkPoses& poses, int index,
                    const robot::OwnRanges& ranges, ProximitySet& result) const;
   void AddLinksOfOthers(const LinkCollider& link, const Eigen::Isometry3d& X_WL,

@@ -2,6 +2,7 @@
 #include "oca/systems/sensing/near_obstacles.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace oca::systems {
 namespace {
@@ -25,6 +26,9 @@ double SpeedBound(const Eigen::Vector3d& linear, const Eigen::Vector3d& angular,
 }
 
 double SpeedBound(const Obstacle& obstacle) {
+  if (!obstacle.velocity_known) {
+    return obstacle.body->fastest > 0.0 ? obstacle.body->fastest : kAnySpeed;
+  }
   const geometry::Collider& collider = *obstacle.body->collider;
   return std::max(obstacle.body->fastest,
                   SpeedBound(obstacle.linear, obstacle.angular, obstacle.X_WO,
@@ -32,6 +36,11 @@ double SpeedBound(const Obstacle& obstacle) {
 }
 
 void ObstacleScene::Follow(const ObstacleSet& set) {
+  uncertainty_ = 0.0;
+  for (const ObstacleEstimate& estimate : set.estimates) {
+    const double variance = estimate.covariance.topLeftCorner<3, 3>().trace();
+    uncertainty_ = std::max(uncertainty_, geometry::kConfidence * std::sqrt(variance));
+  }
   const auto& obstacles = set.obstacles;
   if (set.layout != 0 && set.layout == layout_ && obstacles.size() == kept_.size()) {
     fastest_ = 0.0;

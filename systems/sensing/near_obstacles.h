@@ -21,6 +21,8 @@ class ObstacleScene {
   const geometry::BallTree& balls() const { return balls_; }
   /// Bound on the speed of all points of all obstacles, m/s.
   double fastest() const { return fastest_; }
+  /// Bound on what distances to any of them count for less, m: geometry::Uncertainty.
+  double uncertainty() const { return uncertainty_; }
 
  private:
   bool SameBodies(const ObstacleSet& set) const;
@@ -32,6 +34,7 @@ class ObstacleScene {
   std::vector<geometry::Ball> start_;
   std::uint64_t layout_{0};
   double fastest_{0.0};
+  double uncertainty_{0.0};
 };
 
 /// For each link the obstacles that may be near, by their place in the set, ascending.
@@ -59,7 +62,10 @@ class NearObstacles {
 /// moves with the given twist; m/s.
 double SpeedBound(const Eigen::Vector3d& linear, const Eigen::Vector3d& angular,
                   const Eigen::Isometry3d& X_WB, const geometry::Ball& ball);
-/// The same of an obstacle: at any time if its body knows, otherwise now.
+/// What counts for a speed of which nothing is known, m/s: nothing is proven by it.
+inline constexpr double kAnySpeed = 1e6;
+/// The same of an obstacle: at any time if its body knows, otherwise now; kAnySpeed if neither the
+/// body nor the obstacle does.
 double SpeedBound(const Obstacle& obstacle);
 
 }  // namespace oca::systems

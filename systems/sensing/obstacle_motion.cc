@@ -21,6 +21,7 @@ class Keys {
   Keys(const MotionParams& params, const std::string& where)
       : all_{{"velocity", params.velocity.has_value()},
              {"angular_velocity", params.angular_velocity.has_value()},
+             {"acceleration", params.acceleration.has_value()},
              {"start", params.start.has_value()},
              {"stop", params.stop.has_value()},
              {"amplitude", params.amplitude.has_value()},
@@ -29,7 +30,8 @@ class Keys {
              {"center", params.center.has_value()},
              {"axis", params.axis.has_value()},
              {"waypoints", params.waypoints.has_value()},
-             {"file", params.file.has_value()}},
+             {"file", params.file.has_value()},
+             {"smooth", params.smooth.has_value()}},
         type_(kMotionTypeNames[static_cast<int>(params.type)]),
         where_(where) {}
 
@@ -56,19 +58,34 @@ class Keys {
   std::string where_;
 };
 
+/// Zero if none is given.
+Vector3d AngularOf(const MotionParams& params, const std::string& where) {
+  if (!params.angular_velocity) return Vector3d::Zero();
+  const Eigen::VectorXd& given = params.angular_velocity->values();
+  if (given.size() == 3) return given;
+  throw ConfigError(fmt::format("{}.angular_velocity: got {}; expected a list of 3 numbers", where,
+                                given.size() == 1 ? "a number" : "another length"));
+}
+
 ScriptedMotion MakeLinear(const MotionParams& params, const Isometry3d& X_0,
                           const std::string& where) {
-  Vector3d angular = Vector3d::Zero();
-  if (params.angular_velocity) {
-    const Eigen::VectorXd& given = params.angular_velocity->values();
-    if (given.size() != 3) {
-      throw ConfigError(fmt::format("{}.angular_velocity: got {}; expected a list of 3 numbers",
-                                    where, given.size() == 1 ? "a number" : "another length"));
-    }
-    angular = given;
-  }
-  const motion::LinearScript script{*params.velocity, angular, params.start.value_or(0.0),
-                                    params.stop};
+  const motion::LinearScript script{*params.velocity, AngularOf(params, where),
+                                    params.start.value_or(0.0), params.stop};
+  return motion::MakeMotion(script, X_0, where);
+}
+
+ScriptedMotion MakeTurning(const MotionParams& params, const Isometry3d& X_0,
+                           const std::string& where) {
+  const motion::TurningScript script{*params.velocity, AngularOf(params, where),
+                                     params.start.value_or(0.0), params.stop};
+  return motion::MakeMotion(script, X_0, where);
+}
+
+ScriptedMotion MakeAccelerating(const MotionParams& params, const Isometry3d& X_0,
+                                const std::string& where) {
+  const motion::AcceleratingScript script{params.velocity.value_or(Vector3d::Zero()),
+                                          *params.acceleration, params.start.value_or(0.0),
+                                          *params.stop};
   return motion::MakeMotion(script, X_0, where);
 }
 
@@ -97,6 +114,10 @@ std::vector<motion::Waypoint> WaypointsOf(const std::vector<WaypointParams>& par
   return waypoints;
 }
 
+motion::Pace PaceOf(const MotionParams& params) {
+  return params.smooth.value_or(false) ? motion::Pace::kSmooth : motion::Pace::kEven;
+}
+
 ScriptedMotion MakeOfType(const MotionParams& params, const Isometry3d& X_0,
                           const std::string& where) {
   const Keys keys(params, where);
@@ -107,6 +128,12 @@ ScriptedMotion MakeOfType(const MotionParams& params, const Isometry3d& X_0,
     case MotionType::kLinear:
       keys.Check({"velocity"}, {"angular_velocity", "start", "stop"});
       return MakeLinear(params, X_0, where);
+    case MotionType::kTurning:
+      keys.Check({"velocity", "angular_velocity"}, {"start", "stop"});
+      return MakeTurning(params, X_0, where);
+    case MotionType::kAccelerating:
+      keys.Check({"acceleration", "stop"}, {"velocity", "start"});
+      return MakeAccelerating(params, X_0, where);
     case MotionType::kSinusoidal:
       keys.Check({"amplitude", "frequency"}, {"phase"});
       return MakeSinusoidal(params, X_0, where);
@@ -114,11 +141,13 @@ ScriptedMotion MakeOfType(const MotionParams& params, const Isometry3d& X_0,
       keys.Check({"center", "axis", "angular_velocity"});
       return MakeCircular(params, X_0, where);
     case MotionType::kWaypoints:
-      keys.Check({"waypoints"});
-      return motion::MakeMotion(WaypointsOf(*params.waypoints), X_0, where + ".waypoints");
+      keys.Check({"waypoints"}, {"smooth"});
+      return motion::MakeMotion(WaypointsOf(*params.waypoints), X_0, where + ".waypoints",
+                                PaceOf(params));
     case MotionType::kCsv:
-      keys.Check({"file"});
-      return motion::MakeMotion(motion::ReadWaypoints(*params.file), X_0, *params.file);
+      keys.Check({"file"}, {"smooth"});
+      return motion::MakeMotion(motion::ReadWaypoints(*params.file), X_0, *params.file,
+                                PaceOf(params));
   }
   return motion::StandingMotion(X_0);
 }
@@ -133,19 +162,29 @@ void WaypointParams::Describe(Fields<WaypointParams>& fields) {
 
 void MotionParams::Describe(Fields<MotionParams>& fields) {
   using P = MotionParams;
-  fields.Add("type", &P::type, "", "static, linear, sinusoidal, circular, waypoints or csv")
+  fields
+      .Add("type", &P::type, "",
+           "static, linear, turning, accelerating, sinusoidal, circular, waypoints or csv")
       .Required();
-  fields.Add("velocity", &P::velocity, "m/s", "linear: of the origin");
+  fields.Add("velocity", &P::velocity, "m/s",
+             "linear: of the origin; turning, accelerating: at the start");
   fields.Add("angular_velocity", &P::angular_velocity, "rad/s",
-             "linear: a vector; circular: a number, about the axis");
-  fields.Add("start", &P::start, "s", "linear: when it starts to move; 0 if left out");
-  fields.Add("stop", &P::stop, "s", "linear: when it stops; never if left out");
+             "linear, turning: a vector; circular: a number, about the axis");
+  fields.Add("acceleration", &P::acceleration, "m/s^2", "accelerating: until `stop`");
+  fields.Add("start", &P::start, "s",
+             "linear, turning, accelerating: when it starts to move; 0 if left out");
+  fields.Add(
+      "stop", &P::stop, "s",
+      "linear, turning: when it stops, never if left out; accelerating: from when on it goes "
+      "on as fast as then");
   fields.Add("amplitude", &P::amplitude, "m", "sinusoidal: largest offset from the pose");
   fields.Add("frequency", &P::frequency, "Hz", "sinusoidal").Above(0.0);
   fields.Add("phase", &P::phase, "rad", "sinusoidal: at time 0");
   fields.Add("center", &P::center, "m", "circular: a point of the axis");
   fields.Add("axis", &P::axis, "", "circular: direction of the axis");
   fields.Add("waypoints", &P::waypoints, "", "waypoints: in the order of their times");
+  fields.Add("smooth", &P::smooth, "",
+             "waypoints, csv: from rest to rest, with the least jerk; false if left out");
   fields.Add("file", &P::file, "", "csv: table with columns time,x,y,z[,roll,pitch,yaw]");
 }
 

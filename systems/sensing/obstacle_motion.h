@@ -14,9 +14,18 @@
 
 namespace oca::systems {
 
-enum class MotionType { kStatic, kLinear, kSinusoidal, kCircular, kWaypoints, kCsv };
-inline constexpr std::array kMotionTypeNames{"static",   "linear",    "sinusoidal",
-                                             "circular", "waypoints", "csv"};
+enum class MotionType {
+  kStatic,
+  kLinear,
+  kTurning,
+  kAccelerating,
+  kSinusoidal,
+  kCircular,
+  kWaypoints,
+  kCsv
+};
+inline constexpr std::array kMotionTypeNames{"static",     "linear",   "turning",   "accelerating",
+                                             "sinusoidal", "circular", "waypoints", "csv"};
 inline std::span<const char* const> EnumNames(MotionType) { return kMotionTypeNames; }
 
 struct WaypointParams {
@@ -30,7 +39,8 @@ struct WaypointParams {
 struct MotionParams {
   MotionType type{MotionType::kStatic};
   std::optional<Eigen::Vector3d> velocity{};
-  std::optional<PerComponent> angular_velocity{};  // linear: a vector; circular: a number
+  std::optional<PerComponent> angular_velocity{};  // circular: a number; else a vector
+  std::optional<Eigen::Vector3d> acceleration{};
   std::optional<double> start{};
   std::optional<double> stop{};
   std::optional<Eigen::Vector3d> amplitude{};
@@ -40,11 +50,13 @@ struct MotionParams {
   std::optional<Eigen::Vector3d> axis{};
   std::optional<std::vector<WaypointParams>> waypoints{};
   std::optional<std::string> file{};
+  std::optional<bool> smooth{};
   static void Describe(Fields<MotionParams>& fields);
 };
 
 /// The motion that starts from the pose X_0 in the frame: motion::StandingMotion, or that of
-/// motion::LinearScript, SinusoidalScript, CircularScript, or along waypoints, which `csv` takes
+/// motion::LinearScript, TurningScript, AcceleratingScript, SinusoidalScript, CircularScript, or along
+/// waypoints, which `csv` takes
 /// from the columns time,x,y,z[,roll,pitch,yaw] of a file.
 /// throws ConfigError naming `where` for keys that are missing or surplus, for what the motion
 ///        refuses, and a file that is no such table

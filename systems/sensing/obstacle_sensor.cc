@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/random.h"
@@ -22,16 +24,25 @@ ObstacleSensor::Params Checked(const ObstacleSensor::Params& params) {
   return params;
 }
 
-int StepsOf(const ObstacleSensor::Params& params) {
-  const double steps = std::round(params.latency.seconds() / params.period.seconds());
-  const bool whole = steps <= ObstacleSensor::kMostSteps &&
-                     Period(params.period.numerator() * static_cast<std::int64_t>(steps),
-                            params.period.denominator()) == params.latency;
-  if (whole) return static_cast<int>(steps);
+/// The longest period of which both are multiples; b may be 0.
+Period CommonStep(const Period& a, const Period& b) {
+  const std::int64_t denominator = std::lcm(a.denominator(), b.denominator());
+  return {std::gcd(a.numerator() * (denominator / a.denominator()),
+                   b.numerator() * (denominator / b.denominator())),
+          denominator};
+}
+
+int StepsOf(const Period& span, const Period& step) {
+  return static_cast<int>(std::round(span.seconds() / step.seconds()));
+}
+
+Period StepOf(const ObstacleSensor::Params& params) {
+  const Period step = CommonStep(params.period, params.latency);
+  const double most = std::max(params.latency.seconds(), params.period.seconds()) / step.seconds();
+  if (most <= ObstacleSensor::kMostSteps) return step;
   throw ConfigError(
-      fmt::format("latency: got {}; expected a whole number, at most {}, of periods "
-                  "of {}",
-                  params.latency.ToString(), ObstacleSensor::kMostSteps, params.period.ToString()));
+      fmt::format("latency: got {}; expected at most {} times {}, which divides it and the period",
+                  params.latency.ToString(), ObstacleSensor::kMostSteps, step.ToString()));
 }
 
 // Standard normal. source Box, Muller 1958
@@ -49,8 +60,9 @@ Eigen::Vector3d DrawNormal(models::Random& random) {
 void ObstacleSensor::Params::Describe(Fields<Params>& fields) {
   using P = Params;
   fields.Add("period", &P::period, "s", "time between samples").Above(0.0).Required();
-  fields.Add("latency", &P::latency, "s", "age of what is shown: a whole number of periods")
-      .AtLeast(0.0);
+  fields.Add("latency", &P::latency, "s", "age of what is shown when it comes in").AtLeast(0.0);
+  fields.Add("velocities", &P::velocities, "",
+             "whether the twists of obstacles are reported; false: as a camera, poses alone");
   fields.Add("dropout", &P::dropout, "", "probability that a sample is lost")
       .AtLeast(0.0)
       .AtMost(1.0);
@@ -69,22 +81,32 @@ ObstacleSensor::Params ObstacleSensor::Example() {
 
 ObstacleSensor::ObstacleSensor(const Params& params)
     : params_(Checked(params)),
-      steps_(StepsOf(params_)),
+      step_(StepOf(params_)),
+      every_(StepsOf(params_.period, step_)),
+      steps_(StepsOf(params_.latency, step_)),
       line_(DeclareDiscreteState("line", SensorLine())),
       in(DeclareInput<ObstacleSet>("in")),
       obstacles(DeclareObstacles()) {
-  DeclareUpdate<&ObstacleSensor::Sample>(Every{params_.period}, Writes(line_), kTime, in);
-  DeclareRole(BlindSpots{.spots =
-                             [](const std::string& own_name, bool /*one_robot*/) {
-                               return std::vector<std::string>{
-                                   fmt::format("obstacles but as '{}' reports them", own_name)};
-                             },
-                         .behind = in});
+  DeclareUpdate<&ObstacleSensor::Sample>(Every{step_}, Writes(line_), kTime, in);
+  DeclareRole(BlindSpots{
+      .spots =
+          [poses = !params_.velocities](const std::string& own_name, bool /*one_robot*/) {
+            return std::vector<std::string>{fmt::format("obstacles but as '{}' reports them{}",
+                                                        own_name,
+                                                        poses ? ", without velocities" : "")};
+          },
+      .behind = in});
+  if (params_.velocities) return;
+  DeclareRole(Remarks{.notes = [] {
+    return std::vector<std::string>{
+        "shows poses without velocities: who reads them without an ObstacleTracker takes what "
+        "moves for what stands"};
+  }});
 }
 
 Output<ObstacleSet> ObstacleSensor::DeclareObstacles() {
   if (steps_ > 0) {
-    return DeclareOutput<ObstacleSet, &ObstacleSensor::CalcLate>("obstacles", {}, line_);
+    return DeclareOutput<ObstacleSet, &ObstacleSensor::CalcLate>("obstacles", {}, kTime, line_);
   }
   return DeclareOutput<ObstacleSet, &ObstacleSensor::CalcNow>("obstacles", {}, kTime, in, line_);
 }
@@ -115,36 +137,53 @@ void ObstacleSensor::AddNoise(std::int64_t tick, ObstacleSet& set) const {
   set.layout = 0;  // nothing stands where it stood
 }
 
-void ObstacleSensor::CalcLate(const SensorLine& line, ObstacleSet& set) const { set = line.held; }
+/// Makes of the truth at a tick what is reported of it.
+void ObstacleSensor::Report(std::int64_t tick, ObstacleSet& set) const {
+  AddNoise(tick, set);
+  set.stamp = step_.seconds(tick * every_ + steps_);
+  if (params_.velocities) return;
+  for (Obstacle& obstacle : set.obstacles) {
+    obstacle.linear.setZero();
+    obstacle.angular.setZero();
+    obstacle.velocity_known = false;
+  }
+}
+
+void ObstacleSensor::CalcLate(double time, const SensorLine& line, ObstacleSet& set) const {
+  set = line.coming.stamp && time >= *line.coming.stamp ? line.coming : line.held;
+}
 
 void ObstacleSensor::CalcNow(double time, const ObstacleSet& truth, const SensorLine& line,
                              ObstacleSet& set) const {
   const std::int64_t tick = TickOf(time);
-  const bool lost = Lost(tick);
-  set = lost ? line.held : truth;
-  if (!lost) AddNoise(tick, set);
+  const bool sampled = time == params_.period.seconds(tick) && !Lost(tick);
+  set = sampled ? truth : line.held;
+  if (sampled) Report(tick, set);
 }
 
 void ObstacleSensor::Sample(double time, const ObstacleSet& truth, SensorLine& line) const {
-  const std::int64_t tick = TickOf(time);
   if (steps_ == 0) {
+    const std::int64_t tick = TickOf(time);
     if (Lost(tick)) return;
     line.held = truth;
-    AddNoise(tick, line.held);
+    Report(tick, line.held);
     return;
   }
   if (line.ring.empty()) {
-    line.held.obstacles.reserve(truth.obstacles.capacity());
     line.ring.resize(static_cast<std::size_t>(steps_));
     for (ObstacleSet& set : line.ring) set.obstacles.reserve(truth.obstacles.capacity());
+    line.held.obstacles.reserve(truth.obstacles.capacity());
+    line.coming.obstacles.reserve(truth.obstacles.capacity());
   }
-  line.ring[static_cast<std::size_t>(line.next)] = truth;
+  const std::int64_t step = step_.CountAt(time);
+  if (step % every_ == 0) line.ring[static_cast<std::size_t>(line.next)] = truth;
   line.next = (line.next + 1) % steps_;
-  // What is now the oldest is `latency` old at the next tick.
-  const std::int64_t oldest = tick - steps_ + 1;
-  if (oldest < 0 || Lost(oldest)) return;
-  line.held = line.ring[static_cast<std::size_t>(line.next)];
-  AddNoise(oldest, line.held);
+  // What is now the oldest comes in at the next step.
+  const std::int64_t oldest = step - steps_ + 1;
+  if (oldest < 0 || oldest % every_ != 0 || Lost(oldest / every_)) return;
+  line.held = line.coming;
+  line.coming = line.ring[static_cast<std::size_t>(line.next)];
+  Report(oldest / every_, line.coming);
 }
 
 }  // namespace oca::systems
@@ -152,7 +191,8 @@ void ObstacleSensor::Sample(double time, const ObstacleSet& truth, SensorLine& l
 namespace oca {
 
 Fault Signal<systems::SensorLine>::Check(const systems::SensorLine& line, Look look) {
-  return Signal<systems::ObstacleSet>::Check(line.held, look);
+  const Fault fault = Signal<systems::ObstacleSet>::Check(line.held, look);
+  return fault.ok() ? Signal<systems::ObstacleSet>::Check(line.coming, look) : fault;
 }
 
 }  // namespace oca

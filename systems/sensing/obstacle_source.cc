@@ -12,6 +12,7 @@
 #include <set>
 
 #include "oca/framework/dataflow/error.h"
+#include "oca/systems/sensing/near_obstacles.h"
 #include "oca/systems/signals/roles.h"
 #include "oca/systems/signals/signal_limits.h"
 
@@ -19,7 +20,6 @@ namespace oca::systems {
 namespace {
 
 constexpr const char* kWorld = "world";
-constexpr double kAnySpeed = 1e6;  // m/s; no proof of what happens between samples survives it
 
 using FramePoses = std::map<std::string, Eigen::Isometry3d>;
 

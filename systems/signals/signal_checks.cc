@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The validity checks of the signals of an avoidance loop.
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -83,11 +84,60 @@ int FindTwin(std::size_t count, const NameOf& name_of) {
 
 Fault CheckObstacle(const Obstacle& o) {
   const std::string& id = o.body->id.text();
+  if (!o.velocity_known && !(o.linear.isZero(0.0) && o.angular.isZero(0.0))) {
+    return FaultOf("obstacle '{}': velocity; got one that is not known; expected zeros", id);
+  }
   if (o.body->id.empty()) return Fault("obstacle: id; got an empty one; expected a name");
   if (!(o.body->fastest >= 0.0)) {
     return FaultOf("obstacle '{}': fastest; got {} m/s; expected at least 0", id, o.body->fastest);
   }
   return CheckMotion("obstacle", id, o.X_WO, o.linear, o.angular);
+}
+
+Fault CheckEstimate(std::string_view id, const ObstacleEstimate& estimate) {
+  if (!Near(estimate.acceleration)) {
+    return FaultOf(
+        "obstacle '{}': acceleration; got {:.3g} m/s^2 along an axis; expected at most 1e6", id,
+        estimate.acceleration.lpNorm<Eigen::Infinity>());
+  }
+  if (!(estimate.age >= 0.0)) {
+    return FaultOf("obstacle '{}': age; got {} s; expected at least 0", id, estimate.age);
+  }
+  const auto& P = estimate.covariance;
+  const double largest = P.lpNorm<Eigen::Infinity>();
+  const double skew = (P - P.transpose()).lpNorm<Eigen::Infinity>();
+  // A matrix without negative eigenvalues, to rounding.
+  const auto shifted = (P + (kRigid * largest) * ObstacleEstimate::Covariance::Identity()).eval();
+  const bool positive =
+      largest == 0.0 ||
+      (Eigen::LLT<ObstacleEstimate::Covariance>(shifted).info() == Eigen::Success);
+  if (skew <= kRigid * largest && positive) return {};
+  return FaultOf("obstacle '{}': covariance; got a matrix that is {}; expected a covariance", id,
+                 positive ? "not symmetric" : "not positive semidefinite");
+}
+
+/// Finite numbers, and as many estimates as obstacles or none; the rest if `look` is whole.
+Fault CheckEstimates(const ObstacleSet& set, Look look) {
+  if (set.stamp && !std::isfinite(*set.stamp)) {
+    return Fault("stamp: got a NaN or an infinity; expected a time, s");
+  }
+  if (set.estimates.empty()) return {};
+  if (set.estimates.size() != set.obstacles.size()) {
+    return FaultOf("got {} obstacles and {} estimates; expected equal numbers, or no estimates",
+                   set.obstacles.size(), set.estimates.size());
+  }
+  for (std::size_t i = 0; i < set.estimates.size(); ++i) {
+    const ObstacleEstimate& estimate = set.estimates[i];
+    const std::string& id = set.obstacles[i].body->id.text();
+    if (!Finite3(estimate.acceleration) || !AllFinite(estimate.covariance.data(), 36) ||
+        !AllFinite(&estimate.age, 1)) {
+      return FaultOf("obstacle '{}': estimate; got a NaN or an infinity; expected finite numbers",
+                     id);
+    }
+    if (look == Look::kFinite) continue;
+    if (const Fault fault = CheckEstimate(id, estimate); !fault.ok()) return fault;
+  }
+  return {};
 }
 
 Fault CheckProximity(const Proximity& p) {
@@ -166,6 +216,7 @@ Fault Signal<ObstacleSet>::Check(const ObstacleSet& value, Look look) {
     if (look == Look::kFinite) continue;
     if (const Fault fault = CheckObstacle(o); !fault.ok()) return fault;
   }
+  if (const Fault fault = CheckEstimates(value, look); !fault.ok()) return fault;
   if (look == Look::kFinite) return {};
   const int twin =
       FindTwin(value.obstacles.size(), [&](std::size_t i) { return value.obstacles[i].body->id; });

@@ -85,12 +85,37 @@ ShapeParams ReadShape(const JsonReader& json) {
 }
 
 Json ToJson(const Obstacle& obstacle) {
-  return {{"id", obstacle.body->id.text()},
-          {"shape", ToJson(ShapeParamsOf(*obstacle.body))},
-          {"pose", systems::ToJson(obstacle.X_WO)},
-          {"twist",
-           {{"linear", systems::ToJson(obstacle.linear)},
-            {"angular", systems::ToJson(obstacle.angular)}}}};
+  Json json{{"id", obstacle.body->id.text()},
+            {"shape", ToJson(ShapeParamsOf(*obstacle.body))},
+            {"pose", systems::ToJson(obstacle.X_WO)}};
+  if (obstacle.velocity_known) {
+    json["twist"] = {{"linear", systems::ToJson(obstacle.linear)},
+                     {"angular", systems::ToJson(obstacle.angular)}};
+  }
+  return json;
+}
+
+void AddEstimate(const ObstacleEstimate& estimate, Json& json) {
+  json["acceleration"] = systems::ToJson(estimate.acceleration);
+  json["covariance"] = Json::array();
+  for (const double entry : estimate.covariance.reshaped<Eigen::RowMajor>()) {
+    json["covariance"].push_back(entry);
+  }
+  json["age"] = estimate.age;
+}
+
+ObstacleEstimate ReadEstimate(const JsonReader& json) {
+  json.CheckKeys({"id", "shape", "pose", "acceleration", "covariance", "age"}, {"twist"});
+  ObstacleEstimate estimate;
+  estimate.acceleration = json.At("acceleration").Vector3();
+  estimate.age = json.At("age").Number();
+  Eigen::Index count = 0;
+  json.At("covariance").ForEach([&](const JsonReader& entry) {
+    if (count < 36) estimate.covariance(count / 6, count % 6) = entry.Number();
+    ++count;
+  });
+  if (count != 36) json.At("covariance").Fail(fmt::format("{} numbers", count), "36, row by row");
+  return estimate;
 }
 
 /// Zero if there is none.
@@ -102,12 +127,13 @@ robot::LinkVelocity ReadTwist(const JsonReader& json) {
 }
 
 Obstacle ReadObstacle(const JsonReader& json) {
-  json.CheckKeys({"id", "shape", "pose"}, {"twist"});
+  json.CheckKeys({"id", "shape", "pose"}, {"twist", "acceleration", "covariance", "age"});
   Obstacle obstacle;
   const std::string id = json.At("id").Label();
   obstacle.body = MakeObstacleBody(id, ReadShape(json.At("shape")), "obstacle '" + id + "'.shape");
   obstacle.X_WO = json.At("pose").Pose();
   const robot::LinkVelocity velocity = ReadTwist(json);
+  obstacle.velocity_known = json.Has("twist");
   obstacle.linear = velocity.linear;
   obstacle.angular = velocity.angular;
   return obstacle;
@@ -174,7 +200,12 @@ using namespace systems;  // NOLINT: the traits of this file's own types
 using systems::ToJson;
 
 void Signal<ObstacleSet>::WriteJson(const ObstacleSet& value, std::string& out) {
-  WriteList(value.obstacles, out, [](const Obstacle& o) { return ToJson(o); });
+  std::size_t place = 0;
+  WriteList(value.obstacles, out, [&](const Obstacle& o) {
+    Json json = ToJson(o);
+    if (!value.estimates.empty()) AddEstimate(value.estimates[place++], json);
+    return json;
+  });
 }
 
 ObstacleSet Signal<ObstacleSet>::ReadJson(std::string_view text) {
@@ -184,6 +215,12 @@ ObstacleSet Signal<ObstacleSet>::ReadJson(std::string_view text) {
     set.obstacles.push_back(ReadObstacle(item));
     const std::string& id = set.obstacles.back().body->id.text();
     if (!ids.insert(id).second) item.Fail("the id '" + id + "' again", "unique ids");
+    if (item.Has("covariance") || item.Has("age") || item.Has("acceleration")) {
+      set.estimates.push_back(ReadEstimate(item));
+    }
+    if (!set.estimates.empty() && set.estimates.size() != set.obstacles.size()) {
+      item.Fail("an estimate of some obstacles", "one of all or of none");
+    }
   });
   return set;
 }

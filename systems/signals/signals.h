@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,14 +23,21 @@ namespace oca::systems {
 
 using geometry::Obstacle;
 using geometry::ObstacleBody;
+using geometry::ObstacleEstimate;
 
+/// `estimates` are as many as obstacles, or none: then all is known exactly. `stamp` (s) is when
+/// whoever observed the set told it, if it is not of now.
+///
 /// `layout` and `moving` spare who follows the set a look at what stands: two sets of the same
 /// layout, if it is not 0, hold the same bodies in the same order, and those that are not in
-/// `moving` (places, ascending) stand still where they stood. JSON: the list of obstacles.
+/// `moving` (places, ascending) stand still where they stood. JSON: the list of obstacles, each
+/// with its estimate; without a "twist" its velocity is not known.
 struct ObstacleSet {
   std::vector<Obstacle> obstacles{};
   std::uint64_t layout{0};
   std::vector<int> moving{};
+  std::vector<ObstacleEstimate> estimates{};
+  std::optional<double> stamp{};
 };
 
 /// Poses X_WL of the links of a robot, in three columns of equal length so that kinematics writes
@@ -95,7 +103,8 @@ template <>
 struct Signal<systems::ObstacleSet> {
   static constexpr const char* kName = "ObstacleSet";
   static Fault Check(const systems::ObstacleSet& value, Look look);
-  /// `layout` is between systems: a caller who moves an obstacle need not know of it.
+  /// `layout` is between systems: a caller who moves an obstacle need not know of it. The caller's
+  /// `stamp` stays.
   static void FromOutside(systems::ObstacleSet& value);
   static void WriteJson(const systems::ObstacleSet& value, std::string& out);
   static systems::ObstacleSet ReadJson(std::string_view text);

@@ -16,6 +16,7 @@
 #include "oca/models/error.h"
 #include "oca/models/planning/clairvoyant.h"
 #include "oca/models/planning/shortest_path.h"
+#include "oca/models/planning/first_sight.h"
 #include "tools/simulator/commands.h"
 #include "tools/simulator/terminal.h"
 
@@ -134,6 +135,9 @@ ordered_json Plan(const PlanArguments& arguments, const files::Catalogue& catalo
   if (arguments.reference) {
     json["reference_length"] = ReferenceLength(scene, *arguments.reference);
   }
+  const planning::FirstSight sight = planning::LookAtFirstSight(scene.model(), task);
+  json["first_sight"] = sight.time ? ordered_json(*sight.time) : ordered_json(nullptr);
+  json["too_late"] = sight.too_late;
   json["model"] = scene.model_name();
   json["judge"] = scene.judge();
   json["sees"] = scene.sees();
@@ -165,6 +169,8 @@ const char* PlanFooter() {
   time_to_goal         s; from which on it is within 0.01 of the request's end; null: it is not
   reference_length     of the shortest way found in ten searches of --reference seconds, seeds 0 to 9,
                        1 mm from everything; null if none was found, or something moves
+  first_sight          s, at which something is first seen to move; null if nothing does
+  too_late             true: nobody who sees it then can evade, proven
   model, judge         the robot, and the system by which a run of the file is judged
   sees                 what was looked at: all that the judge's distance block sees, and no more
   not_seen             what that block does not look at: links without collision shapes, other models

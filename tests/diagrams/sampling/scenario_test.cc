@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -166,6 +167,43 @@ TEST(ScenarioTest, OfRandomMovingHitTheRequestUnlessSomebodyEvades) {
   }
 }
 
+constexpr std::array kUnannounced{"random_turning",     "random_circling", "random_accelerating",
+                                  "random_oscillating", "random_stopping", "random_feint",
+                                  "random_hand",        "random_falling",  "random_jaws",
+                                  "random_behind"};
+
+TEST(ScenarioTest, OfWhatNobodyAnnouncedHitTheRequestUnlessSomebodyEvades) {
+  for (const char* const family : kUnannounced) {
+    const loading::LoadedDiagram loaded = Draw(family, 100, {{"parameters.avoid", "false"}});
+    EXPECT_LT(runs::Run(loaded, {}).metrics->min_distance.value(), 0.0) << family;
+  }
+}
+
+TEST(ScenarioTest, OfJawsAreFourThatMeet) {
+  const loading::LoadedDiagram loaded = Draw("random_jaws", 3);
+  const Value::List& jaws = Obstacles(loaded);
+  ASSERT_EQ(jaws.size(), 4u);
+  const auto end = [](const Value& jaw) -> Eigen::Vector3d {
+    const Value& motion = *jaw.Find("motion");
+    double start = 0.0, stop = 0.0;
+    EXPECT_TRUE(motion.Find("start")->number(start) && motion.Find("stop")->number(stop));
+    const auto v = Numbers(*motion.Find("velocity"));
+    return PositionOf(jaw) + (stop - start) * Eigen::Vector3d(v[0], v[1], v[2]);
+  };
+  const Eigen::Vector3d aim = 0.5 * (end(jaws[0]) + end(jaws[1]));
+  for (const Value& jaw : jaws) EXPECT_NEAR((end(jaw) - aim).norm(), 0.02, 1e-9);
+  EXPECT_NEAR((PositionOf(jaws[0]) - aim).dot(PositionOf(jaws[2]) - aim), 0.0, 1e-9);
+}
+
+TEST(ScenarioTest, IsTheSameHoweverTheArmSees) {
+  for (const char* const sensing : {"camera", "poses"}) {
+    const loading::LoadedDiagram truth = Draw("random_turning", 5);
+    const loading::LoadedDiagram seen =
+        Draw("random_turning", 5, {{"parameters.sensing", sensing}});
+    EXPECT_EQ(PositionOf(Obstacles(truth)[0]), PositionOf(Obstacles(seen)[0]));
+  }
+}
+
 TEST(ScenarioTest, IsTheSameForTheSameSeedAndMethodChangesNothing) {
   for (const char* const family : {"random_static", "random_clutter", "random_moving"}) {
     const loading::LoadedDiagram one = Draw(family, 7);
@@ -300,6 +338,17 @@ TEST(ScenarioTest, TellsWhereAMistakeStands) {
   EXPECT_THAT(
       ErrorOf("sampling: {obstacles: {count: [1, 2], shapes: [box], extent: [0.1, 0.2]}}\n"),
       HasSubstr("expected either shell or approach"));
+  const auto approach = [](const std::string& more) {
+    return ErrorOf(
+        "sampling: {obstacles: {count: [1, 2], shapes: [box], extent: [0.1, 0.2], approach: "
+        "{speed: [1, 2], distance: [1, 2], start: [0, 1]" +
+        more + "}}}\n");
+  };
+  EXPECT_THAT(approach(", manner: turning"),
+              HasSubstr("approach.bend: got none; expected one with manner turning alone"));
+  EXPECT_THAT(approach(", sight: [0, 1]"),
+              HasSubstr("approach.sight: got one; expected one with manner behind alone"));
+  EXPECT_THAT(approach(", manner: turn"), HasSubstr("manner"));
 }
 
 }  // namespace scenario_test

@@ -49,11 +49,19 @@ SinusoidalScript Sinusoidal() { return {Vector3d(0.0, 0.2, 0.1), 0.5, 0.25}; }
 
 CircularScript Circular() { return {Vector3d(0.0, 2.0, 3.0), Vector3d(0.0, 0.0, 2.0), 0.5}; }
 
+TurningScript Turning() { return {Vector3d(0.5, 0.0, 0.2), Vector3d(0.0, 0.3, 0.8), 1.0, 9.0}; }
+
+AcceleratingScript Accelerating() {
+  return {Vector3d(0.3, 0.0, -0.1), Vector3d(0.0, 0.4, -1.0), 1.0, 3.5};
+}
+
 std::vector<Waypoint> Waypoints() {
   return {{1.0, {0.0, 0.0, 0.0}, Vector3d(0.0, 0.0, 0.0)},
           {3.0, {1.0, 0.0, 0.0}, Vector3d(0.0, 0.0, 1.0)},
           {4.0, {1.0, 2.0, 0.0}, Vector3d(1.0, 0.0, 1.0)}};
 }
+
+ScriptedMotion Smooth() { return MakeMotion(Waypoints(), StartPose(), "motion", Pace::kSmooth); }
 
 /// Compares the velocities with the central difference of the pose.
 void ExpectTwistIsTheRateOfThePose(const ScriptedMotion& motion, double time) {
@@ -80,14 +88,21 @@ TEST(ScriptedMotionTest, HasTheRateOfItsPoseAsTwist) {
     ExpectTwistIsTheRateOfThePose(Make(Sinusoidal()), time);
     ExpectTwistIsTheRateOfThePose(Make(Circular()), time);
     ExpectTwistIsTheRateOfThePose(Make(Waypoints()), time);
+    ExpectTwistIsTheRateOfThePose(Make(Turning()), time);
+    ExpectTwistIsTheRateOfThePose(Make(Accelerating()), time);
+    ExpectTwistIsTheRateOfThePose(Smooth(), time);
   }
+  TurningScript straight = Turning();
+  straight.angular_velocity *= 1e-5;  // where the closed form would cancel
+  ExpectTwistIsTheRateOfThePose(Make(straight), 5.0);
   ExpectTwistIsTheRateOfThePose(Make(Waypoints()), 3.5);
   ExpectTwistIsTheRateOfThePose(Make(Waypoints()), 0.5);
 }
 
 TEST(ScriptedMotionTest, KnowsTheLargestSpeedsOfItsScript) {
   for (const ScriptedMotion& motion :
-       {Make(Linear()), Make(Sinusoidal()), Make(Circular()), Make(Waypoints())}) {
+       {Make(Linear()), Make(Sinusoidal()), Make(Circular()), Make(Waypoints()), Make(Turning()),
+        Make(Accelerating()), Smooth()}) {
     double fastest = 0.0, turning = 0.0;
     for (int i = -20000; i < 20000; ++i) {
       const BodyState state = motion(1e-3 * i);
@@ -111,6 +126,54 @@ TEST(ScriptedMotionTest, LinearMovesBetweenStartAndStopOnly) {
   EXPECT_EQ(motion(2.999).linear, Vector3d(0.1, -0.2, 0.3));
   EXPECT_EQ(motion(3.0).linear, Vector3d::Zero());
   EXPECT_EQ(motion(3.0).angular, Vector3d::Zero());
+}
+
+TEST(ScriptedMotionTest, TurningGoesOnAnArcAndTurnsWithIt) {
+  // A quarter turn to the left with 1 m/s and 0.5 rad/s: 2 m ahead, 2 m to the left.
+  const ScriptedMotion motion =
+      Make(TurningScript{Vector3d(1.0, 0.0, 0.0), Vector3d(0.0, 0.0, 0.5), 1.0, {}});
+  const double quarter = 1.0 + std::numbers::pi;
+  EXPECT_NEAR((motion(quarter).X_FO.translation() - Vector3d(3.0, 4.0, 3.0)).norm(), 0.0, 1e-14);
+  EXPECT_NEAR((motion(quarter).linear - Vector3d(0.0, 1.0, 0.0)).norm(), 0.0, 1e-14);
+  EXPECT_EQ(motion(0.9).linear, Vector3d::Zero());
+  EXPECT_EQ(Make(Turning())(9.0).angular, Vector3d::Zero());
+  EXPECT_GT(Make(Turning())(8.999).angular.norm(), 0.8);
+}
+
+TEST(ScriptedMotionTest, AcceleratingGoesOnAsFastAsItGot) {
+  const ScriptedMotion fall =
+      Make(AcceleratingScript{Vector3d::Zero(), Vector3d(0.0, 0.0, -10.0), 1.0, 1.5});
+  EXPECT_EQ(fall(1.0).X_FO.translation(), Vector3d(1.0, 2.0, 3.0));
+  EXPECT_NEAR((fall(1.4).X_FO.translation() - Vector3d(1.0, 2.0, 2.2)).norm(), 0.0, 1e-14);
+  EXPECT_NEAR((fall(1.4).linear - Vector3d(0.0, 0.0, -4.0)).norm(), 0.0, 1e-14);
+  EXPECT_NEAR((fall(2.5).X_FO.translation() - Vector3d(1.0, 2.0, 3.0 - 1.25 - 5.0)).norm(), 0.0,
+              1e-14);
+  EXPECT_NEAR(fall(2.5).linear.z(), -5.0, 1e-14);
+  EXPECT_NEAR(fall.fastest, 5.0, 1e-14);
+}
+
+TEST(ScriptedMotionTest, SmoothRestsAtWaypointsAndIsFastestBetween) {
+  EXPECT_NEAR(Smooth()(1.0 + 1e-9).linear.norm(), 0.0, 1e-12);
+  EXPECT_NEAR(Smooth()(3.0 - 1e-6).linear.norm(), 0.0, 1e-9);
+  EXPECT_NEAR(Smooth()(2.0).linear.x(), 1.875 * 0.5, 1e-14);
+  EXPECT_NEAR(Smooth()(2.0).X_FO.translation().x(), 0.5, 1e-14);
+  // A quarter of the time: 10/64 - 15/256 + 6/1024 of the way.
+  EXPECT_NEAR(Smooth()(1.5).X_FO.translation().x(), 0.103515625, 1e-14);
+  EXPECT_EQ(Smooth()(9.0).X_FO.translation(), Vector3d(1.0, 2.0, 0.0));
+}
+
+TEST(ScriptedMotionTest, TurningAndAcceleratingRefuseWhatIsNoSpanAndNoNumber) {
+  TurningScript turning = Turning();
+  turning.stop = 1.0;
+  EXPECT_THAT(RefusalOf(turning), HasSubstr("motion.stop: got 1 s; expected more than start, 1 s"));
+  turning.stop.reset();
+  turning.angular_velocity.x() = kNaN;
+  EXPECT_THAT(RefusalOf(turning), HasSubstr("NaN"));
+  AcceleratingScript accelerating = Accelerating();
+  accelerating.stop = 0.5;
+  EXPECT_THAT(RefusalOf(accelerating), HasSubstr("motion.stop: got 0.5 s"));
+  accelerating.stop = std::numeric_limits<double>::infinity();
+  EXPECT_THAT(RefusalOf(accelerating), HasSubstr("motion.stop"));
 }
 
 TEST(ScriptedMotionTest, LinearRotatesAboutItsOrigin) {

@@ -33,6 +33,7 @@ std::vector<robot::PlacedBody> Clutter(unsigned seed, double size = 1.0) {
         geometry::MakeCollider(random.RandomShape(i % geometry::RandomBodies::kKinds), "solid")};
     body.X_WO = random.Pose(1.0);
     body.X_WO.translation() = size * random.Uniform(0.3, 1.1) * random.Direction();
+    if (i % 4 == 0) body.covariance = Eigen::Vector3d(1e-4, 0.0, 4e-4).asDiagonal();
     bodies.push_back(body);
   }
   robot::PlacedBody floor{geometry::MakeCollider(geometry::HalfSpace{}, "floor")};

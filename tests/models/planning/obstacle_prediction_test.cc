@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 namespace oca::planning {
@@ -11,6 +12,7 @@ namespace obstacle_prediction_test {
 using Eigen::Vector3d;
 using geometry::Obstacle;
 using geometry::ObstacleBody;
+using geometry::ObstacleEstimate;
 
 Obstacle At(const Vector3d& p, const Vector3d& linear = Vector3d::Zero(),
             const Vector3d& angular = Vector3d::Zero()) {
@@ -46,11 +48,89 @@ TEST(ObstaclePredictionTest, TheSameStandingIsAtTheSamePlaceAtRest) {
 
 TEST(ObstaclePredictionTest, IsAsForeseenWithinFiveMillimetresNowAndSoon) {
   const std::vector<Obstacle> seen{At({0, 0, 0}, {0.1, 0, 0})};
-  EXPECT_TRUE(AsForeseen(seen, {At({0.0549, 0, 0}, {0.1, 0, 0})}, 0.5));
-  EXPECT_FALSE(AsForeseen(seen, {At({0.0551, 0, 0}, {0.1, 0, 0})}, 0.5));
-  EXPECT_TRUE(AsForeseen(seen, {At({0.05, 0, 0}, {0.116, 0, 0})}, 0.5));  // 0.3 s of 0.016 m/s
-  EXPECT_FALSE(AsForeseen(seen, {At({0.05, 0, 0}, {0.117, 0, 0})}, 0.5));
-  EXPECT_FALSE(AsForeseen(seen, {}, 0.5));
+  EXPECT_TRUE(AsForeseen({seen}, {std::vector{At({0.0549, 0, 0}, {0.1, 0, 0})}}, 0.5));
+  EXPECT_FALSE(AsForeseen({seen}, {std::vector{At({0.0551, 0, 0}, {0.1, 0, 0})}}, 0.5));
+  EXPECT_TRUE(AsForeseen({seen}, {std::vector{At({0.05, 0, 0}, {0.116, 0, 0})}},
+                         0.5));  // 0.3 s of 0.016 m/s
+  EXPECT_FALSE(AsForeseen({seen}, {std::vector{At({0.05, 0, 0}, {0.117, 0, 0})}}, 0.5));
+  EXPECT_FALSE(AsForeseen({seen}, {std::vector<Obstacle>{}}, 0.5));
+}
+
+ObstacleEstimate Estimated(const Vector3d& acceleration, double sigma = 0.0) {
+  ObstacleEstimate estimate;
+  estimate.acceleration = acceleration;
+  estimate.covariance.diagonal().setConstant(sigma * sigma);
+  return estimate;
+}
+
+TEST(ObstaclePredictionTest, WithoutAnAccelerationTheLikelyWayIsStraight) {
+  const Obstacle obstacle = At({1, 2, 3}, {0.5, 0, 0}, {0, 0, 1});
+  const LikelyState likely = LikelyAhead(obstacle, Estimated(Vector3d::Zero()), 0.7);
+  EXPECT_EQ(likely.X_WO.matrix(), Foreseen(obstacle, 0.7).matrix());
+  EXPECT_EQ(likely.linear, obstacle.linear);
+}
+
+TEST(ObstaclePredictionTest, WhatTurnsGoesOnOnItsCircleUpToTwoRadians) {
+  // 1 m/s on a circle of 0.5 m: 2 m/s^2 across.
+  const Obstacle obstacle = At({0.5, 0, 0}, {0, 1, 0});
+  const ObstacleEstimate estimate = Estimated({-2, 0, 0});
+  for (const double t : {1e-4, 0.1, 0.5, 0.99}) {
+    const LikelyState likely = LikelyAhead(obstacle, estimate, t);
+    const Vector3d p(0.5 * std::cos(2 * t), 0.5 * std::sin(2 * t), 0);
+    const Vector3d v(-std::sin(2 * t), std::cos(2 * t), 0);
+    EXPECT_NEAR((likely.X_WO.translation() - p).norm(), 0.0, 1e-7) << t;
+    EXPECT_NEAR((likely.linear - v).norm(), 0.0, 1e-3) << t;
+  }
+  const LikelyState one = LikelyAhead(obstacle, estimate, 1.0);
+  const LikelyState two = LikelyAhead(obstacle, estimate, 2.0);
+  EXPECT_NEAR((two.linear - one.linear).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((two.X_WO.translation() - one.X_WO.translation() - one.linear).norm(), 0.0, 1e-12);
+}
+
+TEST(ObstaclePredictionTest, WhatBrakesStopsAndDoesNotComeBack) {
+  const Obstacle obstacle = At({0, 0, 0}, {1, 0, 0});
+  const ObstacleEstimate estimate = Estimated({-4, 0, 0});
+  const LikelyState late = LikelyAhead(obstacle, estimate, 5.0);
+  EXPECT_NEAR(late.linear.norm(), 0.0, 1e-12);
+  // It stands when 1 = 4 0.5 (1 - exp(-t / 0.5)), t = 0.5 ln 2.
+  const double stop = 0.5 * std::log(2.0);
+  EXPECT_NEAR(late.X_WO.translation().x(), stop - 2.0 * (stop - 0.25), 1e-12);
+  EXPECT_NEAR(LikelyAhead(obstacle, estimate, 0.01).X_WO.translation().x(), 0.01 - 2e-4, 2e-6);
+}
+
+TEST(ObstaclePredictionTest, WhatFallsKeepsFalling) {
+  const LikelyState likely = LikelyAhead(At({0, 0, 2}, {1, 0, -1}), Estimated({0.1, 0, -9.7}), 0.5);
+  EXPECT_NEAR((likely.X_WO.translation() - Vector3d(0.5125, 0, 2 - 0.5 - 1.2125)).norm(), 0.0,
+              1e-12);
+  EXPECT_NEAR(likely.linear.z(), -1 - 4.85, 1e-12);
+}
+
+TEST(ObstaclePredictionTest, UncertaintyGrowsForThreeTenthsOfASecond) {
+  const ObstacleEstimate estimate = Estimated(Vector3d::Zero(), 0.1);
+  EXPECT_NEAR(CovarianceAhead(estimate, 0.0)(0, 0), 0.01, 1e-15);
+  EXPECT_NEAR(CovarianceAhead(estimate, 0.2)(1, 1), 0.01 * (1 + 0.04), 1e-15);
+  EXPECT_EQ(CovarianceAhead(estimate, 2.0), CovarianceAhead(estimate, 0.3));
+}
+
+TEST(ObstaclePredictionTest, WhatWasEstimatedMayBeOffByWhatItIsUncertain) {
+  const std::vector<Obstacle> seen{At({0, 0, 0}, {0.1, 0, 0})};
+  const std::vector<Obstacle> off{At({0.058, 0, 0}, {0.1, 0, 0})};
+  const std::vector<ObstacleEstimate> sure{Estimated(Vector3d::Zero())};
+  const std::vector<ObstacleEstimate> unsure{Estimated(Vector3d::Zero(), 0.001)};
+  EXPECT_FALSE(AsForeseen({seen, sure}, {off, sure}, 0.5));
+  EXPECT_TRUE(AsForeseen({seen, unsure}, {off, unsure}, 0.5));  // 3 sqrt(3.27) mm more
+  const std::vector<Obstacle> still{At({0, 0, 0})};
+  const std::vector<Obstacle> beside{At({0.004, 0, 0})};
+  EXPECT_FALSE(SameStanding(still, beside, sure));
+  EXPECT_TRUE(SameStanding(still, beside, unsure));
+}
+
+TEST(ObstaclePredictionTest, NothingIsForeseenOfAVelocityThatIsNotKnown) {
+  std::vector<Obstacle> seen{At({0, 0, 0})};
+  EXPECT_TRUE(AsForeseen({seen}, {seen}, 0.1));
+  seen[0].velocity_known = false;
+  EXPECT_FALSE(AsForeseen({seen}, {seen}, 0.1));
+  EXPECT_FALSE(Stands(seen[0]));
 }
 
 }  // namespace obstacle_prediction_test

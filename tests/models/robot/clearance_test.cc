@@ -33,6 +33,20 @@ TEST(ClearanceTest, OfAStretchedArmIsTheGapBeforeItsEnd) {
   EXPECT_EQ(clearance.model().links()[nearest.link].name.text(), "planar2_link_2");
 }
 
+TEST(ClearanceTest, WhatIsUncertainIsNearerAlongTheNormal) {
+  Clearance clearance(planning::test::Arm("planar2"), false,
+                      {planning::test::BoxAt({0.2, 0.2, 0.2}, {1.2, 0.0, 0.0})});
+  clearance.MoveTo(Eigen::Vector2d::Zero());
+  const NearPair known = clearance.Nearest();
+  clearance.SetCovariance(0, Eigen::Vector3d(0.01 * 0.01, 1.0, 1.0).asDiagonal());
+  const NearPair pair = clearance.Nearest();
+  EXPECT_NEAR(pair.distance, known.distance - 0.03, 1e-9);
+  EXPECT_NEAR(pair.point_on_other.x(), known.point_on_other.x() - 0.03, 1e-9);
+  EXPECT_TRUE(clearance.NearerThan(pair.distance + 1e-9));
+  EXPECT_FALSE(clearance.NearerThan(pair.distance - 1e-9));
+  EXPECT_EQ(clearance.Nearest(pair.distance - 1e-6).distance, kUnlimited);
+}
+
 TEST(ClearanceTest, TellsNearerFromFartherOnBothSidesOfTheDistance) {
   Clearance clearance(planning::test::Arm("planar2"), false, planning::test::Post());
   clearance.MoveTo(Eigen::Vector2d(0.3, 0.1));

@@ -28,10 +28,13 @@ using Params = BulletDistance::Params;
 /// Planar arm stretched along x: capsules of radius 0.05 from 0 to 0.5 and from 0.5 to 0.9.
 class PlanarDistanceTest : public ::testing::Test {
  protected:
-  ProximitySet Near(Params params, const std::vector<Obstacle>& obstacles) {
+  ProximitySet Near(Params params, const std::vector<Obstacle>& obstacles,
+                    const std::vector<ObstacleEstimate>& estimates = {}) {
     SystemBench<BulletDistance> bench(params, TestModels("planar2"));
     bench->links.Fix(bench.context(), LinksAt(*LoadTestModel("planar2"), Eigen::Vector2d::Zero()));
-    bench->obstacles.Fix(bench.context(), ObstacleSet{obstacles});
+    ObstacleSet set{obstacles};
+    set.estimates = estimates;
+    bench->obstacles.Fix(bench.context(), set);
     return bench->proximities.Eval(bench.context());
   }
 };
@@ -58,6 +61,33 @@ TEST_F(PlanarDistanceTest, LeavesOutPairsBeyondMaxDistanceOnly) {
   const std::vector<Obstacle> ball{Ball("ball", Vector3d(0.7, 0.4, 0.0))};
   EXPECT_EQ(Near({.max_distance = 0.2501}, ball).proximities.size(), 1u);
   EXPECT_EQ(Near({.max_distance = 0.2499}, ball).proximities.size(), 0u);
+}
+
+TEST_F(PlanarDistanceTest, WhatIsUncertainIsNearerByThreeStandardDeviationsAlongTheNormal) {
+  const std::vector<Obstacle> ball{Ball("ball", Vector3d(0.7, 0.4, 0.0))};
+  ObstacleEstimate estimate;
+  estimate.covariance(2, 2) = 1.0;  // sideways: does not count
+  estimate.covariance(1, 1) = 0.02 * 0.02;
+  const ProximitySet set = Near({.max_distance = 1.0}, ball, {estimate});
+  const Proximity& fore = set.proximities[1];
+  EXPECT_NEAR(fore.distance, 0.25 - 0.06, 1e-12);
+  EXPECT_NEAR((fore.point_on_obstacle - Vector3d(0.7, 0.24, 0.0)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((fore.point_on_link - Vector3d(0.7, 0.05, 0.0)).norm(), 0.0, 1e-12);
+  EXPECT_EQ(Near({.max_distance = 0.1901}, ball, {estimate}).proximities.size(), 1u);
+  EXPECT_EQ(Near({.max_distance = 0.1899}, ball, {estimate}).proximities.size(), 0u);
+}
+
+TEST_F(PlanarDistanceTest, NothingIsProvenByAVelocityThatIsNotKnown) {
+  std::vector<Obstacle> ball{Ball("ball", Vector3d(0.7, 0.4, 0.0))};
+  EXPECT_EQ(Near({.max_distance = 1.0}, ball).proximities[0].obstacle_speed, 0.0);
+  ball[0].velocity_known = false;
+  const ProximitySet set = Near({.max_distance = 1.0}, ball);
+  EXPECT_EQ(set.proximities[0].obstacle_speed, kAnySpeed);
+  EXPECT_EQ(set.fastest, kAnySpeed);
+  ObstacleBody body = *ball[0].body;
+  body.fastest = 2.0;
+  ball[0].body = std::make_shared<const ObstacleBody>(body);
+  EXPECT_EQ(Near({.max_distance = 1.0}, ball).proximities[0].obstacle_speed, 2.0);
 }
 
 TEST_F(PlanarDistanceTest, OrdersByLinkAndThenByObstacle) {

@@ -94,12 +94,26 @@ TEST(ObstacleMotionTest, IsTheScriptOfItsType) {
              make(motion::SinusoidalScript{Vector3d(0.0, 0.2, 0.1), 0.5, 0.25}));
   ExpectSame(Make(Circular()),
              make(motion::CircularScript{Vector3d(0.0, 2.0, 3.0), Vector3d(0.0, 0.0, 2.0), 0.5}));
+  MotionParams turning = Linear();
+  turning.type = MotionType::kTurning;
+  ExpectSame(Make(turning), make(motion::TurningScript{Vector3d(0.1, -0.2, 0.3),
+                                                       Vector3d(0.0, 0.4, -0.3), 1.0, 3.0}));
+  MotionParams falling;
+  falling.type = MotionType::kAccelerating;
+  falling.acceleration = Vector3d(0.0, 0.0, -9.8);
+  falling.stop = 2.0;
+  ExpectSame(Make(falling), make(motion::AcceleratingScript{Vector3d::Zero(),
+                                                            Vector3d(0.0, 0.0, -9.8), 0.0, 2.0}));
   std::vector<motion::Waypoint> waypoints;
   const MotionParams params = Waypoints();
   for (const WaypointParams& point : *params.waypoints) {
     waypoints.push_back({point.time, point.xyz, point.rpy});
   }
   ExpectSame(Make(Waypoints()), make(waypoints));
+  MotionParams smooth = Waypoints();
+  smooth.smooth = true;
+  ExpectSame(Make(smooth),
+             motion::MakeMotion(waypoints, StartPose(), "motion", motion::Pace::kSmooth));
 }
 
 TEST(ObstacleMotionTest, FollowsTheRowsOfATable) {

@@ -104,9 +104,34 @@ TEST(ObstacleSensorTest, MovesPosesByNoiseOfTheGivenSize) {
   EXPECT_NE(shown, Shown(other, 2000));
 }
 
-TEST(ObstacleSensorTest, RefusesALatencyBetweenPeriodsAndTimesOutOfOrder) {
-  EXPECT_THAT(RefusalOf({.period = Period(1, 100), .latency = Period(15, 1000)}),
+TEST(ObstacleSensorTest, ACameraShowsPosesBetweenItsTicksAndNoVelocities) {
+  DiagramBuilder builder;
+  const auto& source = builder.Add<ObstacleSource>("source", Ball());
+  const auto& camera = builder.Add<ObstacleSensor>(
+      "camera", ObstacleSensor::Params{
+                    .period = Period(1, 30), .latency = Period(1, 20), .velocities = false});
+  builder.Connect(source.obstacles, camera.in);
+  const auto diagram = builder.Build();
+  Simulator simulator(*diagram);
+  simulator.Initialize();
+  simulator.AdvanceTo(0.049);
+  EXPECT_TRUE(camera.obstacles.Eval(simulator.context()).obstacles.empty());
+  for (int k = 0; k < 20; ++k) {  // sample k, of k/30 s, comes in 0.05 s later and stays 1/30 s
+    simulator.AdvanceTo((2.0 * k + 3.0) / 60.0 + (k % 2 == 0 ? 0.0 : 0.033));
+    const auto& set = camera.obstacles.Eval(simulator.context());
+    ASSERT_EQ(set.obstacles.size(), 1u);
+    const double sampled = std::floor(100.0 * k / 30.0 + 1e-9) / 100.0;  // of the source's own
+    EXPECT_NEAR(set.obstacles[0].X_WO.translation().x(), sampled, 1e-12) << k;
+    EXPECT_FALSE(set.obstacles[0].velocity_known);
+    EXPECT_EQ(set.obstacles[0].linear, Eigen::Vector3d::Zero());
+    EXPECT_NEAR(*set.stamp, k / 30.0 + 0.05, 1e-12);
+  }
+}
+
+TEST(ObstacleSensorTest, RefusesALatencyOfTooManyStepsAndTimesOutOfOrder) {
+  EXPECT_THAT(RefusalOf({.period = Period(1, 100), .latency = Period(100001, 1000000)}),
               HasSubstr("latency: got"));
+  EXPECT_EQ(RefusalOf({.period = Period(1, 100), .latency = Period(15, 1000)}), "accepted");
   EXPECT_THAT(RefusalOf({.period = Period(1, 100), .latency = Period(1001, 100)}),
               HasSubstr("at most 1000"));
   EXPECT_EQ(RefusalOf({.period = Period(1, 100), .latency = Period(10, 1)}), "accepted");

@@ -85,6 +85,42 @@ TEST(SignalChecksTest, ObstaclesHaveNamesAndNoneTwice) {
   EXPECT_THAT(Whole(many), StrEq("obstacle 4321: id; got 'ball17' again; expected unique ids"));
 }
 
+TEST(SignalChecksTest, AVelocityThatIsNotKnownIsWrittenAsZero) {
+  EXPECT_EQ(Spoilt([](Obstacle& o) { o.velocity_known = false; }), "");
+  EXPECT_THAT(Spoilt([](Obstacle& o) {
+                o.velocity_known = false;
+                o.angular.x() = 1e-9;
+              }),
+              HasSubstr("velocity; got one that is not known; expected zeros"));
+}
+
+TEST(SignalChecksTest, AnEstimateHasACovarianceAndAnAge) {
+  ObstacleSet set{{Ball("ball"), Ball("other")}};
+  set.estimates.resize(2);
+  EXPECT_TRUE(Passes(set));
+  const auto spoilt = [&](const auto& change) {
+    ObstacleSet bad = set;
+    change(bad.estimates[1]);
+    return Whole(bad);
+  };
+  EXPECT_EQ(spoilt([](ObstacleEstimate& e) { e.covariance.setConstant(1.0); }), "");  // of rank 1
+  EXPECT_THAT(spoilt([](ObstacleEstimate& e) { e.covariance(2, 2) = -1e-12; }),
+              HasSubstr("obstacle 'other': covariance; got a matrix that is not positive"));
+  EXPECT_THAT(spoilt([](ObstacleEstimate& e) {
+                e.covariance.setIdentity();
+                e.covariance(0, 1) = 0.1;
+              }),
+              HasSubstr("not symmetric"));
+  EXPECT_EQ(spoilt([](ObstacleEstimate& e) { e.age = 0.0; }), "");
+  EXPECT_THAT(spoilt([](ObstacleEstimate& e) { e.age = -1e-9; }), HasSubstr("age; got -1e-09 s"));
+  EXPECT_THAT(spoilt([](ObstacleEstimate& e) { e.acceleration.x() = 1.1e6; }),
+              HasSubstr("acceleration"));
+  EXPECT_THAT(spoilt([](ObstacleEstimate& e) { e.covariance(0, 0) = std::nan(""); }),
+              HasSubstr("NaN"));
+  set.estimates.resize(1);
+  EXPECT_THAT(Whole(set), HasSubstr("got 2 obstacles and 1 estimates"));
+}
+
 TEST(SignalChecksTest, WhatOnlyTheInsideMaySayIsDroppedAtTheDoor) {
   ObstacleSet set{{Ball("ball")}, 7, {0, 5}};
   Signal<ObstacleSet>::FromOutside(set);
