@@ -2,7 +2,7 @@
 //
 // Rows planning/check/ARM: is a configuration clear, by BatchClearance, eight at once, of random
 // ones within the joint limits, own links counted; its peers .../exact, the exact distances alone,
-// and .../balls, what the balls alone can decide. Time is that of one configuration. Counters:
+// and .../balls, what the balls alone can decide. Counters: `ns` for a configuration,
 // `balls` that contain the links, `clear` share of configurations, `undecided` share that the balls
 // left to the exact distances.
 
@@ -70,8 +70,8 @@ void OverConfigurations(benchmark::State& state, const std::string& arm, const C
     }
   }
   const double count = 1.0 * kBatches * kLanes * static_cast<double>(state.iterations());
-  state.counters["per_configuration"] =
-      benchmark::Counter(count, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["ns"] =
+      benchmark::Counter(1e-9 * count, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
   state.counters["clear"] = clear / count;
   state.counters["balls"] = batch.num_balls();
   if (batch.looked_at() > 0) {
