@@ -8,6 +8,7 @@
 #   tsan       the tests that use threads under the thread sanitizer
 #   fuzz       readers are fuzzed (tools/fuzz.sh)
 #   campaigns  the recommended method stays clear in random scenarios, and other methods end
+#   bench      the benchmarks build, and each row of them runs
 #   package    what is installed serves a program outside the tree
 #   coverage   how many lines the tests run (tools/coverage.sh), for the reader
 # All sections without names, in this order.
@@ -16,9 +17,9 @@
 # Prints a line a section: pass or FAIL, its seconds, and where its log is; exit status 1 if one fails.
 set -uo pipefail
 cd "$(dirname "$0")/.."
-sections=(headers clang tidy asan tsan fuzz campaigns package coverage)
+sections=(headers clang tidy asan tsan fuzz campaigns bench package coverage)
 fuzz_seconds=30 samples=20
-usage() { sed -n 's/^# \?//p' "$0" | sed -n 3,17p >&2; exit "$1"; }
+usage() { sed -n 's/^# \?//p' "$0" | sed -n 3,18p >&2; exit "$1"; }
 chosen=()
 while [ $# -gt 0 ]; do
   case $1 in
@@ -80,6 +81,13 @@ campaigns() {
       }' "$results/$family.json" "$family"
   done
   rm -rf "$results"
+}
+
+bench() {
+  tools/setup.sh --packages
+  cmake --preset bench
+  cmake --build --preset bench --target oca_bench
+  build/bench/tools/bench/oca_bench --benchmark_min_time=0.001
 }
 
 package() {
