@@ -209,17 +209,16 @@ void ObstacleTracker::CalcTracks(double time, const ObstacleSet& set, const Trac
   result.tracks.reserve(2 * static_cast<std::size_t>(params_.most_bodies));
   result.tracks.clear();
   for (const TrackMemory::Body& body : looked.bodies) {
-    const auto& modes = body.track.modes;
-    result.tracks.push_back({body.body->id,
-                             body.state,
-                             std::max(time - body.track.time, 0.0),
-                             body.track.nis,
-                             {modes[0].weight, modes[1].weight, modes[2].weight, modes[3].weight}});
+    TrackReport report{body.body->id, body.state, std::max(time - body.track.time, 0.0),
+                       body.track.nis};
+    for (int i = 0; i < sensing::BodyTrack::kModes; ++i) {
+      report.weights[i] = body.track.modes[static_cast<std::size_t>(i)].weight;
+    }
+    result.tracks.push_back(report);
   }
   const double age = std::max(time - SampledAt(time, set), 0.0);
   ForUntracked(set, looked, [&](const Obstacle& obstacle) {
-    result.tracks.push_back(
-        {obstacle.body->id, TrackState::kNotTracked, age, 0.0, Eigen::Vector4d::Zero()});
+    result.tracks.push_back({obstacle.body->id, TrackState::kNotTracked, age});
   });
 }
 

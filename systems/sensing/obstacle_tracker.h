@@ -50,9 +50,9 @@ class ObstacleTracker final : public System {
  public:
   static constexpr SystemDoc kDoc{
       "estimates how obstacles move from their poses, as a camera tells them",
-      "interacting multiple model of four Kalman filters a body: rests, p'' = w, p''' = -turn^2 "
-      "p' "
-      "+ w; foreseen by latency",
+      "interacting multiple model of five Kalman filters a body: rests, p'' = w, p''' = -turn^2 p' "
+      "+ w "
+      "twice, p'' = g + w; foreseen by latency",
       "Blom, Bar-Shalom 1988, The interacting multiple model algorithm"};
   struct Params {
     Period period{};
