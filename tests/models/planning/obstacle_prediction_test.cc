@@ -139,7 +139,9 @@ std::vector<ObstacleEstimate> LookAtSpeeds(const std::vector<double>& speeds) {
 }
 
 TEST(ObstaclePredictionTest, AnAccelerationIsWhatTwoLooksAgreeOn) {
-  EXPECT_TRUE(LookAtSpeeds({0.0, -0.2}).empty());  // one look
+  EXPECT_TRUE(LookAtSpeeds({0.0, -0.1}).empty());                    // one look
+  EXPECT_FALSE(LookAtSpeeds({0.0, -0.02 * (9.81 + 0.99)}).empty());  // falls
+  EXPECT_TRUE(LookAtSpeeds({0.0, -0.02 * (9.81 + 1.01)}).empty());
   const auto falls = LookAtSpeeds({0.0, -0.2, -0.4});
   ASSERT_EQ(falls.size(), 1u);
   EXPECT_NEAR(falls[0].acceleration.z(), -10.0, 1e-12);
