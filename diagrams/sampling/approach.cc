@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kGravity = 9.80665;  // m/s^2
-constexpr double kLongest = 3.0;      // s; for which something gets faster beyond its aim
+constexpr double kBeyond = 0.1;       // s; for which something gets faster beyond its aim
 constexpr double kPeak = 1.875;       // largest speed of a smooth reach, of its mean
 constexpr double kThickness = 0.04;   // m; of a jaw
 
@@ -200,7 +200,7 @@ Value Approach::MotionOf(const Course& course, models::Random& random, const Tre
                        {"velocity", tree.List(falls ? Vector3d(Vector3d::Zero()) : velocity)},
                        {"acceleration", tree.List(-course.acceleration * course.from)},
                        {"start", start},
-                       {"stop", tree.Number(course.arrival() + (falls ? kLongest : 0.5))}});
+                       {"stop", tree.Number(course.arrival() + kBeyond)}});
     }
     case Manner::kOscillating: {
       const double frequency = course.speed / (2.0 * std::numbers::pi * course.distance);

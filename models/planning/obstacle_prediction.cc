@@ -123,12 +123,14 @@ std::vector<ObstacleEstimate> Accelerations(const std::vector<Obstacle>& before,
     if (!(rate.norm() <= kMostRate)) rate.setZero();
     next.bodies.push_back(body);
     next.rates.push_back(rate);
+    const bool falls = (rate - kGravity).norm() <= kSameRate;  // what else would change so?
     const auto last = std::find(changes.bodies.begin(), changes.bodies.end(), body);
-    if (last == changes.bodies.end() || rate.isZero(0.0)) continue;
-    const Vector3d& earlier =
-        changes.rates[static_cast<std::size_t>(last - changes.bodies.begin())];
-    if (earlier.isZero(0.0) || (rate - earlier).norm() > kSameRate + kSameShare * rate.norm()) {
-      continue;
+    if (rate.isZero(0.0) || (!falls && last == changes.bodies.end())) continue;
+    if (!falls) {
+      const auto at = static_cast<std::size_t>(last - changes.bodies.begin());
+      const Vector3d& earlier = changes.rates[at];
+      const double same = kSameRate + kSameShare * rate.norm();
+      if (earlier.isZero(0.0) || (rate - earlier).norm() > same) continue;
     }
     estimates[i].acceleration = rate;
     any = true;

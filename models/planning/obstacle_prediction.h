@@ -37,7 +37,8 @@ struct VelocityChanges {
 };
 /// Estimates without covariance of what was seen `dt` s before too, with the acceleration that its
 /// velocity shows at two looks, one after the other: to within 1 m/s^2 and a fifth, so that no jump
-/// counts; what changes by more than 20 m/s^2 is one. None if nothing accelerates. `changes` goes
+/// counts; what changes by more than 20 m/s^2 is one. A fall, to within 1 m/s^2 of gravity, counts at
+/// the first look. None if nothing accelerates. `changes` goes
 /// from look to look.
 std::vector<geometry::ObstacleEstimate> Accelerations(const std::vector<geometry::Obstacle>& before,
                                                       const std::vector<geometry::Obstacle>& now,

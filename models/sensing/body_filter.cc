@@ -18,8 +18,9 @@ constexpr double kSurelyRests = 0.9;
 constexpr double kFastestTurn = 8.0;        // rad/s
 constexpr double kSlow = 0.05;              // m/s; below it nothing is known of a turn
 constexpr double kFirstAcceleration = 2.0;  // m/s^2; standard deviation
-constexpr int kRests = 0, kStraight = 1, kTurns = 2, kErratic = 3;
-constexpr std::array kFirstWeights{0.5, 0.35, 0.05, 0.1};
+const Vector3d kGravity(0.0, 0.0, -9.81);   // m/s^2; z is up
+constexpr int kRests = 0, kStraight = 1, kTurns = 2, kErratic = 3, kFalls = 4;
+constexpr std::array kFirstWeights{0.5, 0.3, 0.05, 0.1, 0.05};
 
 /// The same 3 x 3 of each axis, as a matrix of position, velocity, acceleration.
 BodyTrack::Covariance OfAxes(const Matrix3d& of_one) {
@@ -42,10 +43,10 @@ Matrix3d TurnTransition(double dt, double w) {
 }
 
 Matrix3d Transition(int mode, double dt, double turn) {
-  if (mode >= kTurns) return TurnTransition(dt, turn);
+  if (mode == kTurns || mode == kErratic) return TurnTransition(dt, turn);
   Matrix3d F = Matrix3d::Zero();
   F(0, 0) = 1.0;
-  if (mode == kStraight) {
+  if (mode != kRests) {
     F(0, 1) = dt;
     F(1, 1) = 1.0;
   }
@@ -59,7 +60,7 @@ Matrix3d Noise(int mode, double dt, const BodyFilterSettings& settings) {
   Matrix3d Q = Matrix3d::Zero();
   if (mode == kRests) {
     Q(0, 0) = kRestDensity * dt;
-  } else if (mode == kStraight) {
+  } else if (mode == kStraight || mode == kFalls) {
     Q.topLeftCorner<2, 2>() << dt3 / 3.0, dt2 / 2.0, dt2 / 2.0, dt;
     Q *= settings.acceleration_density;
   } else {
@@ -83,7 +84,9 @@ BodyTrack::Mode Moments(const std::array<BodyTrack::Mode, BodyTrack::kModes>& mo
 }
 
 BodyTrack::Mode Moments(const std::array<BodyTrack::Mode, BodyTrack::kModes>& modes) {
-  return Moments(modes, {modes[0].weight, modes[1].weight, modes[2].weight, modes[3].weight});
+  std::array<double, BodyTrack::kModes> weights;
+  for (int i = 0; i < BodyTrack::kModes; ++i) weights[i] = modes[i].weight;
+  return Moments(modes, weights);
 }
 
 Vector3d RotationVector(const Quaterniond& rotation) {
@@ -121,8 +124,9 @@ void BodyFilter::Start(double time, const Eigen::Isometry3d& X_WO, BodyTrack& tr
   P(0, 0) = settings_.position_noise * settings_.position_noise;
   for (int i = 0; i < BodyTrack::kModes; ++i) {
     BodyTrack::Mode& mode = track.modes[i];
-    if (i == kStraight) P(1, 1) = settings_.prior_speed * settings_.prior_speed;
-    if (i == kTurns) P(2, 2) = kFirstAcceleration * kFirstAcceleration;
+    if (i != kRests) P(1, 1) = settings_.prior_speed * settings_.prior_speed;
+    const bool any = i == kTurns || i == kErratic;
+    P(2, 2) = any ? kFirstAcceleration * kFirstAcceleration : 0.0;
     mode.mean.head<3>() = X_WO.translation();
     mode.covariance = OfAxes(P);
     mode.weight = kFirstWeights[i];
@@ -155,6 +159,11 @@ void BodyFilter::Advance(double dt, double turn, Modes& modes) const {
   for (int i = 0; i < BodyTrack::kModes; ++i) {
     const BodyTrack::Covariance F = OfAxes(Transition(i, dt, turn));
     modes[i].mean = (F * modes[i].mean).eval();
+    if (i == kFalls) {
+      modes[i].mean.head<3>() += 0.5 * dt * dt * kGravity;
+      modes[i].mean.segment<3>(3) += dt * kGravity;
+      modes[i].mean.tail<3>() = kGravity;
+    }
     modes[i].covariance =
         (F * modes[i].covariance * F.transpose()).eval() + OfAxes(Noise(i, dt, settings_));
   }
@@ -186,7 +195,7 @@ PoseUse BodyFilter::Update(double time, const Eigen::Isometry3d& X_WO, BodyTrack
     return PoseUse::kFirst;
   }
   if (turns) {
-    for (const int i : {kStraight, kTurns, kErratic})
+    for (int i = kStraight; i < BodyTrack::kModes; ++i)
       Widen(innovation.norm() / dt, dt, modes[i].covariance);
   }
   UpdatePosition(X_WO.translation(), track, modes);

@@ -35,7 +35,7 @@ enum class PoseUse {
 
 /// All that is known of one body.
 struct BodyTrack {
-  static constexpr int kModes = 4;  ///< rests, goes straight, turns or gets faster, is erratic
+  static constexpr int kModes = 5;           ///< as in BodyFilter
   using Mean = Eigen::Matrix<double, 9, 1>;  ///< position, velocity, acceleration
   using Covariance = Eigen::Matrix<double, 9, 9>;
   struct Mode {
@@ -57,14 +57,15 @@ struct BodyTrack {
 };
 
 /// Velocity, angular velocity, acceleration and covariances of a body from its poses: an interacting
-/// multiple model of four Kalman filters,
+/// multiple model of five Kalman filters,
 ///
 ///     rests               p' = w
 ///     goes straight       p'' = w                      w white, of the densities of the settings
 ///     turns, accelerates  p''' = -turn^2 p' + w        turn = |v x a| / |v|^2 of its own estimate
 ///     is erratic          the same with a larger w
+///     falls               p'' = g + w
 ///
-/// between which a body changes at the rates of the settings; for turn = 0 the last two are those of
+/// between which a body changes at the rates of the settings; for turn = 0 the third is that of
 /// constant acceleration. Rotations are filtered apart, with white angular acceleration.
 ///
 /// Poses are looked at in the order of their times. If the normalised innovation squared exceeds

@@ -17,11 +17,10 @@ using sensing::PoseUse;
 
 /// Its place in the memory, -1 if it is not there; `hint` is looked at first.
 int FindBody(const TrackMemory& memory, models::Name id, std::size_t hint) {
-  if (hint < memory.bodies.size() && memory.bodies[hint].body->id == id) {
-    return static_cast<int>(hint);
-  }
-  for (std::size_t i = 0; i < memory.bodies.size(); ++i) {
-    if (memory.bodies[i].body->id == id) return static_cast<int>(i);
+  const auto bodies = memory.bodies();
+  if (hint < bodies.size() && bodies[hint].body->id == id) return static_cast<int>(hint);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i].body->id == id) return static_cast<int>(i);
   }
   return -1;
 }
@@ -63,6 +62,20 @@ void ForUntracked(const ObstacleSet& set, const TrackMemory& memory, const Use& 
 }
 
 }  // namespace
+
+TrackMemory& TrackMemory::operator=(const TrackMemory& other) {
+  room_.resize(other.room_.size());
+  count_ = other.count_;
+  std::copy_n(other.room_.begin(), count_, room_.begin());
+  looked = other.looked;
+  return *this;
+}
+
+void TrackMemory::Forget(double time, double longest) {
+  const auto kept = std::remove_if(bodies().begin(), bodies().end(),
+                                   [&](const Body& body) { return time - body.seen > longest; });
+  count_ = static_cast<std::size_t>(kept - bodies().begin());
+}
 
 void ObstacleTracker::Params::Describe(Fields<Params>& fields) {
   using P = Params;
@@ -113,7 +126,7 @@ void ObstacleTracker::Params::Describe(Fields<Params>& fields) {
 ObstacleTracker::ObstacleTracker(const Params& params)
     : params_(Validated(params)),
       filter_(SettingsOf(params)),
-      memory_(DeclareDiscreteState("tracks", TrackMemory{})),
+      memory_(DeclareDiscreteState("tracks", TrackMemory(params.most_bodies))),
       in(DeclareInput<ObstacleSet>("in")),
       looked_(DeclareCached<&ObstacleTracker::CalcLooked>(kTime, in, memory_)),
       obstacles(DeclareOutput<ObstacleSet, &ObstacleTracker::CalcObstacles>("obstacles", {}, kTime,
@@ -135,17 +148,11 @@ double ObstacleTracker::SampledAt(double time, const ObstacleSet& set) const {
 
 void ObstacleTracker::CalcLooked(double time, const ObstacleSet& set, const TrackMemory& memory,
                                  TrackMemory& looked) const {
-  looked.bodies.reserve(static_cast<std::size_t>(params_.most_bodies));
   looked = memory;
-  if (set.obstacles.empty() && !set.stamp && memory.bodies.empty()) return;  // none came in yet
+  if (set.obstacles.empty() && !set.stamp && memory.bodies().empty()) return;  // none came in yet
   const double sampled = SampledAt(time, set);
   if (looked.looked && sampled <= *looked.looked) return;
   Look(sampled, set, looked);
-}
-
-void ObstacleTracker::Keep(const TrackMemory& looked, TrackMemory& memory) const {
-  memory.bodies.reserve(static_cast<std::size_t>(params_.most_bodies));
-  memory = looked;
 }
 
 void ObstacleTracker::Look(double sampled, const ObstacleSet& set, TrackMemory& memory) const {
@@ -155,20 +162,19 @@ void ObstacleTracker::Look(double sampled, const ObstacleSet& set, TrackMemory& 
     if (CameBefore(set, i)) continue;
     const int at = FindBody(memory, obstacle.body->id, i);
     if (at >= 0) {
-      See(sampled, obstacle, memory.bodies[static_cast<std::size_t>(at)]);
-    } else if (std::ssize(memory.bodies) < params_.most_bodies) {
-      TrackMemory::Body& body = memory.bodies.emplace_back();
+      See(sampled, obstacle, memory.bodies()[static_cast<std::size_t>(at)]);
+    } else if (!memory.full()) {
+      TrackMemory::Body& body = memory.Add();
       body.body = obstacle.body;
+      body.state = TrackState::kNew;
       body.seen = sampled;
       filter_.Start(sampled, obstacle.X_WO, body.track);
     }
   }
-  for (TrackMemory::Body& body : memory.bodies) {
+  for (TrackMemory::Body& body : memory.bodies()) {
     if (body.seen < sampled) body.state = TrackState::kLost;
   }
-  std::erase_if(memory.bodies, [&](const TrackMemory::Body& body) {
-    return sampled - body.seen > params_.keep_time;
-  });
+  memory.Forget(sampled, params_.keep_time);
 }
 
 void ObstacleTracker::See(double sampled, const Obstacle& obstacle, TrackMemory::Body& body) const {
@@ -183,12 +189,13 @@ void ObstacleTracker::CalcObstacles(double time, const ObstacleSet& set, const T
   const auto most = 2 * static_cast<std::size_t>(params_.most_bodies);
   result.obstacles.reserve(most);
   result.estimates.reserve(most);
-  result.obstacles.resize(looked.bodies.size());
-  result.estimates.resize(looked.bodies.size());
-  for (std::size_t i = 0; i < looked.bodies.size(); ++i) {
+  const auto bodies = looked.bodies();
+  result.obstacles.resize(bodies.size());
+  result.estimates.resize(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
     Obstacle& obstacle = result.obstacles[i];
-    if (obstacle.body != looked.bodies[i].body) obstacle.body = looked.bodies[i].body;
-    filter_.Tell(looked.bodies[i].track, time, obstacle, result.estimates[i]);
+    if (obstacle.body != bodies[i].body) obstacle.body = bodies[i].body;
+    filter_.Tell(bodies[i].track, time, obstacle, result.estimates[i]);
   }
   const double age = std::max(time - SampledAt(time, set), 0.0);
   ForUntracked(set, looked, [&](const Obstacle& untracked) {
@@ -208,18 +215,17 @@ void ObstacleTracker::CalcTracks(double time, const ObstacleSet& set, const Trac
                                  TrackSet& result) const {
   result.tracks.reserve(2 * static_cast<std::size_t>(params_.most_bodies));
   result.tracks.clear();
-  for (const TrackMemory::Body& body : looked.bodies) {
-    const auto& modes = body.track.modes;
-    result.tracks.push_back({body.body->id,
-                             body.state,
-                             std::max(time - body.track.time, 0.0),
-                             body.track.nis,
-                             {modes[0].weight, modes[1].weight, modes[2].weight, modes[3].weight}});
+  for (const TrackMemory::Body& body : looked.bodies()) {
+    TrackReport report{body.body->id, body.state, std::max(time - body.track.time, 0.0),
+                       body.track.nis};
+    for (int i = 0; i < sensing::BodyTrack::kModes; ++i) {
+      report.weights[i] = body.track.modes[static_cast<std::size_t>(i)].weight;
+    }
+    result.tracks.push_back(report);
   }
   const double age = std::max(time - SampledAt(time, set), 0.0);
   ForUntracked(set, looked, [&](const Obstacle& obstacle) {
-    result.tracks.push_back(
-        {obstacle.body->id, TrackState::kNotTracked, age, 0.0, Eigen::Vector4d::Zero()});
+    result.tracks.push_back({obstacle.body->id, TrackState::kNotTracked, age});
   });
 }
 
@@ -228,7 +234,7 @@ void ObstacleTracker::CalcTracks(double time, const ObstacleSet& set, const Trac
 namespace oca {
 
 Fault Signal<systems::TrackMemory>::Check(const systems::TrackMemory& memory, Look /*look*/) {
-  for (const systems::TrackMemory::Body& body : memory.bodies) {
+  for (const systems::TrackMemory::Body& body : memory.bodies()) {
     for (const sensing::BodyTrack::Mode& mode : body.track.modes) {
       if (AllFinite(mode.mean.data(), 9) && AllFinite(mode.covariance.data(), 81)) continue;
       return FaultOf("track '{}': got a NaN or an infinity; expected finite numbers",

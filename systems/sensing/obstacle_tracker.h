@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "oca/framework/dataflow/params.h"
@@ -13,16 +14,33 @@
 
 namespace oca::systems {
 
-/// The bodies that an ObstacleTracker has in sight.
-struct TrackMemory {
+/// The bodies that an ObstacleTracker has in sight, in room for a fixed number: a copy takes no memory
+/// after the first one, and no time for room that is empty.
+class TrackMemory {
+ public:
   struct Body {
     std::shared_ptr<const ObstacleBody> body;
     sensing::BodyTrack track;
     TrackState state{TrackState::kNew};
     double seen{0.0};  ///< s; time of its last pose, used or not
   };
-  std::vector<Body> bodies;
+  explicit TrackMemory(int most = 0) : room_(static_cast<std::size_t>(most)) {}
+  TrackMemory(const TrackMemory&) = default;
+  TrackMemory& operator=(const TrackMemory& other);
+
+  std::span<Body> bodies() { return std::span(room_).first(count_); }
+  std::span<const Body> bodies() const { return std::span(room_).first(count_); }
+  bool full() const { return count_ == room_.size(); }
+  /// One more, whose content is anything; not if it is full.
+  Body& Add() { return room_[count_++]; }
+  /// Those that were not seen for longer than `longest` before `time`, s.
+  void Forget(double time, double longest);
+
   std::optional<double> looked{};  ///< s; the time of the newest set
+
+ private:
+  std::vector<Body> room_;
+  std::size_t count_{0};
 };
 
 /// Velocities, accelerations and covariances of obstacles from their poses, as a camera tells them:
@@ -50,9 +68,9 @@ class ObstacleTracker final : public System {
  public:
   static constexpr SystemDoc kDoc{
       "estimates how obstacles move from their poses, as a camera tells them",
-      "interacting multiple model of four Kalman filters a body: rests, p'' = w, p''' = -turn^2 "
-      "p' "
-      "+ w; foreseen by latency",
+      "interacting multiple model of five Kalman filters a body: rests, p'' = w, p''' = -turn^2 p' "
+      "+ w "
+      "twice, p'' = g + w; foreseen by latency",
       "Blom, Bar-Shalom 1988, The interacting multiple model algorithm"};
   struct Params {
     Period period{};
@@ -85,7 +103,7 @@ class ObstacleTracker final : public System {
                      ObstacleSet& result) const;
   void CalcTracks(double time, const ObstacleSet& set, const TrackMemory& looked,
                   TrackSet& result) const;
-  void Keep(const TrackMemory& looked, TrackMemory& memory) const;
+  void Keep(const TrackMemory& looked, TrackMemory& memory) const { memory = looked; }
   double SampledAt(double time, const ObstacleSet& set) const;
 
   const Params params_;

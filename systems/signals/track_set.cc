@@ -13,7 +13,7 @@ using systems::TrackSet;
 Fault Signal<TrackSet>::Check(const TrackSet& value, Look look) {
   for (const TrackReport& track : value.tracks) {
     if (!AllFinite(&track.age, 1) || !AllFinite(&track.nis, 1) ||
-        !AllFinite(track.weights.data(), 4)) {
+        !AllFinite(track.weights.data(), 5)) {
       return FaultOf("track '{}': got a NaN or an infinity; expected finite numbers",
                      track.id.text());
     }
@@ -30,12 +30,11 @@ Fault Signal<TrackSet>::Check(const TrackSet& value, Look look) {
 void Signal<TrackSet>::WriteJson(const TrackSet& value, std::string& out) {
   systems::Json list = systems::Json::array();
   for (const TrackReport& track : value.tracks) {
-    list.push_back(
-        {{"id", track.id.text()},
-         {"state", EnumNames(track.state)[static_cast<std::size_t>(track.state)]},
-         {"age", track.age},
-         {"nis", track.nis},
-         {"weights", {track.weights[0], track.weights[1], track.weights[2], track.weights[3]}}});
+    list.push_back({{"id", track.id.text()},
+                    {"state", EnumNames(track.state)[static_cast<std::size_t>(track.state)]},
+                    {"age", track.age},
+                    {"nis", track.nis},
+                    {"weights", std::vector<double>(track.weights.begin(), track.weights.end())}});
   }
   out += oca::internal::JsonText(list);
 }

@@ -36,11 +36,11 @@ struct TrackReport {
   /// Of its last position: innovation^T S^-1 innovation, of chi-square with 3 degrees of freedom
   /// while the body does as the filter takes it to do.
   double nis{0.0};
-  /// That it rests, goes straight, turns, is erratic.
-  Eigen::Vector4d weights{Eigen::Vector4d::Zero()};
+  /// That it rests, goes straight, turns, is erratic, falls.
+  Eigen::Matrix<double, 5, 1> weights{Eigen::Matrix<double, 5, 1>::Zero()};
 };
 
-/// JSON: [{"id", "state", "age", "nis", "weights": [4]}]
+/// JSON: [{"id", "state", "age", "nis", "weights": [5]}]
 struct TrackSet {
   std::vector<TrackReport> tracks{};
 };

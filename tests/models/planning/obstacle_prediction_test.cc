@@ -125,6 +125,35 @@ TEST(ObstaclePredictionTest, WhatWasEstimatedMayBeOffByWhatItIsUncertain) {
   EXPECT_TRUE(SameStanding(still, beside, unsure));
 }
 
+/// Looks 0.02 s apart, at velocities along z.
+std::vector<ObstacleEstimate> LookAtSpeeds(const std::vector<double>& speeds) {
+  VelocityChanges changes;
+  std::vector<Obstacle> before;
+  std::vector<ObstacleEstimate> estimates;
+  for (const double speed : speeds) {
+    const std::vector<Obstacle> now{At({0, 0, 0}, {0, 0, speed})};
+    estimates = Accelerations(before, now, 0.02, changes);
+    before = now;
+  }
+  return estimates;
+}
+
+TEST(ObstaclePredictionTest, AnAccelerationIsWhatTwoLooksAgreeOn) {
+  EXPECT_TRUE(LookAtSpeeds({0.0, -0.1}).empty());                    // one look
+  EXPECT_FALSE(LookAtSpeeds({0.0, -0.02 * (9.81 + 0.99)}).empty());  // falls
+  EXPECT_TRUE(LookAtSpeeds({0.0, -0.02 * (9.81 + 1.01)}).empty());
+  const auto falls = LookAtSpeeds({0.0, -0.2, -0.4});
+  ASSERT_EQ(falls.size(), 1u);
+  EXPECT_NEAR(falls[0].acceleration.z(), -10.0, 1e-12);
+  EXPECT_TRUE(falls[0].covariance.isZero(0.0));
+  EXPECT_TRUE(LookAtSpeeds({1.0, 1.0, 1.0}).empty());
+  EXPECT_TRUE(LookAtSpeeds({0.0, 1.0, 1.0}).empty());      // a jump
+  EXPECT_TRUE(LookAtSpeeds({0.0, 0.401, 0.802}).empty());  // beyond 20 m/s^2
+  EXPECT_FALSE(LookAtSpeeds({0.0, 0.399, 0.798}).empty());
+  EXPECT_FALSE(LookAtSpeeds({0.0, 0.1, 0.1 + 0.149}).empty());  // 5, then 7.45 m/s^2
+  EXPECT_TRUE(LookAtSpeeds({0.0, 0.1, 0.1 + 0.151}).empty());
+}
+
 TEST(ObstaclePredictionTest, NothingIsForeseenOfAVelocityThatIsNotKnown) {
   std::vector<Obstacle> seen{At({0, 0, 0})};
   EXPECT_TRUE(AsForeseen({seen}, {seen}, 0.1));
