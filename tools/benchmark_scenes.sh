@@ -23,7 +23,7 @@
 #            than 0.01/s. Both with Wilson's 95 % interval; a run that failed is neither
 # to goal    median and 95 % quantile of those that arrived, s
 # path       median of the length (2-norm of the joints), and over the reference's
-# plan ms    processor time of the slowest 50 calls a second of system `band`
+# plan ms    what the slowest 50 calls a second of system `band` took; of `plan` its search
 # stuck      runs that stood still off the goal for 2 s
 #
 # Exit status 0 however many arrive; 2 if FOLDER has no problem or the robot cannot be read.

@@ -123,7 +123,7 @@ constexpr const char* kIntruderText =
     "    shapes: [sphere]\n"
     "    extent: [0.2, 0.2]                      # m\n"
     "    approach: {speed: [0.4, 1.6], distance: [0.8, 1.6], start: [0, 4]}\n"
-    "  accept: {home_distance: {at_least: 0.005}, foot_distance: {at_least: 0.05}}\n";
+    "  accept: {home_distance: {at_least: 0.005}}   # m\n";
 
 std::string IgnoreText(const SceneText& scene) {
   if (scene.ignored.empty()) return "";

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "oca/diagrams/drafts/draft_text.h"
@@ -40,6 +41,13 @@ std::string PrimitiveText(const geometry::Shape& shape) {
                      cylinder.length);
 }
 
+/// What is less comes from rounding, and nobody would have written it; m, or of a quaternion.
+Eigen::VectorXd Rounded(const Eigen::VectorXd& numbers) {
+  Eigen::VectorXd rounded = numbers;
+  for (double& number : rounded) number = std::round(1e12 * number) / 1e12 + 0.0;
+  return rounded;
+}
+
 std::string ObjText(const geometry::TriangleMesh& mesh) {
   std::string text;
   for (const Eigen::Vector3d& v : mesh.vertices) {
@@ -60,11 +68,12 @@ std::string NumbersText(const Eigen::Ref<const Eigen::VectorXd>& numbers) {
 }
 
 std::string PoseText(const Eigen::Isometry3d& X) {
-  const std::string xyz = fmt::format("xyz: {}", NumbersText(X.translation()));
-  if (X.linear().isIdentity(0.0)) return fmt::format("{{{}}}", xyz);
+  const std::string xyz = fmt::format("xyz: {}", NumbersText(Rounded(X.translation())));
   Eigen::Quaterniond q(X.linear());
   if (q.w() < 0.0) q.coeffs() *= -1.0;
-  return fmt::format("{{{}, quaternion: {}}}", xyz, NumbersText(q.coeffs()));
+  const Eigen::VectorXd xyzw = Rounded(q.coeffs());
+  if (xyzw.head(3).isZero(0.0)) return fmt::format("{{{}}}", xyz);
+  return fmt::format("{{{}, quaternion: {}}}", xyz, NumbersText(xyzw));
 }
 
 std::string SceneShapes::Unused(const std::string& id) {

@@ -29,7 +29,7 @@ struct FurnishedScene {
 };
 
 /// A scene of a family around an arm that stands at the origin of the world. Lengths go with
-/// `scale`, 1 for an arm that reaches about a metre. What is drawn comes from `random`.
+/// `scale`, 1 for an arm that reaches 0.9 m from its shoulder. What is drawn comes from `random`.
 /// throws ModelError if there is no such family
 FurnishedScene Furnish(std::string_view family, double scale, models::Random& random);
 

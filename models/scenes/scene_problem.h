@@ -31,7 +31,7 @@ inline constexpr double kProblemClearance = 0.01;
 /// throws ModelError if none of `most_tries` scenes has such a task, or for an arm that cannot come
 ///        to a posture of rest, its tip down in front of it
 SceneProblem MakeSceneProblem(const std::shared_ptr<const robot::RobotModel>& model, int tip,
-                              std::string_view family, std::uint64_t seed, int most_tries = 1000);
+                              std::string_view family, std::uint64_t seed, int most_tries = 5000);
 
 /// As MoveIt's messages print, numbers in lists.
 std::string SceneYaml(const robot::RobotModel& model, const SceneProblem& problem);

@@ -34,7 +34,7 @@ TEST_F(ImportCommandTest, MakesADiagramThatChecksWithoutAWordAndRuns) {
   EXPECT_EQ(ran.status, 0) << ran.err;
   EXPECT_THAT(ran.out, AllOf(HasSubstr("robot 'ur5e': 6 joints; 3 obstacles, 1 held objects"),
                              HasSubstr("decided:  limits of acceleration: 10 rad/s^2"),
-                             HasSubstr("left out: models/worlds/shelf/request.yaml:13: "
+                             HasSubstr("left out: models/worlds/shelf/request.yaml:14: "
                                        "workspace_parameters: not looked at")));
   EXPECT_THAT(run.Read("shelf.yaml"),
               AllOf(HasSubstr("type: compound"), HasSubstr("urdf: \"package://ur5e/ur5e.urdf\""),
