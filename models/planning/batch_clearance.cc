@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "oca/models/geometry/obstacle.h"
+#include "oca/models/planning/batch_kernel.h"
 
 namespace oca::planning {
 namespace {
@@ -17,6 +18,7 @@ using Eigen::Vector3d;
 
 // A compound of more parts is looked at as one ball.
 constexpr std::size_t kMostParts = 64;
+static_assert(BatchClearance::kLanes == internal::kLanes);
 // Of single precision, for a joint, with sine and cosine: see the class comment.
 constexpr double kRounding = 2e-6;
 
@@ -64,17 +66,29 @@ double LongestWay(const robot::RobotModel& model, const robot::KinematicStep& st
 
 }  // namespace
 
+struct BatchClearance::Kernel {
+  internal::BatchScene scene{};
+  std::vector<internal::LaneArray> motion{};  // one a frame
+  internal::BatchWorkspace work{scene};
+};
+
 BatchClearance::BatchClearance(robot::Clearance& clearance)
     : clearance_(clearance),
-      work_(internal::BatchScene{}),
+      kernel_(std::make_unique<Kernel>()),
       samples_(clearance.model().num_positions(), kLanes) {
   AddFrames();
   AddLinks();
   error_ = kRounding * (static_cast<double>(movers_.size()) + 2.0) * reach_;
   AddBodies();
-  motion_.resize(movers_.size());
-  work_ = internal::BatchWorkspace(scene_);
+  kernel_->motion.resize(movers_.size());
+  kernel_->work = internal::BatchWorkspace(kernel_->scene);
 }
+
+BatchClearance::~BatchClearance() = default;
+
+int BatchClearance::num_balls() const { return static_cast<int>(kernel_->scene.balls.size()); }
+
+const internal::BatchScene& BatchClearance::scene() const { return kernel_->scene; }
 
 void BatchClearance::AddFrames() {
   const robot::RobotModel& model = clearance_.model();
@@ -99,8 +113,9 @@ void BatchClearance::AddFrames() {
     const Isometry3d X_PF = X_FJ * X_CF;
     const bool slides = step.type == robot::JointType::kPrismatic;
     if (slides) reach[i + 1] += LongestWay(model, step);
-    scene_.frames.push_back({frame_of_[parent], slides, ToFloat(Eigen::Matrix3d(X_PF.linear())),
-                             ToFloat(Vector3d(X_PF.translation()))});
+    kernel_->scene.frames.push_back({frame_of_[parent], slides,
+                                     ToFloat(Eigen::Matrix3d(X_PF.linear())),
+                                     ToFloat(Vector3d(X_PF.translation()))});
     movers_.push_back({step.type, step.column, step.multiplier, step.offset});
     frame_of_[i + 1] = static_cast<int>(movers_.size());
     X_FL_[i + 1] = X_CF.inverse();
@@ -121,28 +136,29 @@ void BatchClearance::AddLinks() {
     const Isometry3d& X_FL = X_FL_[number];
     const int first = num_balls();
     for (const robot::LinkBall& ball : clearance_.covers()[index]) {
-      scene_.balls.push_back(ToFloat({X_FL * ball.ball.centre, ball.ball.radius}, ball.inner));
+      kernel_->scene.balls.push_back(
+          ToFloat({X_FL * ball.ball.centre, ball.ball.radius}, ball.inner));
     }
-    place[number] = static_cast<int>(scene_.links.size());
+    place[number] = static_cast<int>(kernel_->scene.links.size());
     numbers_.push_back(link.number);
-    scene_.links.push_back(
+    kernel_->scene.links.push_back(
         {frame_of_[number], ToFloat({X_FL * link.centre, link.radius}, 0.0), first, num_balls()});
   };
   for (std::size_t i = 0; i < links.size(); ++i) {
     if (model.body(links[i].number) < 0) add(i);
   }
-  scene_.moving = static_cast<int>(scene_.links.size());
+  kernel_->scene.moving = static_cast<int>(kernel_->scene.links.size());
   for (std::size_t i = 0; i < links.size(); ++i) {
     if (model.body(links[i].number) >= 0) add(i);
   }
   for (std::size_t i = 0; i < clearance_.own_pairs().size(); ++i) {
     const auto& pair = clearance_.own_pairs()[i];
-    scene_.pairs.push_back({place[static_cast<std::size_t>(pair.second)],
-                            place[static_cast<std::size_t>(pair.first)],
-                            Above(1.0 / clearance_.own_scales()[i])});
+    kernel_->scene.pairs.push_back({place[static_cast<std::size_t>(pair.second)],
+                                    place[static_cast<std::size_t>(pair.first)],
+                                    Above(1.0 / clearance_.own_scales()[i])});
   }
   for (const auto& pair : clearance_.ignored()) {
-    scene_.ignored.push_back({place[static_cast<std::size_t>(pair.first)], pair.second});
+    kernel_->scene.ignored.push_back({place[static_cast<std::size_t>(pair.first)], pair.second});
   }
 }
 
@@ -186,7 +202,7 @@ void BatchClearance::AddSolid(int body, const geometry::Collider& solid, const I
   BatchCore core = BatchCore::kBox;
   if (solid.core() == Core::kCylinder || solid.core() == Core::kCone) core = BatchCore::kCylinder;
   if (solid.core() == Core::kHalfSpace) core = BatchCore::kPlane;
-  scene_.solids.push_back(
+  kernel_->scene.solids.push_back(
       {core,
        body,
        ToFloat(Eigen::Matrix3d(X_OB.linear().transpose())),
@@ -211,12 +227,13 @@ internal::BatchAnswer BatchClearance::Ask(const Eigen::Ref<const Eigen::MatrixXd
       if (turns && !(std::abs(moved) <= std::numbers::pi)) {
         moved = std::remainder(moved, 2.0 * std::numbers::pi);
       }
-      motion_[i][static_cast<std::size_t>(lane)] = static_cast<float>(moved);
+      kernel_->motion[i][static_cast<std::size_t>(lane)] = static_cast<float>(moved);
     }
   }
   looked_at_ += count;
   const unsigned lanes = (1u << count) - 1u;
-  return internal::CheckLanes(scene_, {motion_.data(), Above(margin), Above(error_), lanes}, work_);
+  return internal::CheckLanes(
+      kernel_->scene, {kernel_->motion.data(), Above(margin), Above(error_), lanes}, kernel_->work);
 }
 
 unsigned BatchClearance::SurelyClear(const Eigen::Ref<const Eigen::MatrixXd>& q, int count,
@@ -241,7 +258,7 @@ bool BatchClearance::ExactlyClear(const Eigen::Ref<const Eigen::VectorXd>& q, un
   ++undecided_;
   if (!q.allFinite()) return false;
   clearance_.MoveTo(q);
-  for (const internal::BatchCandidate& candidate : work_.found) {
+  for (const internal::BatchCandidate& candidate : kernel_->work.found) {
     if ((candidate.lanes & lane) == 0) continue;
     const double distance =
         candidate.body >= 0

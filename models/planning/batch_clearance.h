@@ -3,13 +3,16 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <span>
+#include <memory>
 #include <vector>
 
-#include "oca/models/planning/batch_kernel.h"
 #include "oca/models/robot/clearance.h"
 
 namespace oca::planning {
+namespace internal {
+struct BatchAnswer;
+struct BatchScene;
+}  // namespace internal
 
 /// Tells of many configurations which are clear, eight at once: first by balls that contain the
 /// links against bodies, or what contains these, in single precision; then exactly, where that
@@ -25,9 +28,10 @@ namespace oca::planning {
 ///        Planning, 2024: configurations in lanes, balls, all of an edge at once
 class BatchClearance {
  public:
-  static constexpr int kLanes = internal::kLanes;
+  static constexpr int kLanes = 8;
 
   explicit BatchClearance(robot::Clearance& clearance);
+  ~BatchClearance();
 
   /// A bit for each of the first `count` (at most kLanes) columns of q (num_positions() rows) at
   /// which nothing is nearer than `margin` (m, >= 0).
@@ -43,8 +47,8 @@ class BatchClearance {
   /// How many configurations were looked at, and for how many the balls could not decide.
   std::int64_t looked_at() const { return looked_at_; }
   std::int64_t undecided() const { return undecided_; }
-  int num_balls() const { return static_cast<int>(scene_.balls.size()); }
-  const internal::BatchScene& scene() const { return scene_; }
+  int num_balls() const;
+  const internal::BatchScene& scene() const;
 
  private:
   void AddFrames();
@@ -62,16 +66,14 @@ class BatchClearance {
     int column;
     double multiplier, offset;
   };
+  struct Kernel;                         // what it works on
   std::vector<Mover> movers_;            // one a frame
   std::vector<int> frame_of_;            // of each link of the model
   std::vector<Eigen::Isometry3d> X_FL_;  // of each link in its frame
   std::vector<int> numbers_;             // in the model, of the scene's links
   double reach_{0.0};                    // of any point of the robot from the base, m
   double error_{0.0};                    // m
-  internal::BatchScene scene_;
-  std::vector<float> no_travel_;
-  std::vector<internal::LaneArray> motion_;  // one a frame
-  internal::BatchWorkspace work_;
+  std::unique_ptr<Kernel> kernel_;
   Eigen::MatrixXd samples_;  // n x kLanes
   std::int64_t looked_at_{0}, undecided_{0};
 };

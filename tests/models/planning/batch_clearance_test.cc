@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "oca/models/planning/batch_kernel.h"
 #include "oca/models/random.h"
 #include "tests/models/geometry/random_bodies.h"
 #include "tests/models/planning/scene.h"
