@@ -6,9 +6,9 @@
 #   REGEX    of rows, such as ^engine/d14; all without it
 # A time is the least of three repetitions, in ns of CPU an iteration (a block where the goal says
 # so; of the clock in rows with threads). A floor is the row's bare arithmetic, measured in the same
-# process as the release column; the ratio is release to floor. `met` judges engine rows by the
-# release build, others by the bench build. A second table has the peers (Ceres, FCL, KDL) of
-# each row, with their time over ours in the same process; a third how long single ticks take.
+# process as the release column; the ratio is release to floor. `met` judges engine rows and ratios
+# of geometry rows by the release build, others by the bench build. A second table has the peers
+# (Ceres, FCL, KDL) of rows, their time over ours in the process; a third how long single ticks take.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 quick=false
@@ -128,10 +128,11 @@ awk -F';' '
     else text = word[1] " " other " + " word[2]
     goal[row] = goal[row] (goal[row] == "" ? "" : ", ") text
   }
-  function verdict(row,  i, value, other, said) {
-    value = row ~ /^engine\// ? release[row] : bench[row]
+  function verdict(row,  i, as_users, value, other, said) {
     for (i = 1; i <= asked[row]; ++i) {
-      other = row ~ /^engine\// ? release[second[row, i]] : bench[second[row, i]]
+      as_users = row ~ /^engine\// || row ~ /^geometry\// && first[row, i] == "/"
+      value = as_users ? release[row] : bench[row]
+      other = as_users ? release[second[row, i]] : bench[second[row, i]]
       if (value == "" || first[row, i] != "" && other == "") continue
       if (first[row, i] == "/") { if (value / other > limit[row, i]) return "missed" }
       else if (value - other > limit[row, i]) return "missed"

@@ -2,7 +2,10 @@
 #include "oca/models/geometry/ball_tree.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+
+#include "oca/models/geometry/near_balls.h"
 
 namespace oca::geometry {
 namespace {
@@ -111,6 +114,7 @@ void BallTree::Move(int index, const Ball& ball) {
 }
 
 void BallTree::FindNear(const Vector3d& point, double reach, std::vector<int>& found) const {
+  static_assert(kLeaf == internal::kBallsOfLeaf);
   const std::size_t before = found.size();
   for (const int index : loose_) {
     const Ball& at = ball(index);
@@ -129,18 +133,10 @@ void BallTree::FindNear(const Vector3d& point, double reach, std::vector<int>& f
     ++i;
     if (node.first < 0) continue;
     const double* const leaf = columns_.data() + 4 * static_cast<std::size_t>(node.first);
-    std::array<double, kLeaf> beyond;
-    for (int k = 0; k < kLeaf; ++k) {  // in vector registers
-      const double x = leaf[k] - point.x();
-      const double y = leaf[kLeaf + k] - point.y();
-      const double z = leaf[2 * kLeaf + k] - point.z();
-      const double sum = reach + leaf[3 * kLeaf + k];
-      beyond[static_cast<std::size_t>(k)] = (x * x + y * y + z * z) - sum * sum;
-    }
-    for (int k = 0; k < kLeaf; ++k) {
-      if (beyond[static_cast<std::size_t>(k)] <= 0.0) {
-        found.push_back(order_[static_cast<std::size_t>(node.first + k)]);
-      }
+    unsigned near = internal::NearBalls(leaf, point, reach);
+    for (; near != 0; near &= near - 1) {
+      const int place = node.first + std::countr_zero(near);
+      found.push_back(order_[static_cast<std::size_t>(place)]);
     }
   }
   std::sort(found.begin() + static_cast<std::ptrdiff_t>(before), found.end());

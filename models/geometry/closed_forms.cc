@@ -3,6 +3,7 @@
 
 #include "oca/models/geometry/box_overlap.h"
 #include "oca/models/geometry/core_forms.h"
+#include "oca/models/geometry/cylinder_forms.h"
 #include "oca/models/geometry/segment_forms.h"
 
 namespace oca::geometry::internal {
@@ -41,6 +42,8 @@ bool ClosedForm(const CorePair& pair, CoreDistance* found) {
                               SegmentOfB(pair));
   } else if (b == Core::kSegment && a == Core::kBox) {
     *found = BoxToSegment(pair.a.half(), SegmentOfB(pair));
+  } else if (b == Core::kSegment && a == Core::kCylinder) {
+    return CylinderToSegment(pair.a.half(), SegmentOfB(pair), found);
   } else {
     return false;
   }

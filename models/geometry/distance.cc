@@ -12,6 +12,7 @@
 #include "oca/models/geometry/nearest_part.h"
 #include "oca/models/geometry/polytope_depth.h"
 #include "oca/models/geometry/segment_forms.h"
+#include "oca/models/geometry/surface_depth.h"
 
 namespace oca::geometry {
 namespace {
@@ -54,7 +55,10 @@ void ProveSeparation(const CorePair& pair, CoreDistance* found) {
     return;
   }
   const CorePair::Difference start = pair.Support(-plane.normal);
-  PairCache cache{.count = 1, .points_a = {start.a}, .points_b = {start.b}};
+  PairCache cache;
+  cache.count = 1;
+  cache.points_a[0] = start.a;
+  cache.points_b[0] = start.b;
   CoreDistance again;
   const auto status =
       internal::Gjk(pair, std::numeric_limits<double>::infinity(), true, &cache, &again);
@@ -85,7 +89,11 @@ DistanceStatus Overlap(const CorePair& pair, CoreDistance* found) {
 
 DistanceStatus Search(const CorePair& pair, double max_core_distance, PairCache* cache,
                       CoreDistance* found) {
-  switch (internal::Gjk(pair, max_core_distance, false, cache, found)) {
+  if (cache && cache->surface.corners > 0 && internal::KeptSurfaceDepth(pair, cache, found)) {
+    return StatusOf(pair, *found);
+  }
+  internal::Simplex last;
+  switch (internal::Gjk(pair, max_core_distance, false, cache, found, &last)) {
     case GjkStatus::kBeyond:
       return DistanceStatus::kBeyond;
     case GjkStatus::kSeparated:
@@ -95,6 +103,9 @@ DistanceStatus Search(const CorePair& pair, double max_core_distance, PairCache*
       break;
   }
   if (internal::ClosedOverlap(pair, found)) return DistanceStatus::kExact;
+  if (last.count() == 4 && internal::SurfaceDepth(pair, last.points(), cache, found)) {
+    return StatusOf(pair, *found);
+  }
   return Overlap(pair, found);
 }
 
@@ -256,7 +267,7 @@ SignedDistance OfParts(const Collider& a, const Isometry3d& X_WA, const Collider
     best_index = index;
   }
   if (cache && best_index != first) {
-    cache->count = 0;
+    cache->Clear();
     cache->parts = best_index;
   }
   return best;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <cstdint>
 #include <limits>
 
 #include "oca/models/geometry/collider.h"
@@ -34,16 +35,29 @@ struct SignedDistance {
 /// What one query leaves for the next one of the same pair, in the same order; only speed depends
 /// on it. Keep one a pair of colliders; a fresh one is empty.
 struct PairCache {
-  int count{0};
+  int count{0};  ///< points that are kept; 0 of bodies that overlap
   int parts{0};  ///< of two compounds: which pair of parts was the nearest
   std::array<Eigen::Vector3d, 4> points_a;
   std::array<Eigen::Vector3d, 4> points_b;
+
+  /// Of bodies that overlap: a closed surface of triangles, the corners differences of their points.
+  struct Surface {
+    static constexpr int kMostCorners = 64;
+    static constexpr int kMostFaces = 2 * kMostCorners - 4;
+    int corners{0};  ///< 0 if there is none
+    int faces{0};
+    std::array<Eigen::Vector3d, kMostCorners> points_a;
+    std::array<Eigen::Vector3d, kMostCorners> points_b;
+    std::array<std::array<std::uint8_t, 3>, kMostFaces> corner;
+    std::array<std::array<std::uint8_t, 3>, kMostFaces> neighbour;
+  } surface;
+  void Clear() { count = 0, surface.corners = 0; }
 };
 
 /// Signed distance of A at pose `X_WA` and B at pose `X_WB`.
 ///
 /// Closed forms for a half-space with anything, a sphere with anything but a mesh, capsules with
-/// capsules and boxes. Else GJK on the cores, with a lower and an upper bound on the distance; for
+/// capsules, boxes and cylinders apart from them. Else GJK on the cores, with a lower and an upper bound on the distance; for
 /// overlapping cores the separating axes of boxes, the planes of a mesh around a sphere's centre,
 /// or the face of the Minkowski difference that is nearest to the origin. The distance is
 /// continuous in the poses. Of compounds the least distance of their parts counts: exact apart, in

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "oca/models/geometry/contact_refinement.h"
-#include "oca/models/geometry/simplex.h"
 
 namespace oca::geometry::internal {
 namespace {
@@ -68,11 +67,12 @@ double DoubtOf(const CorePair& pair, double proof, double size, double length) {
 }  // namespace
 
 GjkStatus Gjk(const CorePair& pair, double max_distance, bool separated, PairCache* cache,
-              CoreDistance* result) {
+              CoreDistance* result, Simplex* last) {
   const double size = pair.Extent();
   // Flat faces end the search exactly; round ones only ever come closer.
   const double proof = (pair.IsRound() ? kRoundProof : kFlatProof) * size;
-  Simplex simplex;
+  Simplex own;
+  Simplex& simplex = last ? *last : own;
   Start(pair, cache, &simplex);
   double length = simplex.v().norm();
   double lower = 0.0;

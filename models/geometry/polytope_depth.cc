@@ -8,7 +8,7 @@
 #include <limits>
 #include <memory_resource>
 
-#include "oca/models/geometry/contact_refinement.h"
+#include "oca/models/geometry/exit_point.h"
 #include "oca/models/geometry/lattice_hull.h"
 
 namespace oca::geometry::internal {
@@ -48,9 +48,10 @@ class Polytope {
   void Descend(Plane* plane) const;
   void Sharpen(const std::array<int, 3>& face, Plane* plane) const;
   bool Try(const Vector3d& normal, Plane* plane) const;
-  Vector3d Weights(const std::array<int, 3>& face, const Vector3d& normal) const;
+  Triangle Corners(const std::array<int, 3>& face) const {
+    return {&source_[face[0]], &source_[face[1]], &source_[face[2]]};
+  }
   std::array<int, 3> FaceBelow(const Vector3d& normal, double highest) const;
-  CoreDistance Result(const std::array<int, 3>& face, const Plane& plane, double gap) const;
 
   const CorePair& pair_;
   Lattice lattice_;
@@ -139,7 +140,8 @@ CoreDistance Polytope::Search() {
       // The lattice may put the face a step above the plane that bounds A - B.
       const std::array<int, 3> face = FaceBelow(best.normal, best.offset + enough);
       if (!pair_.IsRound()) Sharpen(face, &best);
-      return Result(face, best, std::max(best.offset - plane.offset, 0.0));
+      return ExitPoint(pair_, Corners(face), best.normal, best.offset,
+                       std::max(best.offset - plane.offset, 0.0));
     }
     hull_.Grow(point, lowest);
     RefreshPlanes();
@@ -190,13 +192,6 @@ void Polytope::Sharpen(const std::array<int, 3>& face, Plane* plane) const {
   if (length > 0.0 && across.dot(plane->normal) > 0.9 * length) Try(across / length, plane);
 }
 
-// Barycentric coordinates of the point where a ray from the origin meets the plane of a face.
-Vector3d Polytope::Weights(const std::array<int, 3>& face, const Vector3d& normal) const {
-  const Vector3d &A = source_[face[0]].w, &B = source_[face[1]].w, &C = source_[face[2]].w;
-  const Vector3d areas(normal.dot(B.cross(C)), normal.dot(C.cross(A)), normal.dot(A.cross(B)));
-  return areas.sum() > 0.0 ? Vector3d(areas / areas.sum()) : Vector3d(Vector3d::Constant(-1.0));
-}
-
 // The face that the ray from the origin meets. Several may lie in one plane, hence `highest`; none
 // lies there if the lattice rounds them all above it, and then it is the lowest.
 std::array<int, 3> Polytope::FaceBelow(const Vector3d& normal, double highest) const {
@@ -204,25 +199,10 @@ std::array<int, 3> Polytope::FaceBelow(const Vector3d& normal, double highest) c
   double most = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < hull_.face_slots(); ++i) {
     if (!hull_.face(i).alive || offset_[i] > highest) continue;
-    const double inside = Weights(hull_.face(i).vertex, normal).minCoeff();
+    const double inside = RayWeights(Corners(hull_.face(i).vertex), normal).minCoeff();
     if (inside > most) most = inside, below = i;
   }
   return hull_.face(below).vertex;
-}
-
-// The points of the bodies behind that ray.
-CoreDistance Polytope::Result(const std::array<int, 3>& face, const Plane& plane,
-                              double gap) const {
-  Vector3d weight = Weights(face, plane.normal).cwiseMax(0.0);  // beside the face at touch only
-  if (!(weight.sum() > 0.0)) weight = Vector3d::Ones();
-  weight /= weight.sum();
-  CoreDistance result{.distance = -plane.offset, .normal = -plane.normal, .gap = gap};
-  for (int i = 0; i < 3; ++i) result.point_a += weight[i] * source_[face[i]].a;
-  result.point_b = result.point_a - result.distance * result.normal;
-  if (pair_.IsRound()) {
-    RefineContact(pair_, std::array{source_[face[0]], source_[face[1]], source_[face[2]]}, &result);
-  }
-  return result;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "oca/models/geometry/core_pair.h"
 
@@ -23,6 +24,8 @@ class Simplex {
 
   int count() const { return count_; }
   const CorePair::Difference& point(int i) const { return points_[i]; }
+  /// All four, if there are so many.
+  std::span<const CorePair::Difference, 4> points() const { return points_; }
   /// Nearest point to the origin, as kept.
   const Eigen::Vector3d& v() const { return v_; }
   /// The points of A and B (B's frame) that v comes from.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // One distance query. Rows geometry/pair/A-B/cold|warm for bodies up to some decimetres apart,
-// geometry/pair/A-B/overlap for bodies that overlap, each with its peer .../fcl. A round is a walk
-// of many small steps, so that `warm`, which keeps a PairCache, sees what a control tick sees.
+// with their peer geometry/pair/A-B/cold/fcl; geometry/pair/A-B/overlap|deep for bodies that
+// overlap by 1 to 6 cm, or by 6 to 14, each also /warm. A round is a walk of many small steps, so
+// that `warm`, which keeps a PairCache, sees what a control tick sees.
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
@@ -143,10 +144,13 @@ void Register(const Named& first, const Named& second) {
   };
   const auto cold = [](auto& state, const Scene& scene) { Ours(state, scene, false); };
   const auto warm = [](auto& state, const Scene& scene) { Ours(state, scene, true); };
-  constexpr double kNear = 0.05, kFar = 0.4, kDeep = -0.06, kShallow = -0.01;
+  constexpr double kNear = 0.05, kFar = 0.4, kShallow = -0.01, kDeep = -0.06, kDeepest = -0.14;
   add("/cold", kNear, kFar, cold);
   add("/warm", kNear, kFar, warm);
   add("/overlap", kDeep, kShallow, cold);
+  add("/overlap/warm", kDeep, kShallow, warm);
+  add("/deep", kDeepest, kDeep, cold);
+  add("/deep/warm", kDeepest, kDeep, warm);
   // FCL measures a half-space in collisions only, and its penetration search aborts now and then.
   if (second.shape.index() != Shape(geometry::HalfSpace{}).index()) {
     add("/cold/fcl", kNear, kFar, Fcl);

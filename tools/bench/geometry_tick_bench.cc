@@ -2,7 +2,7 @@
 //
 // The distance work of one tick: seven mesh links against N obstacles. Rows
 // geometry/tick/N/path|random/cull|all, each with its peer .../fcl; `cull` leaves out what is
-// beyond 0.3 m, `all` measures every pair.
+// beyond 0.3 m, `all` measures every pair. Rows .../primitives are those of an arm of capsules.
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
@@ -23,8 +23,10 @@ constexpr double kAll = 100.0;  // m
 constexpr int kConfigurations = 1000;
 
 struct TickScene {
-  TickScene(int obstacle_count, bool path)
-      : arm(MeshArm() ? MeshArm() : PrimitiveArm()),
+  TickScene(int obstacle_count, bool path, bool meshes)
+      : arm(!meshes     ? PrimitiveArm()
+            : MeshArm() ? MeshArm()
+                        : OwnMeshArm()),
         obstacles(ToSet(MakeObstacles(*arm, obstacle_count))) {
     for (const auto& q :
          path ? PathConfigurations(kConfigurations) : RandomConfigurations(*arm, kConfigurations)) {
@@ -39,8 +41,7 @@ struct TickScene {
   std::vector<systems::LinkPoses> poses;
 };
 
-void Tick(benchmark::State& state, int obstacle_count, bool path, double max_distance) {
-  const TickScene scene(obstacle_count, path);
+void Tick(benchmark::State& state, const TickScene& scene, double max_distance) {
   systems::ModelSet models;
   models.Add("arm", scene.arm);
   SystemBench<systems::BulletDistance> bench(
@@ -61,8 +62,7 @@ void Tick(benchmark::State& state, int obstacle_count, bool path, double max_dis
   state.counters["found"] = static_cast<double>(found) / static_cast<double>(ticks);
 }
 
-void FclTick(benchmark::State& state, int obstacle_count, bool path, double max_distance) {
-  const TickScene scene(obstacle_count, path);
+void FclTick(benchmark::State& state, const TickScene& scene, double max_distance) {
   std::vector<systems::LinkCollider> links = systems::MakeLinkColliders(*scene.arm);
   std::erase_if(links, [&](const auto& link) { return scene.arm->body(link.number) < 0; });
   FclScene fcl(links, scene.obstacles, max_distance, max_distance == kNear);
@@ -74,23 +74,30 @@ void FclTick(benchmark::State& state, int obstacle_count, bool path, double max_
   }
 }
 
-void Register() {
+void Register(int count, bool path, double max_distance, bool meshes) {
+  const std::string name =
+      fmt::format("geometry/tick/{}/{}/{}{}", count, path ? "path" : "random",
+                  max_distance == kNear ? "cull" : "all", meshes ? "" : "/primitives");
+  const auto add = [&](const std::string& row, auto run) {
+    benchmark::RegisterBenchmark(row.c_str(), [=](benchmark::State& state) {
+      run(state, TickScene(count, path, meshes), max_distance);
+    });
+  };
+  add(name, Tick);
+  add(name + "/fcl", FclTick);
+}
+
+void RegisterAll() {
   for (const bool path : {true, false}) {
-    for (const int n : {1, 10, 100, 1000}) {
+    for (const int count : {1, 10, 100, 1000}) {
       for (const double max_distance : {kNear, kAll}) {
-        const std::string name = fmt::format("geometry/tick/{}/{}/{}", n, path ? "path" : "random",
-                                             max_distance == kNear ? "cull" : "all");
-        benchmark::RegisterBenchmark(
-            name.c_str(), [=](benchmark::State& state) { Tick(state, n, path, max_distance); });
-        benchmark::RegisterBenchmark((name + "/fcl").c_str(), [=](benchmark::State& state) {
-          FclTick(state, n, path, max_distance);
-        });
+        for (const bool meshes : {true, false}) Register(count, path, max_distance, meshes);
       }
     }
   }
 }
 
-const bool kRegistered = (Register(), true);
+const bool kRegistered = (RegisterAll(), true);
 
 }  // namespace
 }  // namespace oca::bench

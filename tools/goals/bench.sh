@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Rows of oca_bench: least CPU ns of three repetitions (a block where the goal says so; of the clock in rows with
-# threads), engine and file rows in the release build, others in that for this processor.
+# threads), engine and file rows and ratios of geometry rows in the release build, others in that for this processor.
 # Usage: bench.sh ROW | ROW:COUNTER... (their sum) | ROW / ROW | ROW - ROW
 set -euo pipefail
 row=$1
 build=bench
-[[ $row == engine/* || $row == files/* ]] && build=release
+[[ $row == engine/* || $row == files/* || ($row == geometry/* && ${2:-} == /) ]] && build=release
 results=$OCA_WORK/$build.json
 if [ ! -s "$results" ]; then  # all rows at once, for the rows to come
   { cmake --preset "$build" -DOCA_BENCHMARKS=ON && cmake --build --preset "$build" --target oca_bench; } \

@@ -4,8 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <bit>
 #include <limits>
 #include <random>
+
+#include "oca/models/geometry/near_balls.h"
 
 namespace oca::geometry {
 namespace ball_tree_test {
@@ -129,6 +133,32 @@ TEST(BallTreeTest, SearchVisitsTheNearestAndFewOthers) {
     ASSERT_EQ(nearest, expected);
   }
   EXPECT_LT(visits, 200 * 100);
+}
+
+// At the rim too, where another rounding would tell, and where a leaf has gaps.
+TEST(BallTreeTest, VectorInstructionsFindWhatPlainOnesFind) {
+  RandomBalls random(15);
+  constexpr int kCount = internal::kBallsOfLeaf;
+  int near = 0;
+  for (int i = 0; i < 100'000; ++i) {
+    std::array<double, 4 * kCount> leaf;
+    const Vector3d point = random.Point(1.0);
+    const double reach = random.Uniform(0.0, 1.0);
+    for (int k = 0; k < kCount; ++k) {
+      const Ball ball = random.Next(1.0);
+      const double rim = (ball.centre - point).norm() - reach;
+      for (int axis = 0; axis < 3; ++axis) leaf[axis * kCount + k] = ball.centre[axis];
+      leaf[3 * kCount + k] = rim > 0.0 && k % 2 == 0 ? rim : ball.radius;
+      if (k == 5) leaf[k] = std::numeric_limits<double>::infinity();
+      if (k == 6) leaf[k] = leaf[3 * kCount + k] = std::numeric_limits<double>::infinity();
+    }
+    const unsigned found = internal::NearBalls(leaf.data(), point, reach);
+    ASSERT_EQ(found, internal::NearBallsPortable(leaf.data(), point, reach));
+    ASSERT_EQ(found & (1u << 5 | 1u << 6), 0u);
+    near += std::popcount(found);
+  }
+  EXPECT_GT(near, 100'000);
+  EXPECT_LT(near, 500'000);
 }
 
 }  // namespace ball_tree_test

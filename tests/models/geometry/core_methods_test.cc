@@ -29,7 +29,7 @@ TEST(CoreMethodsTest, ClosedFormsExistForTheSimplePairsOnly) {
   EXPECT_TRUE(exists(1, 1));
   EXPECT_TRUE(exists(2, 1));
   EXPECT_FALSE(exists(4, 0));
-  EXPECT_FALSE(exists(3, 1));
+  EXPECT_FALSE(exists(5, 1));
   EXPECT_FALSE(exists(3, 3));
 }
 
@@ -42,6 +42,60 @@ TEST(CoreMethodsTest, EverythingThatEndsHasAClosedFormWithAHalfSpace) {
   }
   CoreDistance found;
   EXPECT_FALSE(ClosedForm({*floor, *floor, random.Pose(0.5)}, &found));
+}
+
+// Segments beside, above and askew, some of them along the axes: what GJK finds, GJK's proof holds.
+TEST(CoreMethodsTest, CylindersAndSegmentsAreAsFarApartAsTheSearchSays) {
+  RandomBodies random(56);
+  int apart = 0, overlaps = 0;
+  double off = 0.0, normal = 0.0;
+  for (int i = 0; i < 20'000; ++i) {
+    const auto cylinder = random.Body(3), capsule = random.Body(1);
+    const CorePair pair{*cylinder, *capsule, i % 4 == 0 ? random.GridPose() : random.Pose(0.6)};
+    CoreDistance closed, found;
+    const auto status = Gjk(pair, kFar, false, nullptr, &found);
+    if (!ClosedForm(pair, &closed)) {
+      ++overlaps;
+      EXPECT_EQ(status, GjkStatus::kTouching);
+      continue;
+    }
+    ++apart;
+    ASSERT_EQ(status, GjkStatus::kSeparated);
+    off = std::max(off, std::abs(closed.distance - found.distance) - found.gap);
+    const double width = closed.normal.dot(pair.Support(-closed.normal).w);
+    off = std::max(off, std::abs(width - closed.distance));
+    if (i % 4 != 0) normal = std::max(normal, (closed.normal - found.normal).norm());
+  }
+  EXPECT_GT(apart, 5'000);
+  EXPECT_GT(overlaps, 1'000);
+  EXPECT_LE(off, 1e-12);
+  EXPECT_LE(normal, 1e-6);
+}
+
+TEST(CoreMethodsTest, ASegmentBesideACylinder) {
+  const auto cylinder = MakeCollider(Cylinder{0.5, 2.0}, "cylinder");
+  const auto capsule = MakeCollider(Capsule{0.1, 1.0}, "capsule");
+  Isometry3d X_AB = Isometry3d::Identity();
+  CoreDistance found;
+  const auto place = [&](const Vector3d& p) {
+    X_AB.translation() = p;
+    return ClosedForm({*cylinder, *capsule, X_AB}, &found);
+  };
+  ASSERT_TRUE(place(Vector3d(0.8, 0.0, 0.3)));  // along the side
+  EXPECT_NEAR(found.distance, 0.3, 1e-15);
+  EXPECT_NEAR(found.normal.x(), -1.0, 1e-15);
+  ASSERT_TRUE(place(Vector3d(0.2, 0.0, 1.75)));  // its end above the cap
+  EXPECT_NEAR(found.distance, 0.25, 1e-15);
+  ASSERT_TRUE(place(Vector3d(0.8, 0.0, 1.9)));  // its end beside the rim
+  EXPECT_NEAR(found.distance, 0.5, 1e-15);
+  EXPECT_NEAR((found.point_a - Vector3d(0.5, 0.0, 1.0)).norm(), 0.0, 1e-15);
+  X_AB.linear() = Eigen::AngleAxisd(0.5 * M_PI, Vector3d::UnitX()).toRotationMatrix();
+  ASSERT_TRUE(place(Vector3d(0.9, 0.0, 1.3)));  // its middle beside the rim
+  EXPECT_NEAR(found.distance, 0.5, 1e-15);
+  EXPECT_NEAR((found.point_b - X_AB.translation()).norm(), 0.0, 1e-15);
+  EXPECT_TRUE(place(Vector3d(0.5 + 1e-9, 0.0, 0.0)));
+  EXPECT_FALSE(place(Vector3d(0.5, 0.0, 0.0)));
+  EXPECT_FALSE(place(Vector3d(0.2, 0.0, 0.0)));
 }
 
 TEST(CoreMethodsTest, GjkAndPolytopeAgreeWithAlgebra) {
