@@ -181,7 +181,7 @@ function ofRuns(name, results, settings) {
     share(arrived.length, results.length),
     `${show(quantile(arrived.map((one) => one.time_to_goal), 0.5), 2)} ${show(quantile(arrived.map((one) => one.time_to_goal), 0.95), 2)}`,
     `${show(quantile(arrived.map((one) => one.path_length), 0.5), 2)} ${show(quantile(ratios, 0.5), 2)}`,
-    [0.5, 0.95, 0.99, 1].map((q) => show(quantileOfClasses(classes, q), 2)).join(" "),
+    [0.5, 0.95, 0.99, 1].map((q) => show(quantileOfClasses(classes, q), 3)).join(" "),
     `${runs.filter((one) => one.stuck_time > 0).length}`, `${results.length - runs.length}`];
 }
 

@@ -173,9 +173,9 @@ void Cage(Furnisher& f) {
   f.Box("side_right", {0.7, kBoard, 0.7}, {0.0, -half, z + 0.35});
   const double cube = 0.07;
   f.Box("cube_1", {cube, cube, cube},
-        {f.Draw(-0.2, 0.0), f.Draw(-0.15, 0.15), z + 0.5 * (kBoard + cube) + 0.005});
+        {f.Draw(-0.15, 0.12), f.Draw(-0.15, 0.15), z + 0.5 * (kBoard + cube) + 0.005});
   // A little from above, over the lower bar.
-  f.Aim("cube_1", 0.5 * cube, cube, Vector3d(1.0, 0.0, -0.5).normalized());
+  f.Aim("cube_1", 0.5 * cube, cube, Vector3d(1.0, 0.0, f.Draw(-0.9, -0.4)).normalized());
 }
 
 /// A table with things on it; a can among them is aimed at from above.

@@ -28,7 +28,9 @@ constexpr double kWayMargin = 0.004;  // m
 constexpr int kWayNodes = 6000;       // of a search
 constexpr int kWaySearches = 2;
 constexpr double kUsualStretch = 0.9;  // m; at scale 1
-constexpr double kStandOff = 0.03;     // m at scale 1; of the tip from what it reaches for
+// Of the tip from what it reaches for, m at scale 1: room for a gripper, or hardly any.
+constexpr double kLeastStandOff = 0.03;
+constexpr double kMostStandOff = 0.1;
 
 /// The tip at a point, its z along `z`, turned about it by `roll`.
 Isometry3d TipPose(const Vector3d& p_WT, const Vector3d& z, double roll) {
@@ -130,7 +132,8 @@ class ProblemMaker {
   std::optional<VectorXd> Grasp(const FurnishedScene& scene, const VectorXd& from) {
     const bool down = scene.approach.z() < -0.8;
     const double half = down ? 0.5 * scene.target_height : scene.target_radius;
-    const Vector3d p_WT = scene.target - (half + scale_ * kStandOff) * scene.approach;
+    const double stand_off = scale_ * random_.Uniform(kLeastStandOff, kMostStandOff);
+    const Vector3d p_WT = scene.target - (half + stand_off) * scene.approach;
     const double roll = random_.Uniform(-std::numbers::pi, std::numbers::pi);
     return Reach(TipPose(p_WT, scene.approach, roll), from);
   }
