@@ -7,7 +7,7 @@ namespace oca::planning {
 namespace {
 
 // What is farther need not be known: the joints cannot go farther in one step.
-constexpr double kFarthest = 0.5;
+constexpr double kFarthestLook = 0.5;
 // Steps shorter than this share of the motion count as contact.
 constexpr double kLeastShare = 1e-3;
 
@@ -24,6 +24,7 @@ CertifiedMotion::CertifiedMotion(robot::Clearance& clearance, double margin)
       travel_(static_cast<std::size_t>(clearance.model().num_links())) {}
 
 bool CertifiedMotion::Clear(const Eigen::Ref<const Eigen::VectorXd>& q) {
+  ++evaluations_;
   clearance_.MoveTo(q);
   return !clearance_.NearerThan(margin_);
 }
@@ -39,6 +40,7 @@ double CertifiedMotion::ClearShare(const Eigen::Ref<const Eigen::VectorXd>& q_0,
   while (share < 1.0) {
     q_ = q_0 + share * (q_1 - q_0);
     path_ = (1.0 - share) * (q_1 - q_0).cwiseAbs();
+    ++evaluations_;
     clearance_.MoveTo(q_);
     const double step = FreeShare() * (1.0 - share);
     if (step < std::min(kLeastShare, 1.0 - share)) return share;
@@ -50,8 +52,8 @@ double CertifiedMotion::ClearShare(const Eigen::Ref<const Eigen::VectorXd>& q_0,
 
 double CertifiedMotion::FreeShare() {
   bound_.Calc(clearance_.X_WL(), path_, travel_);
-  clearance_.LinkDistances(margin_ + kFarthest, distances_);
-  clearance_.OwnDistances(margin_ + kFarthest, own_distances_);
+  clearance_.LinkDistances(margin_ + kFarthestLook, distances_);
+  clearance_.OwnDistances(margin_ + kFarthestLook, own_distances_);
   // A share of the path costs at most that share of its travel: the bound grows faster than the
   // path.
   double share = 1.0;
@@ -65,7 +67,7 @@ double CertifiedMotion::FreeShare() {
   for (std::size_t i = 0; i < own_distances_.size(); ++i) {
     const auto& pair = clearance_.own_pairs()[i];
     limit(own_distances_[i], margin_ / clearance_.own_scales()[i],
-          travel_[pair.first] + travel_[pair.second]);
+          bound_.Between(clearance_.X_WL(), path_, pair.first, pair.second));
   }
   return share;
 }

@@ -30,12 +30,16 @@ class CertifiedMotion {
   double ClearShare(const Eigen::Ref<const Eigen::VectorXd>& q_0,
                     const Eigen::Ref<const Eigen::VectorXd>& q_1);
 
+  /// At how many configurations distances were looked at so far.
+  long evaluations() const { return evaluations_; }
+
  private:
   /// How far the joints may go on along `path` (one entry a position), as a share of it.
   double FreeShare();
 
   robot::Clearance& clearance_;
   const double margin_;
+  long evaluations_{0};
   const robot::TravelBound bound_;
   Eigen::VectorXd q_, path_;
   std::vector<double> distances_, own_distances_, travel_;

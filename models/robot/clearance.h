@@ -52,6 +52,8 @@ class Clearance {
   }
   /// Leaves a pair out from now on: a link and a body, by their numbers.
   void Ignore(int link, int body) { ignored_.emplace_back(link, body); }
+  /// Leaves two links of the robot out from now on, by their numbers in either order.
+  void IgnoreOwn(int link, int other);
   /// Moves body number `body`, of a scene in which time goes on.
   void MoveBody(int body, const Eigen::Isometry3d& X_WO) { bodies_[body].X_WO = X_WO; }
 

@@ -26,26 +26,49 @@ void TravelBound::Calc(std::span<const Eigen::Isometry3d> X_WL,
   assert(path.size() == model_->num_positions());
   std::fill(travel.begin(), travel.end(), 0.0);
   for (const LinkBall& ball : balls_) {
-    const Eigen::Vector3d centre = X_WL[static_cast<std::size_t>(ball.link)] * ball.centre;
-    double sum = 0.0;
-    for (int link = ball.link; link > 0;) {
-      const KinematicStep& step = model_->steps()[static_cast<std::size_t>(link - 1)];
-      if (step.column >= 0) {
-        const double moved = std::abs(step.multiplier) * path[step.column];
-        if (step.type == JointType::kPrismatic) {
-          sum += moved;
-        } else {
-          const Eigen::Isometry3d& X = X_WL[static_cast<std::size_t>(link)];
-          const Eigen::Vector3d axis = X.linear() * step.axis;
-          const double arm = axis.cross(centre - X.translation()).norm() + ball.radius;
-          sum += moved * (arm + sum);
-        }
-      }
-      link = step.parent_link;
-    }
     double& most = travel[static_cast<std::size_t>(ball.link)];
-    most = std::max(most, sum);
+    most = std::max(most, TravelOf(ball, 0, X_WL, path));
   }
+}
+
+double TravelBound::TravelOf(const LinkBall& ball, int root,
+                             std::span<const Eigen::Isometry3d> X_WL,
+                             const Eigen::Ref<const Eigen::VectorXd>& path) const {
+  const Eigen::Vector3d centre = X_WL[static_cast<std::size_t>(ball.link)] * ball.centre;
+  double sum = 0.0;
+  for (int link = ball.link; link > root;) {
+    const KinematicStep& step = model_->steps()[static_cast<std::size_t>(link - 1)];
+    if (step.column >= 0) {
+      const double moved = std::abs(step.multiplier) * path[step.column];
+      if (step.type == JointType::kPrismatic) {
+        sum += moved;
+      } else {
+        const Eigen::Isometry3d& X = X_WL[static_cast<std::size_t>(link)];
+        const Eigen::Vector3d axis = X.linear() * step.axis;
+        const double arm = axis.cross(centre - X.translation()).norm() + ball.radius;
+        sum += moved * (arm + sum);
+      }
+    }
+    link = step.parent_link;
+  }
+  return sum;
+}
+
+double TravelBound::Between(std::span<const Eigen::Isometry3d> X_WL,
+                            const Eigen::Ref<const Eigen::VectorXd>& path, int link,
+                            int other) const {
+  int root = link;
+  for (int last = other; root != last;) {  // parents come before their children
+    int& later = root > last ? root : last;
+    later = model_->steps()[static_cast<std::size_t>(later - 1)].parent_link;
+  }
+  double travel[2] = {0.0, 0.0};
+  for (const LinkBall& ball : balls_) {
+    if (ball.link != link && ball.link != other) continue;
+    double& most = travel[ball.link == link ? 0 : 1];
+    most = std::max(most, TravelOf(ball, root, X_WL, path));
+  }
+  return travel[0] + travel[1];
 }
 
 double LeastDistanceBetween(double before, double after, double travel) {

@@ -31,12 +31,21 @@ class TravelBound {
   void Calc(std::span<const Eigen::Isometry3d> X_WL, const Eigen::Ref<const Eigen::VectorXd>& path,
             std::span<double> travel) const;
 
+  /// The same for two links of the robot relative to each other, m: only joints between them count,
+  /// for what moves both alike leaves their distance as it is. No heap.
+  double Between(std::span<const Eigen::Isometry3d> X_WL,
+                 const Eigen::Ref<const Eigen::VectorXd>& path, int link, int other) const;
+
  private:
   struct LinkBall {
     int link;
     Eigen::Vector3d centre;  // in the link's frame
     double radius;
   };
+  /// Of one solid, relative to the link `root` before it; 0: the robot's root.
+  double TravelOf(const LinkBall& ball, int root, std::span<const Eigen::Isometry3d> X_WL,
+                  const Eigen::Ref<const Eigen::VectorXd>& path) const;
+
   const RobotModel* model_;
   std::vector<LinkBall> balls_;
 };
