@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+
+#include "oca/models/planning/smooth_step.h"
 
 namespace oca::planning {
 namespace {
@@ -13,11 +16,10 @@ constexpr double kShortInterval = 0.15;
 constexpr double kShortSpacing = 0.05;
 constexpr double kLongSpacing = 0.125;
 
-constexpr double kPositionInset = 0.02;    // rad, m; that bands stay away from position limits
-constexpr double kPositionUnit = 0.1;      // rad, m
-constexpr double kLeastUnit = 1e-6;        // rad/s, m/s and so on; of a limit that is nearly 0
-constexpr double kExcessTolerance = 1e-3;  // that still counts as within the limits
-constexpr double kExcessPrice = 0.05;      // m; an excess of 1 counts as so much missing distance
+constexpr double kPositionInset = 0.02;  // rad, m; that bands stay away from position limits
+constexpr double kPositionUnit = 0.1;    // rad, m
+constexpr double kLeastUnit = 1e-6;      // rad/s, m/s and so on; of a limit that is nearly 0
+constexpr double kReturnRamp = 0.2;      // s
 
 /// How far `x` is above the range, or, negative, below it.
 double Excess(double x, double lower, double upper) {
@@ -70,17 +72,23 @@ int BandOptimizer::Variable(int control) const {
 }
 
 void BandOptimizer::Prepare(const BandCurve& curve, const BandRequest& request,
-                            std::span<const BandBody> bodies, bool end_fixed) {
+                            std::span<const BandBody> bodies, bool end_fixed, double from) {
+  left_.clear();
+  returns_ = false;
   bodies_.assign(bodies.begin(), bodies.end());
   something_near_ = !bodies_.empty() || self_collision_;
   std::vector<robot::PlacedBody> placed;
-  for (const BandBody& body : bodies_) placed.push_back(body.At(curve.start()));
+  from = std::max(from, curve.start());
+  for (const BandBody& body : bodies_) placed.push_back(body.At(from));
   clearance_.SetBodies(std::move(placed));
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    for (const int link : bodies_[b].ignored) clearance_.Ignore(link, static_cast<int>(b));
+  }
   num_controls_ = static_cast<int>(curve.controls().cols());
   FixEnd(end_fixed);
-  AddSamples(curve, request);
+  AddSamples(curve, request, from);
   start_.resize(curve.size());
-  curve.Evaluate(curve.start(), 0, start_);
+  curve.Evaluate(from, 0, start_);
   start_ += checks_.front().request[0];
 }
 
@@ -89,11 +97,13 @@ void BandOptimizer::FixEnd(bool fixed) {
   num_variables_ = num_controls_ - 6 + (fixed ? 0 : 1);
 }
 
-void BandOptimizer::AddSamples(const BandCurve& curve, const BandRequest& request) {
+void BandOptimizer::AddSamples(const BandCurve& curve, const BandRequest& request, double from) {
   samples_.clear();
   checks_.clear();
   poses_.clear();
-  const std::vector<double> times = curve.times();
+  std::vector<double> times = curve.times();
+  times.erase(times.begin(), std::prev(std::upper_bound(times.begin(), times.end() - 1, from)));
+  times.front() = from;
   checks_.push_back(MakeSample(curve, request, times.front(), 0.0));
   for (std::size_t i = 0; i + 1 < times.size(); ++i) {
     const double length = times[i + 1] - times[i];
@@ -123,11 +133,17 @@ BandOptimizer::Sample BandOptimizer::MakeSample(const BandCurve& curve, const Ba
 void BandOptimizer::AddClearance(bool rows) {
   clearance_.Collect(settings_.margin, pairs_);
   for (const robot::NearPair& pair : pairs_) {
-    const double lacking = settings_.margin - pair.distance;
+    const double wanted =
+        Flies(pair) ? settings_.margin : std::min(settings_.margin, Yielding(pair, true));
+    const double lacking = wanted - pair.distance;
     if (!(lacking > 0.0)) continue;
     cost_ += settings_.clearance * lacking * lacking;
     if (!rows) continue;
     clearance_.Gradient(pair, row_);
+    if (wanted < settings_.margin) {  // what is wanted falls towards the goal
+      const double away = (q_ - yield_goal_).norm();
+      if (away > 0.0) row_ -= kYieldSlope / away * (q_ - yield_goal_);
+    }
     H_.noalias() += settings_.clearance * row_ * row_.transpose();
     g_[0].noalias() -= settings_.clearance * lacking * row_;
   }
@@ -168,12 +184,23 @@ double BandOptimizer::AddedExcess(const Sample& sample, const BandCurve& curve) 
   return largest;
 }
 
+double BandOptimizer::NearnessAt(double time) const {
+  if (!returns_) return settings_.nearness;
+  double share = 1.0;
+  for (const auto& [first, last] : near_) {
+    const double begun = SmoothStep((time - first + before_ + kReturnRamp) / kReturnRamp);
+    share = std::min(share, 1.0 - begun * SmoothStep((last - time) / kReturnRamp));
+  }
+  return settings_.nearness + share * (settings_.return_nearness - settings_.nearness);
+}
+
 void BandOptimizer::AddDiagonal(const Sample& sample, const Eigen::VectorXd x[3]) {
   const double price = settings_.limits;
+  const double nearness = NearnessAt(sample.time);
   for (Eigen::Index j = 0; j < q_.size(); ++j) {
-    cost_ += settings_.nearness * x[0][j] * x[0][j] + settings_.smoothness * x[2][j] * x[2][j];
-    d_[0][j] += settings_.nearness;
-    g_[0][j] += settings_.nearness * x[0][j];
+    cost_ += nearness * x[0][j] * x[0][j] + settings_.smoothness * x[2][j] * x[2][j];
+    d_[0][j] += nearness;
+    g_[0][j] += nearness * x[0][j];
     cost_ += settings_.calm * x[1][j] * x[1][j];
     d_[1][j] += settings_.calm;
     g_[1][j] += settings_.calm * x[1][j];
@@ -261,47 +288,9 @@ Eigen::VectorXd BandOptimizer::HalfGradient(const BandCurve& curve) {
   return -normal.right;
 }
 
-bool BandOptimizer::Touches(double nearest) {
-  if (!(nearest < std::max(settings_.trust_distance, settings_.flying_distance))) return false;
-  clearance_.Collect(std::max(settings_.trust_distance, settings_.flying_distance), pairs_);
-  return std::any_of(pairs_.begin(), pairs_.end(), [&](const robot::NearPair& pair) {
-    const bool flies = pair.body >= 0 && !bodies_[pair.body].stands;
-    return pair.distance < (flies ? settings_.flying_distance : settings_.trust_distance);
-  });
-}
-
-BandCheck BandOptimizer::Check(const BandCurve& curve) {
-  BandCheck check{.min_distance = settings_.margin, .distance = settings_.margin};
-  if (!something_near_) return check;
-  Eigen::VectorXd x(q_.size()), before;
-  for (const Sample& sample : checks_) {
-    curve.Evaluate(sample.time, 0, x);
-    Place(sample, x);
-    if (before.size() > 0) check.way += (q_ - before).cwiseAbs().sum();
-    before = q_;
-    const robot::NearPair pair = clearance_.Nearest(settings_.margin);
-    if (pair.distance < check.min_distance) {
-      check.min_distance = pair.distance;
-      check.distance = pair.distance / pair.scale;
-      check.time = sample.time;
-      check.link = model_->links()[pair.link].name;
-      check.body = pair.body >= 0 ? bodies_[pair.body].name : model_->links()[pair.other_link].name;
-    }
-    const double excess = std::max(AddedExcess(sample, curve) - kExcessTolerance, 0.0);
-    if (Touches(pair.distance) || excess > 0.0) {
-      check.touch = std::min(check.touch, sample.time);
-    }
-    const double lacking = std::max(settings_.clear_distance - pair.distance, 0.0);
-    if (!(lacking > 0.0 || excess > 0.0)) continue;
-    if (check.clear()) check.first = sample.time;
-    check.last = sample.time;
-    check.violation += sample.weight * (lacking + kExcessPrice * excess);
-  }
-  return check;
-}
-
 void BandOptimizer::PlaceAt(const Eigen::VectorXd& q, double time) {
   ++evaluations_;
+  q_ = q;
   clearance_.MoveTo(q);
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (bodies_[b].stands) continue;

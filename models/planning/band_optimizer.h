@@ -3,10 +3,12 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "oca/models/name.h"
@@ -28,6 +30,7 @@ struct BandBody {
     if (!covariance) return {collider, pose(time)};
     return {collider, pose(time), covariance(time)};
   }
+  std::vector<int> ignored{};  ///< numbers of links whose distance to it does not count
 };
 
 bool Moves(std::span<const BandBody> bodies);
@@ -38,34 +41,57 @@ using BandRequest =
 
 struct BandSettings {
   double margin{0.1};            ///< m; distances below it cost
-  double clear_distance{0.04};   ///< m; a band that keeps it is clear
+  double clear_distance{0.04};   ///< m; a band that keeps it is wide
+  double hard_distance{0.002};   ///< m; what stands, and own links, never come nearer
   double trust_distance{0.03};   ///< m; a band that keeps it from what stands need not be helped
   double flying_distance{0.01};  ///< m; nor one that keeps this from what moves
   double clearance{1e4};         ///< 1/m^2; price of a missing margin
   double smoothness{0.02};       ///< s^4/rad^2; price of an acceleration of the deviation
   double nearness{0.1};          ///< 1/rad^2; price of a deviation
+  double return_nearness{10.0};  ///< 1/rad^2; the same where nothing is in the way any more
   double calm{0.1};              ///< s^2/rad^2; price of a speed of the deviation
   double limits{1e3};            ///< price of the square of an excess
   double limit_share{0.9};       ///< of the velocity and acceleration limits that a band may use
 };
 
 /// What is true of a band on a grid of times that is finer than that of its optimisation.
+///
+/// Of what stands, and of own links, no more is asked than the goal and the start leave there: near
+/// either, a pair's own distance at it, and kYieldSlope more for every rad or m that the joints are
+/// away from it.
 struct BandCheck {
-  double min_distance;  ///< m, as it counts; or the margin, if all is farther
-  double distance;      ///< m; of the same pair, as it is
-  double time{0.0};     ///< s, of the nearest
-  models::Name link{};  ///< the nearest pair
-  models::Name body{};  ///< of no meaning if min_distance is the margin
+  static constexpr double kNever = std::numeric_limits<double>::infinity();
+  double min_distance;    ///< m, as it counts; or the margin, if all is farther
+  double distance;        ///< m; of the same pair, as it is
+  double time{0.0};       ///< s, of the nearest
+  models::Name link{};    ///< the nearest pair
+  models::Name body{};    ///< of no meaning if min_distance is the margin
+  bool own_links{false};  ///< it is one of own links
   /// m s; integral of what lacks to clear_distance, and of 0.05 m times what is exceeded of limits
   /// (units as in BandOptimizer) that the request does not exceed
   double violation{0.0};
-  double first{0.0};  ///< s; first and last time at which it is not clear
+  /// The same, but what stands and own links are asked for hard_distance only.
+  double breach{0.0};
+  double first{0.0};  ///< s; first and last time at which it is not wide
   double last{0.0};
-  /// s; first time below trust_distance or beyond such a limit
-  double touch{std::numeric_limits<double>::infinity()};
+  /// s; first and last times at which something is nearer than what is wanted, a second apart
+  std::vector<std::pair<double, double>> near{};
+  double kept{kNever};  ///< m; least distance of what stands where that is less than is asked for
+  /// s; first time at which what stands is nearer than trust_distance, or than hard_distance, at
+  /// which what moves is nearer than flying_distance, and at which a limit is exceeded
+  double touch_trust{kNever}, touch_hard{kNever}, touch_flying{kNever}, touch_limits{kNever};
   double way{0.0};  ///< rad; that the joints go, all together
-  bool clear() const { return !(violation > 0.0); }
+
+  bool wide() const { return !(violation > 0.0); }
+  /// No pair below what it must keep, and within the limits.
+  bool clear() const { return !(breach > 0.0); }
+  /// s; first time at which a filter has to help.
+  double touch() const {
+    return std::min({clear() ? touch_hard : touch_trust, touch_flying, touch_limits});
+  }
 };
+
+inline constexpr double kYieldSlope = 0.25;  ///< m/rad, m/m
 
 /// A band of configurations along a requested motion, which bodies push away and which pulls itself
 /// back and straight: the deviation x(t), a BandCurve, that minimises
@@ -88,12 +114,18 @@ class BandOptimizer {
   BandOptimizer(std::shared_ptr<const robot::RobotModel> model, const BandSettings& settings,
                 bool self_collision = false, const robot::OwnRanges& own = {});
 
+  /// Leaves two own links out from now on, by their numbers.
+  void IgnoreOwn(int link, int other) { clearance_.IgnoreOwn(link, other); }
+
   const robot::RobotModel& model() const { return *model_; }
   const BandSettings& settings() const { return settings_; }
 
   /// Takes what is requested and what stands and moves around, for bands on the grid of `curve`.
+  /// A grid that begins before `from` (s) is looked at from there on.
   void Prepare(const BandCurve& curve, const BandRequest& request, std::span<const BandBody> bodies,
-               bool end_fixed);
+               bool end_fixed, double from = -std::numeric_limits<double>::infinity());
+  /// From where to where, for what these leave to be asked; after Prepare. Null: nowhere.
+  void YieldAt(const Eigen::VectorXd& start, const Eigen::VectorXd* goal);
   /// Whether the deviation at the end of the grid stays what it is.
   void FixEnd(bool fixed);
   /// The cost of a band of that grid.
@@ -103,8 +135,24 @@ class BandOptimizer {
   /// Improves a band by at most `most` steps; its cost. Never makes it dearer.
   double Relax(BandCurve& curve, int most);
   BandCheck Check(const BandCurve& curve);
+  /// Away from these times (BandCheck::near of what is requested), return_nearness is the price of a
+  /// deviation: from 0.2 s before the end of each more and more, up to `before` s before the begin of
+  /// the next. After Prepare, which says that nearness is the price.
+  void ReturnBetween(std::vector<std::pair<double, double>> near, double before) {
+    returns_ = true;
+    near_ = std::move(near);
+    before_ = before;
+  }
   /// The nearest distance of a configuration at a time, up to the margin; after Prepare.
   double Distance(const Eigen::VectorXd& q, double time);
+
+  /// What a configuration leaves, m: least distance, as it is, to what stands and own links, and
+  /// least one to what moves; each up to clear_distance.
+  struct Room {
+    double standing, flying;
+    models::Name link, body;  ///< of the former
+  };
+  Room RoomAt(const Eigen::VectorXd& q, double time);
 
   /// How the nearest distance changes with the joints there, into `row`; false if nothing is near.
   bool DistanceGradient(const Eigen::VectorXd& q, double time, Eigen::VectorXd& row);
@@ -128,7 +176,7 @@ class BandOptimizer {
   };
 
   int Variable(int control) const;
-  void AddSamples(const BandCurve& curve, const BandRequest& request);
+  void AddSamples(const BandCurve& curve, const BandRequest& request, double from);
   Sample MakeSample(const BandCurve& curve, const BandRequest& request, double time, double weight);
   void Linearize(const Eigen::MatrixXd& controls, bool rows, Normal& normal);
   void AddClearance(bool rows);
@@ -140,12 +188,28 @@ class BandOptimizer {
   /// What the band exceeds more than the request does, and in position than it did at the start.
   double AddedExcess(const Sample& sample, const BandCurve& curve) const;
   void AddDiagonal(const Sample& sample, const Eigen::VectorXd x[3]);
+  double NearnessAt(double time) const;
   void Assemble(const Sample& sample, Normal& normal) const;
   bool Step(const Normal& normal, double damping);
   /// Brings robot and bodies to where they are at a sample with deviation x.
   void Place(const Sample& sample, const Eigen::VectorXd& x);
-  /// Whether, placed, anything is nearer than a band that is to be trusted keeps.
-  bool Touches(double nearest);
+  /// What a pair has at the goal or the start, as it counts, m.
+  struct Left {
+    int link, body, other_link;
+    double distance;
+    bool at_goal;
+  };
+  bool Flies(const robot::NearPair& pair) const {
+    return pair.body >= 0 && !bodies_[static_cast<std::size_t>(pair.body)].stands;
+  }
+  void AddLeft(const Eigen::VectorXd& q, double time, bool at_goal);
+  /// The most that may be asked of a pair at q_, as it counts.
+  double Yielding(const robot::NearPair& pair, bool at_goal_alone) const;
+  /// What lacks of a sample, placed, whose nearest distance is known; into the check.
+  struct Lack {
+    double wide{0.0}, hard{0.0};
+  };
+  Lack LackAt(double nearest, double time, BandCheck& check);
   void PlaceAt(const Eigen::VectorXd& q, double time);
 
   const std::shared_ptr<const robot::RobotModel> model_;
@@ -162,6 +226,11 @@ class BandOptimizer {
   bool something_near_{false};  ///< else nothing has a distance
   long evaluations_{0};
   Eigen::VectorXd start_;  ///< position at the start of the grid
+  bool returns_{false};
+  std::vector<std::pair<double, double>> near_;
+  double before_{0.0};
+  Eigen::VectorXd yield_start_, yield_goal_;
+  std::vector<Left> left_;
 
   // Of the sample at hand.
   std::vector<robot::NearPair> pairs_;

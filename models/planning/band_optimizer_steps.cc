@@ -9,7 +9,7 @@
 namespace oca::planning {
 namespace {
 
-constexpr double kLongestStep = 0.5;  // rad or m of a control point; distances bend
+constexpr double kLongestMove = 0.5;  // rad or m of a control point; distances bend
 constexpr double kLeastGain = 2e-3;   // of the cost, in a step worth another one
 constexpr double kMostDamping = 1e6;
 
@@ -65,7 +65,7 @@ double BandOptimizer::Relax(BandCurve& curve, int most) {
       continue;
     }
     const double longest = step_.cwiseAbs().maxCoeff();
-    if (longest > kLongestStep) step_ *= kLongestStep / longest;
+    if (longest > kLongestMove) step_ *= kLongestMove / longest;
     trial = curve.controls();
     for (int i = 3; i < num_controls_; ++i) {
       if (Variable(i) >= 0) trial.col(i) += step_.segment(Variable(i) * n, n);

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "oca/models/planning/rrt_connect.h"
+#include "oca/models/planning/band_certificate.h"
 #include "oca/models/planning/smooth_step.h"
 #include "oca/models/random.h"
 
@@ -22,13 +22,13 @@ constexpr double kCoarse = 0.4;
 constexpr int kFewest = 8;
 constexpr std::size_t kMostGrowing = 10;  // intervals from kFine to kCoarse, and a few
 
-constexpr int kFewestSteps = 5;  // on a start, less is no trial
-// Of paths where the work of a plan is bounded.
-constexpr int kBoundedNodes = 150;
-constexpr int kBoundedShortcuts = 50;
-constexpr std::uint64_t kPathTurn = 3;  // one of so many bounded searches tries paths
+constexpr std::uint64_t kRrtTurn = 3;  // one of so many bounded searches tries paths
 
 constexpr double kMuchCheaper = 0.7;
+constexpr double kSameRoom = 1e-4;      // m; of the goal and of a band that comes no nearer
+constexpr double kSameState = 1e-9;     // of a last band and a task's start
+constexpr double kNotCertified = 1e-6;  // m s; what a band lacks that is not proved
+constexpr double kEvadeAhead = 1.5;     // s; before what stands a band begins to bend
 constexpr double kAtRest = 1e-9;
 
 /// 0 before 0, 1 after 1, with two derivatives that vanish at both.
@@ -44,6 +44,7 @@ BandPlanner::BandPlanner(std::shared_ptr<const robot::RobotModel> model,
                          const robot::OwnRanges& own)
     : settings_(settings),
       band_(model, settings.band, self_collision, own),
+      own_(own),
       standing_(std::make_unique<robot::Clearance>(std::move(model), self_collision)) {
   standing_->KeepOwn(own, settings.band.clear_distance);
 }
@@ -61,14 +62,15 @@ double BandPlanner::HorizonOf(const BandTask& task, bool moving) const {
 
 int BandPlanner::StepsLeft(int wanted) const {
   if (settings_.most_evaluations == 0) return wanted;
-  const long left = settings_.most_evaluations - (band_.evaluations() - begun_);
+  const long left = settings_.most_evaluations - (band_.evaluations() - begun_) - certified_looks_;
   // A start costs its look at the finer grid of Check too.
   return static_cast<int>(std::clamp<long>(left / band_.num_samples() - 3, 0, wanted));
 }
 
-std::vector<double> BandPlanner::TimesOf(const BandTask& task) const {
+std::vector<double> BandPlanner::TimesOf(const BandTask& task, const Grid& grid) const {
   const bool moving = Moves(task.bodies);
-  const double horizon = HorizonOf(task, moving);
+  const double horizon =
+      std::min(std::max(HorizonOf(task, moving), grid.least_horizon), settings_.most_horizon);
   std::vector<double> times{task.start};
   double step = kFine;
   // Even where the start is so late that a step does not show.
@@ -79,20 +81,68 @@ std::vector<double> BandPlanner::TimesOf(const BandTask& task) const {
     if (times.back() - task.start > settings_.fine_span) step *= kGrowth;
   }
   const double rest = task.start + horizon - times.back();
-  const int count = std::max(moving ? 1 : kFewest, static_cast<int>(std::ceil(rest / kCoarse)));
+  const int count =
+      std::max(moving ? 1 : kFewest, static_cast<int>(std::ceil(rest / grid.interval)));
   const double from = times.back();
   for (int i = 1; i <= count; ++i) times.push_back(from + i * rest / count);
   return times;
 }
 
-void BandPlanner::Prepare(const BandTask& task) {
-  zero_ = BandCurve(task.deviation[0].size(), TimesOf(task));
+BandPlanner::Grid BandPlanner::GridOf(const BandTask& task, const BandCurve* last, bool moving) {
+  Grid grid{0.0, kCoarse};
+  if (last == nullptr || last->empty()) return grid;
+  // A way that takes its time, or needs more points, goes on to do so.
+  const double left = last->end() - task.start;
+  const std::vector<double> times = last->times();
+  if (left > 0.0) grid.least_horizon = left;
+  if (!moving && left > 0.0) grid.interval = std::min(kCoarse, times.back() - *(times.end() - 2));
+  return grid;
+}
+
+VectorXd BandPlanner::GoalAt(const BandTask& task, double time) const {
+  VectorXd goal(model().num_positions());
+  task.request(time, 0, goal);
+  if (task.end.size() > 0) goal += task.end;
+  return goal;
+}
+
+void BandPlanner::FixEnd(const BandTask& task, double end) {
+  const VectorXd goal = GoalAt(task, end);
+  end_room_ = band_.RoomAt(goal, end);
+  // Where the request still goes on the band may end elsewhere as well.
+  const bool rests = end >= task.request_end;
+  end_fixed_ =
+      end_room_.flying >= settings_.band.clear_distance &&
+      (rests ? end_room_.standing > 0.0 : end_room_.standing >= settings_.band.clear_distance);
+  band_.FixEnd(end_fixed_);
+  VectorXd start(goal.size());
+  task.request(task.start, 0, start);
+  start += task.deviation[0];
+  band_.YieldAt(start, end_fixed_ ? &goal : nullptr);
+}
+
+void BandPlanner::Prepare(const BandTask& task, const Grid& grid) {
+  zero_ = BandCurve(task.deviation[0].size(), TimesOf(task, grid));
   zero_.StartWith(task.deviation[0], task.deviation[1], task.deviation[2]);
   band_.Prepare(zero_, task.request, task.bodies, true);
-  VectorXd goal(zero_.size());
-  task.request(zero_.end(), 0, goal);
-  end_fixed_ = band_.Distance(goal, zero_.end()) >= settings_.band.clear_distance;
-  band_.FixEnd(end_fixed_);
+  FixEnd(task, zero_.end());
+  if (end_fixed_ && task.end.size() > 0) zero_.controls().rightCols(3).colwise() = task.end;
+}
+
+void BandPlanner::PrepareStanding(const BandTask& task) {
+  std::vector<robot::PlacedBody> placed;
+  for (const BandBody& body : task.bodies) {
+    if (body.stands) placed.push_back(body.At(task.start));
+  }
+  anything_stands_ = !placed.empty() || !standing_->own_pairs().empty();
+  standing_->SetBodies(std::move(placed));
+  int place = 0;
+  for (const BandBody& body : task.bodies) {
+    if (!body.stands) continue;
+    for (const int link : body.ignored) standing_->Ignore(link, place);
+    ++place;
+  }
+  standing_->KeepOwn(own_, settings_.band.clear_distance);
 }
 
 BandCurve BandPlanner::Shaped(const BandTask& task,
@@ -105,45 +155,137 @@ BandCurve BandPlanner::Shaped(const BandTask& task,
         (request + shape(time)).cwiseMax(model().lower_limits()).cwiseMin(model().upper_limits());
     return q - request;
   });
-  if (end_fixed_) curve.controls().rightCols(3).setZero();
+  if (end_fixed_) curve.controls().rightCols(3) = zero_.controls().rightCols(3);
   return curve;
+}
+
+int BandPlanner::LevelOf(const BandCheck& check) const {
+  if (check.wide()) return 0;
+  int level = 1;
+  for (const double distance : kClearLevels) {
+    if (check.kept >= distance) return level;
+    ++level;
+  }
+  return level;
 }
 
 BandPlan BandPlanner::Finish(BandStart kind, BandCurve curve, int iterations) {
   BandPlan plan{.curve = std::move(curve), .start = kind};
   plan.cost = band_.Relax(plan.curve, iterations);
-  plan.check = band_.Check(plan.curve);
+  Judge(plan);
   return plan;
+}
+
+void BandPlanner::Judge(BandPlan& plan) {
+  plan.check = band_.Check(plan.curve);
+  plan.level = LevelOf(plan.check);
+  plan.reaches = end_fixed_;
+  plan.goal_room = end_room_.standing;
+  plan.goal_link = end_room_.link;
+  plan.goal_body = end_room_.body;
+  const BandCheck& check = plan.check;
+  if (!(check.min_distance < settings_.band.margin)) {
+    plan.lack = BandLack::kNone;
+  } else if (end_fixed_ && check.link == end_room_.link && check.body == end_room_.body &&
+             check.distance > end_room_.standing - kSameRoom) {
+    plan.lack = BandLack::kGoal;
+  } else if (check.time < begin_ + kFine) {
+    plan.lack = BandLack::kStart;
+  } else {
+    plan.lack = check.own_links ? BandLack::kOwnLinks : BandLack::kPassage;
+  }
+}
+
+void BandPlanner::Certify(const BandTask& task, BandPlan& plan) {
+  if (plan.certified || !plan.check.clear()) return;
+  plan.certified = true;
+  if (!anything_stands_ || plan.check.min_distance >= settings_.band.margin) return;
+  BandCertificate certificate(*standing_, settings_.band.hard_distance,
+                              settings_.band.clear_distance);
+  const double until = certificate.Until(task.request, plan.curve, task.start);
+  certified_looks_ += certificate.evaluations();
+  if (until == BandCheck::kNever) return;
+  plan.certified = false;
+  plan.check.touch_hard = std::min(plan.check.touch_hard, until);
+  plan.check.breach += kNotCertified;
+  if (plan.check.wide()) plan.check.first = plan.check.last = until;
+  plan.check.violation += kNotCertified;
 }
 
 bool BandPlanner::Better(const BandPlan& plan, const BandPlan& best) const {
   const bool clear = plan.check.clear();
   if (clear != best.check.clear()) return clear;
   if (!clear) return plan.check.violation < 0.95 * best.check.violation;
+  // What stands may set off, where other things move.
+  if (moving_ && (plan.level == 0) != (best.level == 0)) return plan.level == 0;
+  if (plan.reaches != best.reaches) return plan.reaches;
+  if (plan.level != best.level) return plan.level < best.level;
   const auto way = [&](const BandCheck& check) {
     return check.way + kMarginWay * std::max(settings_.band.margin - check.min_distance, 0.0);
   };
   return way(plan.check) < way(best.check);
 }
 
-void BandPlanner::Keep(BandPlan plan, BandPlan& best) const {
+void BandPlanner::Keep(const BandTask& task, BandPlan plan, BandPlan& best) {
+  if (!Better(plan, best)) return;
+  Certify(task, plan);
   if (Better(plan, best)) best = std::move(plan);
+}
+
+std::optional<BandPlan> BandPlanner::KeepLast(const BandTask& task, const BandCurve* last) {
+  if (Moves(task.bodies) || last == nullptr || last->empty()) return std::nullopt;
+  if (last->end() < task.request_end || last->end() < task.start + kFine) return std::nullopt;
+  VectorXd x(last->size());
+  for (int d = 0; d < 3; ++d) {
+    last->Evaluate(task.start, d, x);
+    if ((x - task.deviation[d]).cwiseAbs().maxCoeff() > kSameState) return std::nullopt;
+  }
+  band_.Prepare(*last, task.request, task.bodies, true, task.start);
+  FixEnd(task, last->end());
+  x = last->controls().rightCols(1);
+  if (task.end.size() > 0) x -= task.end;
+  end_fixed_ = end_fixed_ && x.cwiseAbs().maxCoeff() < kSameState;
+  if (!end_fixed_) return std::nullopt;
+  BandPlan plan{.curve = *last, .start = BandStart::kLast};
+  plan.cost = band_.Cost(plan.curve);
+  Judge(plan);
+  Certify(task, plan);
+  if (!plan.check.clear()) return std::nullopt;
+  return plan;
 }
 
 BandPlan BandPlanner::Plan(const BandTask& task, const BandCurve* last) {
   begun_ = band_.evaluations();
-  Prepare(task);
+  begin_ = task.start;
+  moving_ = Moves(task.bodies);
+  certified_looks_ = path_looks_ = 0;
+  PrepareStanding(task);
+  std::optional<BandPlan> kept = KeepLast(task, last);
+  BandPlan best = kept && kept->level == 0 && !task.fresh ? *kept : PlanAnew(task, last);
+  if (kept) Keep(task, *std::move(kept), best);
+  if (task.paths != nullptr && best.check.clear() && best.reaches && best.level == 0) {
+    task.paths->Reset();
+  }
+  best.evaluations = band_.evaluations() - begun_ + certified_looks_ + path_looks_;
+  return best;
+}
+
+BandPlan BandPlanner::PlanAnew(const BandTask& task, const BandCurve* last) {
+  Prepare(task, GridOf(task, last, Moves(task.bodies)));
   const bool at_rest = task.deviation[0].cwiseAbs().maxCoeff() < kAtRest &&
                        task.deviation[1].cwiseAbs().maxCoeff() < kAtRest;
-  BandPlan best{.curve = zero_, .check = band_.Check(zero_), .start = BandStart::kRequest};
+  BandPlan best{.curve = zero_, .start = BandStart::kRequest};
+  Judge(best);
   const bool nothing_near = best.check.min_distance >= settings_.band.margin;
-  const bool enough = nothing_near || (last == nullptr && best.check.clear());
-  if (!at_rest || !enough) best = Bend(task, best.check, last);
-  best.evaluations = band_.evaluations() - begun_;
+  const bool enough = nothing_near || (last == nullptr && best.check.wide());
+  if (at_rest && enough) Certify(task, best);
+  if (!at_rest || !enough || !best.check.clear()) best = Bend(task, best.check, last);
   return best;
 }
 
 BandPlan BandPlanner::Bend(const BandTask& task, const BandCheck& trouble, const BandCurve* last) {
+  // Where something moves, who is back early has evaded it once more for nothing.
+  if (!Moves(task.bodies)) band_.ReturnBetween(trouble.near, kEvadeAhead);
   BandCurve warm = zero_;
   if (last != nullptr && !last->empty()) {
     VectorXd x(zero_.size());
@@ -153,24 +295,28 @@ BandPlan BandPlanner::Bend(const BandTask& task, const BandCheck& trouble, const
     });
   }
   BandPlan best = Finish(BandStart::kLast, warm, settings_.iterations);
-  if (!best.check.clear() && end_fixed_ && Moves(task.bodies)) {
+  Certify(task, best);
+  if (!best.check.wide() && end_fixed_ && moving_) {
     // What flies may be between the arm and where it is to be at the end.
     end_fixed_ = false;
     band_.FixEnd(false);
-    Keep(Finish(BandStart::kLast, std::move(warm), settings_.iterations), best);
+    Keep(task, Finish(BandStart::kLast, std::move(warm), settings_.iterations), best);
   }
-  if (trouble.clear() || !best.check.clear()) {
+  if (trouble.wide() || !best.check.wide()) {
     BandPlan back = Finish(BandStart::kRequest, zero_, settings_.iterations);
-    if (!best.check.clear() || back.cost < kMuchCheaper * best.cost) Keep(std::move(back), best);
+    if (!best.check.wide() || back.cost < kMuchCheaper * best.cost) {
+      Keep(task, std::move(back), best);
+    }
   }
-  if ((!best.check.clear() && task.explore) || (task.fresh && !trouble.clear())) {
-    if (trouble.clear()) {
+  if ((!best.check.wide() && task.explore) || (task.fresh && !trouble.wide())) {
+    if (trouble.wide()) {
       const BandPlan tried = best;
       Explore(task, tried.check, tried.curve, best);
     } else {
       Explore(task, trouble, zero_, best);
     }
   }
+  if (task.paths != nullptr) GoOnSearching(task, best);
   return best;
 }
 
@@ -194,11 +340,13 @@ void BandPlanner::Explore(const BandTask& task, const BandCheck& trouble, const 
   const auto count = std::min(starts.size(), static_cast<std::size_t>(settings_.relaxed_starts));
   for (std::size_t i = 0; i < count; ++i) {
     const int steps = StepsLeft(settings_.start_iterations);
-    if (i > 0 && steps < kFewestSteps) break;
-    Keep(Finish(starts[i].kind, std::move(starts[i].curve), std::max(steps, kFewestSteps)), best);
+    if (i > 0 && steps < kFewestBandSteps) break;
+    Keep(task,
+         Finish(starts[i].kind, std::move(starts[i].curve), std::max(steps, kFewestBandSteps)),
+         best);
   }
-  const bool turn = settings_.most_evaluations == 0 || task.search % kPathTurn == kPathTurn - 1;
-  if (!best.check.clear() && turn) TryPaths(task, best);
+  const bool turn = settings_.most_evaluations == 0 || task.search % kRrtTurn == kRrtTurn - 1;
+  if (!best.check.clear() && turn && task.paths == nullptr) TryPaths(task, best);
 }
 
 void BandPlanner::AddPauses(const BandTask& task, const BandCheck& trouble,
@@ -260,50 +408,6 @@ void BandPlanner::AddDetours(const BandTask& task, const BandCheck& trouble,
     for (Eigen::Index j = 0; j < n; ++j) out[j] = random.Uniform(-1.0, 1.0);
     out *= random.Uniform(0.3, 1.8) / out.cwiseAbs().maxCoeff();
     add(BandStart::kRandom, out, random.Uniform(0.5, 3.0));
-  }
-}
-
-void BandPlanner::TryPaths(const BandTask& task, BandPlan& best) {
-  std::vector<robot::PlacedBody> placed;
-  for (const BandBody& body : task.bodies) {
-    if (body.stands) placed.push_back(body.At(task.start));
-  }
-  if (placed.empty()) return;
-  standing_->SetBodies(std::move(placed));
-  VectorXd here(zero_.size()), goal(zero_.size()), request(zero_.size());
-  task.request(task.start, 0, here);
-  here += task.deviation[0];
-  task.request(zero_.end(), 0, goal);
-  const bool bounded = settings_.most_evaluations > 0;
-  for (int i = 0; i < (bounded ? std::min(settings_.paths, 1) : settings_.paths); ++i) {
-    RrtOptions options;
-    options.seed = models::Random::Seed(task.seed, static_cast<std::uint64_t>(i));
-    options.most_nodes = bounded ? kBoundedNodes : settings_.path_nodes;
-    if (bounded) options.shortcuts = kBoundedShortcuts;
-    std::optional<std::vector<VectorXd>> path;
-    for (const double margin : {1.3 * settings_.band.clear_distance, 0.015}) {
-      options.margin = margin;
-      path = RrtConnect(*standing_, here, goal, options);
-      if (path) break;
-    }
-    if (!path) continue;
-    std::vector<double> lengths{0.0};
-    for (std::size_t k = 1; k < path->size(); ++k) {
-      lengths.push_back(lengths.back() + ((*path)[k] - (*path)[k - 1]).norm());
-    }
-    const double begin = task.start + 0.2;
-    const double end = zero_.end() - std::min(0.5, 0.2 * (zero_.end() - task.start));
-    const auto shape = [&](double time) -> VectorXd {
-      const double at = lengths.back() * SmoothStep((time - begin) / (end - begin));
-      const auto above = std::upper_bound(lengths.begin() + 1, lengths.end() - 1, at);
-      const auto k = static_cast<std::size_t>(above - lengths.begin());
-      const double span = lengths[k] - lengths[k - 1];
-      const double share = span > 0.0 ? (at - lengths[k - 1]) / span : 0.0;
-      task.request(time, 0, request);
-      return (*path)[k - 1] + share * ((*path)[k] - (*path)[k - 1]) - request;
-    };
-    const int steps = std::max(StepsLeft(2 * settings_.start_iterations), kFewestSteps);
-    Keep(Finish(BandStart::kPath, Shaped(task, shape), steps), best);
   }
 }
 

@@ -5,10 +5,12 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "oca/models/planning/band_optimizer.h"
+#include "oca/models/planning/path_search.h"
 
 namespace oca::planning {
 
@@ -20,19 +22,24 @@ inline std::span<const char* const> EnumNames(BandStart) { return kBandStartName
 
 struct BandPlannerSettings {
   BandSettings band{};
-  int iterations{12};          ///< steps on the last band
-  int start_iterations{30};    ///< steps on another start
-  int relaxed_starts{6};       ///< the cheapest of all starts that are worth steps
-  int random_starts{24};       ///< beside those of single joints
-  int paths{2};                ///< of RrtConnect
-  int path_nodes{2000};        ///< each
-  long most_evaluations{0};    ///< of configurations, about, that a plan may cost; 0: no bound
-  double least_horizon{2.0};   ///< s
-  double moving_horizon{3.0};  ///< s; at most, while something moves
-  double most_horizon{30.0};   ///< s
-  double tail{0.5};            ///< s; after the end of the request
-  double fine_span{1.6};       ///< s; from the start, with short intervals if anything moves
+  int iterations{12};           ///< steps on the last band
+  int start_iterations{30};     ///< steps on another start
+  int relaxed_starts{6};        ///< the cheapest of all starts that are worth steps
+  int random_starts{24};        ///< beside those of single joints
+  int paths{2};                 ///< of RrtConnect, where the work is not bounded
+  int path_nodes{2000};         ///< each
+  long path_evaluations{1000};  ///< of a PathSearch, besides most_evaluations
+  long most_evaluations{0};     ///< of configurations, about, that a plan may cost; 0: no bound
+  double least_horizon{2.0};    ///< s
+  double moving_horizon{3.0};   ///< s; at most, while something moves
+  double most_horizon{30.0};    ///< s
+  double tail{0.5};             ///< s; after the end of the request
+  double fine_span{1.6};        ///< s; from the start, with short intervals if anything moves
 };
+
+/// What leaves a band less than the margin, where it comes nearest to something.
+enum class BandLack { kNone, kStart, kGoal, kPassage, kOwnLinks };
+inline constexpr std::array kBandLackNames{"none", "start", "goal", "passage", "own links"};
 
 /// What a band is planned for.
 struct BandTask {
@@ -40,11 +47,13 @@ struct BandTask {
   Eigen::VectorXd deviation[3];  /// at the start: position, velocity, acceleration
   BandRequest request{};
   double request_end{0.0};  ///< s; from then on it rests
+  Eigen::VectorXd end{};    ///< where the deviation is to end; empty: at zero
   std::span<const BandBody> bodies{};
   std::uint64_t seed{0};
-  std::uint64_t search{0};  ///< how many were made before: each looks at other starts
-  bool explore{true};       ///< try other starts if the last band is not clear
-  bool fresh{false};        ///< or if it is clear but the request is not
+  std::uint64_t search{0};     ///< how many were made before: each looks at other starts
+  bool explore{true};          ///< try other starts if the last band is not clear
+  bool fresh{false};           ///< or if it is clear but the request is not
+  PathSearch* paths{nullptr};  ///< goes on with this search past what stands; null: none
 };
 
 struct BandPlan {
@@ -52,10 +61,23 @@ struct BandPlan {
   BandCheck check{};
   BandStart start{BandStart::kRequest};
   double cost{0.0};
-  long evaluations{0};  ///< configurations that were looked at
+  bool reaches{true};     ///< ends where it is to end
+  bool certified{false};  ///< clear between the points of the grid too
+  int level{0};           ///< of kClearLevels that it keeps of what stands; their number: none
+  BandLack lack{BandLack::kNone};
+  double goal_room{0.0};                  ///< m; that the end leaves, at most clear_distance
+  models::Name goal_link{}, goal_body{};  ///< the pair
+  models::Name rest_link{}, rest_body{};  ///< of an exhausted search: what is near where it ended,
+  double rest_room{0.0};                  ///< and how near, m
+  long evaluations{0};                    ///< configurations that were looked at
 };
 
+/// Of wide bands there are several degrees, m: what stands is kept as far away as this all along,
+/// where start and goal leave it. The first is clear_distance, the last hard_distance.
+inline constexpr std::array kClearLevels{0.02, 0.01, 0.005};
+
 inline constexpr double kMarginWay = 10.0;  ///< rad/m
+inline constexpr int kFewestBandSteps = 5;  ///< on a start; less is no trial
 
 /// Finds bands: keeps the last one where it can be made clear, else tries many starts.
 ///
@@ -72,11 +94,23 @@ inline constexpr double kMarginWay = 10.0;  ///< rad/m
 /// short path. Clear means within the limits too. While something moves, the end of a band is free
 /// where the last one cannot be made clear otherwise.
 ///
+/// Of bands that are clear one that ends where it is to end is better than one that does not (where
+/// something moves, after one that is wide), then one of a wider degree (kClearLevels), then one of a shorter way. Where nothing moves the last
+/// band as it is counts as well. What stands and own links are proved to keep hard_distance between
+/// the points of the grid too (BandCertificate), else a band is not clear. With BandTask::paths a
+/// PathSearch goes on in every plan that is not clear, or of which a wider degree may be found.
+///
 /// The work is bounded and the answer a function of the arguments. Allocates.
 class BandPlanner {
  public:
   BandPlanner(std::shared_ptr<const robot::RobotModel> model, const BandPlannerSettings& settings,
               bool self_collision = false, const robot::OwnRanges& own = {});
+
+  /// Leaves two own links out from now on, by their numbers.
+  void IgnoreOwn(int link, int other) {
+    band_.IgnoreOwn(link, other);
+    standing_->IgnoreOwn(link, other);
+  }
 
   const robot::RobotModel& model() const { return band_.model(); }
   /// `last` may be null.
@@ -88,11 +122,25 @@ class BandPlanner {
     BandCurve curve;
     double cost;
   };
+  /// What the grid of a band is to be like, besides what the task says.
+  struct Grid {
+    double least_horizon{0.0};  ///< s
+    double interval{0.4};       ///< s; the longest
+  };
   double HorizonOf(const BandTask& task, bool moving) const;
-  std::vector<double> TimesOf(const BandTask& task) const;
-  void Prepare(const BandTask& task);
+  std::vector<double> TimesOf(const BandTask& task, const Grid& grid) const;
+  static Grid GridOf(const BandTask& task, const BandCurve* last, bool moving);
+  void Prepare(const BandTask& task, const Grid& grid);
+  void PrepareStanding(const BandTask& task);
+  void FixEnd(const BandTask& task, double end);
+  std::optional<BandPlan> KeepLast(const BandTask& task, const BandCurve* last);
+  int LevelOf(const BandCheck& check) const;
+  Eigen::VectorXd GoalAt(const BandTask& task, double time) const;
+  void Certify(const BandTask& task, BandPlan& plan);
   BandCurve Shaped(const BandTask& task, const std::function<Eigen::VectorXd(double)>& shape) const;
   BandPlan Finish(BandStart kind, BandCurve curve, int iterations);
+  void Judge(BandPlan& plan);
+  BandPlan PlanAnew(const BandTask& task, const BandCurve* last);
   BandPlan Bend(const BandTask& task, const BandCheck& trouble, const BandCurve* last);
   void Explore(const BandTask& task, const BandCheck& trouble, const BandCurve& troubled,
                BandPlan& best);
@@ -101,16 +149,29 @@ class BandPlanner {
   void AddPauses(const BandTask& task, const BandCheck& trouble, std::vector<Start>& starts) const;
   void AddDetours(const BandTask& task, const BandCheck& trouble, std::vector<Start>& starts) const;
   void TryPaths(const BandTask& task, BandPlan& best);
+  void GoOnSearching(const BandTask& task, BandPlan& best);
+  SearchLevels LevelsFor(const Eigen::VectorXd& here, const Eigen::VectorXd& goal);
+  models::Name StandingName(const BandTask& task, const robot::NearPair& pair) const;
+  /// Makes a band of a path, on a grid that is long and fine enough for it.
+  void TryPath(const BandTask& task, const std::vector<Eigen::VectorXd>& path, BandPlan& best);
+  BandCurve Along(const BandTask& task, const std::vector<Eigen::VectorXd>& path) const;
   int StepsLeft(int wanted) const;
   bool Better(const BandPlan& plan, const BandPlan& best) const;
-  void Keep(BandPlan plan, BandPlan& best) const;
+  void Keep(const BandTask& task, BandPlan plan, BandPlan& best);
 
   const BandPlannerSettings settings_;
   BandOptimizer band_;
+  const robot::OwnRanges own_;
   std::unique_ptr<robot::Clearance> standing_;
+  bool anything_stands_{false};
   BandCurve zero_;
   bool end_fixed_{true};
-  long begun_{0};  ///< evaluations before this plan
+  BandOptimizer::Room end_room_{};
+  bool moving_{false};       ///< something does
+  double begin_{0.0};        ///< s; of this plan
+  long begun_{0};            ///< evaluations before this plan
+  long certified_looks_{0};  ///< besides those of the band
+  long path_looks_{0};       ///< of the search for paths, which has a bound of its own
 };
 
 }  // namespace oca::planning

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "oca/models/planning/obstacle_prediction.h"
+#include "oca/models/robot/proximity.h"
 
 namespace oca::planning {
 namespace {
@@ -15,6 +16,43 @@ constexpr double kArrived = 0.01;         // rad, m; of all joints
 constexpr double kOnPlan = 0.005;         // rad, m; of the arm
 constexpr std::uint64_t kFreshPlans = 8;  // that look for a better way though theirs is clear
 constexpr int kMostPause = 20;            // plans between two searches that fail
+constexpr double kOnTightPlan = 0.001;    // rad, m; where it passes nearer than kTight
+constexpr double kTight = 0.01;           // m
+constexpr double kStillPlace = 1e-4;      // m, of an obstacle that stands
+constexpr double kOffFor = 0.3;           // s; off its band, after which an arm has left it
+
+bool SamePlace(const geometry::Obstacle& a, const geometry::Obstacle& b) {
+  return a.body == b.body && Stands(a) && Stands(b) &&
+         (a.X_WO.matrix() - b.X_WO.matrix()).cwiseAbs().maxCoeff() < kStillPlace;
+}
+
+/// Whether the same bodies stand at the same places, whatever moves besides.
+bool SameRest(const std::vector<geometry::Obstacle>& seen,
+              const std::vector<geometry::Obstacle>& now) {
+  auto other = now.begin();
+  for (const geometry::Obstacle& body : seen) {
+    if (!Stands(body)) continue;
+    while (other != now.end() && !Stands(*other)) ++other;
+    if (other == now.end() || !SamePlace(body, *other++)) return false;
+  }
+  return std::none_of(other, now.end(), Stands);
+}
+
+/// Names of those that stand where they stood, into `names`.
+void FindStill(const std::vector<geometry::Obstacle>& seen,
+               const std::vector<geometry::Obstacle>& now, std::vector<models::Name>& names) {
+  names.clear();
+  names.reserve(now.size());
+  for (const geometry::Obstacle& body : now) {
+    // Mostly they come in the same order.
+    const auto at = static_cast<std::size_t>(&body - now.data());
+    const bool still = (at < seen.size() && SamePlace(seen[at], body)) ||
+                       std::any_of(seen.begin(), seen.end(), [&](const geometry::Obstacle& other) {
+                         return SamePlace(other, body);
+                       });
+    if (still) names.push_back(body.body->id);
+  }
+}
 
 }  // namespace
 
@@ -28,20 +66,34 @@ double BandReplanner::Since(double time, const BandMemory& memory) const {
 
 void BandReplanner::TellClear(const BandSituation& now, const BandSituation::Positions& planned,
                               const BandMemory& memory, robot::ClearMotion& motion) const {
-  motion.clear_for = 0.0;
+  motion.clear_for = motion.standing_for = 0.0;
   motion.own_links = settings_.self_collision;
   motion.bodies.clear();
+  motion.standing.clear();
   for (const geometry::Obstacle& seen : memory.seen) motion.bodies.push_back(seen.body->id);
-  if (now.request != memory.request) return;
-  const bool followed = (now.measured - planned).cwiseAbs().maxCoeff() <= kOnPlan;
-  if (memory.plans == 0 || now.time < memory.sure_from || !followed ||
-      !AsForeseen({memory.seen, memory.seen_estimates}, {now.obstacles, now.estimates},
-                  Since(now.time, memory))) {
-    return;
-  }
+  if (now.request != memory.request || memory.plans == 0) return;
+  const double off = (now.measured - planned).cwiseAbs().maxCoeff();
+  if (!(off <= kOnPlan)) return;
   const bool next = !memory.next.empty() && now.time >= memory.change;
-  const double until = next ? memory.next_until : memory.held_until;
-  motion.clear_for = std::clamp(until - now.time, 0.0, settings_.planner.most_horizon);
+  const BandTrust& until = next ? memory.next_until : memory.held_until;
+  const auto left = [&](double time) {
+    return std::clamp(time - now.time, 0.0, settings_.planner.most_horizon);
+  };
+  const bool sure = now.time >= memory.sure_from;
+  const bool tight = memory.kept < kTight;
+  if (!tight || off <= kOnTightPlan) {
+    FindStill(memory.seen, now.obstacles, motion.standing);
+    if (!sure) {  // the band was not made for what is new
+      std::erase_if(motion.standing, [&](models::Name name) {
+        return std::find(memory.still.begin(), memory.still.end(), name) == memory.still.end();
+      });
+    }
+    motion.standing_for = left(until.standing);
+  }
+  if (sure && AsForeseen({memory.seen, memory.seen_estimates}, {now.obstacles, now.estimates},
+                         Since(now.time, memory))) {
+    motion.clear_for = left(until.all);
+  }
 }
 
 std::vector<BandBody> BandReplanner::MakeBodies(const BandSituation& now,
@@ -54,8 +106,14 @@ std::vector<BandBody> BandReplanner::MakeBodies(const BandSituation& now,
       return stands ? obstacle.X_WO : Foreseen(obstacle, std::clamp(t - time, 0.0, longest));
     };
     bodies.push_back({obstacle.body->id, obstacle.body->collider, pose, stands});
-    if (estimates.empty()) continue;
-    Estimate(now.time, obstacle, estimates[bodies.size() - 1], bodies.back());
+    if (!estimates.empty()) {
+      Estimate(now.time, obstacle, estimates[bodies.size() - 1], bodies.back());
+    }
+    if (now.ignored == nullptr) continue;
+    for (const auto& [link, other] : *now.ignored) {
+      if (other == obstacle.body->id)
+        bodies.back().ignored.push_back(robot::NumberOfLink(*model_, link));
+    }
   }
   return bodies;
 }
@@ -76,11 +134,28 @@ void BandReplanner::Estimate(double time, const geometry::Obstacle& obstacle,
   };
 }
 
+void BandReplanner::IgnoreOwnLinks(const BandSituation& now, BandPlanner& planner) const {
+  if (now.ignored == nullptr || !settings_.self_collision) return;
+  for (const auto& [link, other] : *now.ignored) {
+    if (!other.text().starts_with(settings_.own_prefix)) continue;
+    const models::Name own(other.text().substr(settings_.own_prefix.size()));
+    const auto& links = model_->links();
+    const auto at = std::find_if(links.begin(), links.end(),
+                                 [&](const robot::Link& each) { return each.name == own; });
+    if (at == links.end()) continue;  // of another robot
+    planner.IgnoreOwn(robot::NumberOfLink(*model_, link), static_cast<int>(at - links.begin()));
+  }
+}
+
 bool BandReplanner::Astray(const BandSituation& now, BandMemory& memory) const {
   memory.planned.resize(now.measured.size());
   now.request->Evaluate(now.time, 0, memory.planned);
   memory.At(now.time).Add(now.time, 0, memory.planned);
-  return (now.measured - memory.planned).cwiseAbs().maxCoeff() > settings_.restart_distance;
+  const double off = (now.measured - memory.planned).cwiseAbs().maxCoeff();
+  if (off <= kOnPlan || memory.plans == 0) memory.off_since = now.time;
+  // A filter that keeps the arm off a band which passes nearer than it allows would keep it for ever.
+  const bool rest = std::all_of(now.obstacles.begin(), now.obstacles.end(), Stands);
+  return off > settings_.restart_distance || (rest && now.time - memory.off_since > kOffFor);
 }
 
 bool BandReplanner::Kept(const BandSituation& now, BandMemory& memory) const {
@@ -90,19 +165,65 @@ bool BandReplanner::Kept(const BandSituation& now, BandMemory& memory) const {
   }
   return (memory.plans >= kFreshPlans ||
           (memory.plans > 0 && memory.start == BandStart::kRequest)) &&
-         memory.clear && now.request == memory.request &&
-         SameStanding(memory.seen, now.obstacles, now.estimates) && !Astray(now, memory);
+         memory.clear && memory.reaches && memory.search.state() != PathSearch::State::kSearching &&
+         now.request == memory.request && SameStanding(memory.seen, now.obstacles, now.estimates) &&
+         !Astray(now, memory);
 }
 
 void BandReplanner::Follow(const BandSituation& now, BandMemory& memory) const {
-  if (memory.resting.size() != now.measured.size() ||
-      (now.measured - memory.resting).cwiseAbs().maxCoeff() > settings_.stuck_motion ||
-      now.time < now.request->times().back()) {
-    memory.resting = now.measured;
-    memory.moved = now.time;
-  }
   const double away = (now.measured - now.request->goal()).cwiseAbs().maxCoeff();
+  const bool leads = memory.plans > 0 && memory.clear && memory.reaches &&
+                     memory.block == BandBlock::kNone && !memory.next.empty() &&
+                     now.time < memory.next.end();
+  if (memory.followed != now.request || now.time < now.request->times().back() || leads ||
+      away < memory.nearest_away - settings_.stuck_motion) {
+    memory.nearest_away = away;
+    memory.moved = now.time;
+    memory.followed = now.request;
+  }
   memory.stuck = away > kArrived && now.time - memory.moved >= settings_.stuck_time;
+}
+
+void BandReplanner::Forget(const BandSituation& now, BandMemory& memory) const {
+  if (memory.plans > 0 && now.request == memory.request && SameRest(memory.seen, now.obstacles)) {
+    return;
+  }
+  memory.search.Reset();
+  memory.rest.resize(0);
+  memory.block = BandBlock::kNone;
+}
+
+VectorXd BandReplanner::EndFor(const BandSituation& now, const BandMemory& memory) const {
+  const VectorXd goal = now.request->goal();
+  const VectorXd end =
+      memory.rest.size() > 0
+          ? memory.rest
+          : VectorXd(goal.cwiseMax(model_->lower_limits()).cwiseMin(model_->upper_limits()));
+  if ((end - goal).cwiseAbs().maxCoeff() == 0.0) return {};
+  return end - goal;
+}
+
+void BandReplanner::GiveWay(const BandSituation& now, const BandPlan& found,
+                            BandMemory& memory) const {
+  const VectorXd goal = now.request->goal();
+  Eigen::Index joint = 0;
+  const double beyond =
+      (goal - model_->upper_limits()).cwiseMax(model_->lower_limits() - goal).maxCoeff(&joint);
+  if (memory.rest.size() == 0 && memory.search.state() == PathSearch::State::kExhausted &&
+      !(found.check.clear() && found.reaches)) {
+    memory.rest = memory.search.nearest();
+    const bool contact = found.goal_room <= 0.0;
+    memory.block = contact ? BandBlock::kContact : BandBlock::kWay;
+    memory.block_link = contact ? found.goal_link : found.rest_link;
+    memory.block_body = contact ? found.goal_body : found.rest_body;
+    memory.block_amount = contact ? -found.goal_room : found.rest_room;
+  }
+  if (beyond > 0.0 && memory.block == BandBlock::kNone) {
+    memory.block = BandBlock::kLimit;
+    memory.block_link = model_->position_names()[static_cast<std::size_t>(joint)];
+    memory.block_body = {};
+    memory.block_amount = beyond;
+  }
 }
 
 BandTask BandReplanner::MakeTask(const BandSituation& now, double start,
@@ -116,6 +237,8 @@ BandTask BandReplanner::MakeTask(const BandSituation& now, double start,
   };
   task.request_end = now.request->times().back();
   task.bodies = bodies;
+  task.end = EndFor(now, memory);
+  task.paths = &memory.search;
   task.seed = settings_.seed + memory.plans;
   for (int d = 0; d < 3; ++d) {
     task.deviation[d].setZero(now.measured.size());
@@ -144,6 +267,9 @@ void BandReplanner::Plan(const BandSituation& now, double start,
                         AsForeseen({memory.seen, memory.seen_estimates},
                                    {now.obstacles, now.estimates}, Since(now.time, memory)) &&
                         !Astray(now, memory);
+  if (!foreseen) FindStill(memory.seen, now.obstacles, memory.still);
+  if (now.request != memory.request) memory.still.clear();
+  Forget(now, memory);
   if (!memory.next.empty()) {
     memory.held = memory.next;
     memory.held_until = memory.next_until;
@@ -159,11 +285,17 @@ void BandReplanner::Plan(const BandSituation& now, double start,
     memory.own = robot::OwnRangesAlong(model_, now.request.get(), settings_.self_distance);
   }
   BandPlanner planner(model_, settings_.planner, settings_.self_collision, memory.own);
+  IgnoreOwnLinks(now, planner);
   BandPlan found = planner.Plan(task, memory.held.empty() ? nullptr : &memory.held);
   memory.next = std::move(found.curve);
   memory.change = task.start;
-  memory.next_until = found.check.touch;
-  if (Moves(bodies)) memory.next_until = std::min(memory.next_until, memory.next.end());
+  const BandCheck& check = found.check;
+  memory.next_until = {check.touch(), std::min(check.clear() ? check.touch_hard : check.touch_trust,
+                                               check.touch_limits)};
+  if (Moves(bodies)) {
+    memory.next_until.all = std::min(memory.next_until.all, memory.next.end());
+    memory.next_until.standing = std::min(memory.next_until.standing, memory.next.end());
+  }
   if (!foreseen) memory.sure_from = task.start;
   memory.request = now.request;
   memory.seen_at = now.time;
@@ -172,6 +304,11 @@ void BandReplanner::Plan(const BandSituation& now, double start,
   memory.plans += 1;
   memory.start = found.start;
   memory.clear = found.check.clear();
+  memory.reaches = found.reaches;
+  memory.level = found.level;
+  memory.kept = std::min(found.check.kept, found.goal_room);
+  memory.goal_room = found.goal_room;
+  memory.lack = found.lack;
   memory.failures = memory.clear ? 0 : memory.failures + 1;
   memory.nearest = found.check.min_distance;
   memory.distance = found.check.distance;
@@ -180,6 +317,7 @@ void BandReplanner::Plan(const BandSituation& now, double start,
   memory.time = found.check.time;
   memory.cost = found.cost;
   memory.evaluations = static_cast<std::uint64_t>(found.evaluations);
+  GiveWay(now, found, memory);
 }
 
 }  // namespace oca::planning

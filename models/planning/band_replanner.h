@@ -6,6 +6,8 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "oca/models/geometry/obstacle.h"
@@ -24,6 +26,7 @@ struct ReplanSettings {
   double stuck_time{2.0};        ///< s; without progress, after which the arm is stuck
   double stuck_motion{0.01};     ///< rad, m; what counts as progress
   bool self_collision{false};
+  std::string own_prefix{};                    ///< of own links' names in BandSituation::ignored
   double self_distance{robot::kSelfDistance};  ///< m; that own links keep; 0: as from obstacles
   std::uint64_t seed{0};
 };
@@ -37,6 +40,9 @@ struct BandSituation {
   Positions measured;  ///< where the arm is
   /// One an obstacle, or none: then these are known exactly.
   std::span<const geometry::ObstacleEstimate> estimates{};
+  /// Pairs whose distance does not count: a link, and a body or a link of the robot, the latter
+  /// named by `own_prefix` and its name. Null: none.
+  const std::vector<std::pair<models::Name, models::Name>>* ignored{nullptr};
 };
 
 /// Plans bands one after the other along a request, for an arm that follows them among obstacles
@@ -53,8 +59,9 @@ class BandReplanner {
  public:
   BandReplanner(std::shared_ptr<const robot::RobotModel> model, const ReplanSettings& settings);
 
-  /// Whether the arm gets on, into `moved`, `resting` and `stuck`: it is stuck if the request rests,
-  /// its goal is not reached to 0.01 and nothing moved by stuck_motion for stuck_time.
+  /// Whether the arm gets on, into `moved` and `stuck`: it is stuck if the request rests, its goal
+  /// is not reached to 0.01 and for stuck_time the arm was not nearer to it by stuck_motion than ever
+  /// before, nor had a plan that leads there.
   void Follow(const BandSituation& now, BandMemory& memory) const;
 
   /// Makes the plan that begins at `start` (s), unless the last one is kept. `rate` is the arm's
@@ -78,6 +85,12 @@ class BandReplanner {
   /// What an estimate adds to a body of an obstacle at a time.
   void Estimate(double time, const geometry::Obstacle& obstacle,
                 const geometry::ObstacleEstimate& estimate, BandBody& body) const;
+  /// Forgets what was found for another goal or among other bodies at rest.
+  void Forget(const BandSituation& now, BandMemory& memory) const;
+  /// From the request's goal to where the arm is to end; empty if that is the goal.
+  Eigen::VectorXd EndFor(const BandSituation& now, const BandMemory& memory) const;
+  void GiveWay(const BandSituation& now, const BandPlan& found, BandMemory& memory) const;
+  void IgnoreOwnLinks(const BandSituation& now, BandPlanner& planner) const;
   BandTask MakeTask(const BandSituation& now, double start, std::span<const BandBody> bodies,
                     const std::optional<BandSituation::Positions>& rate, BandMemory& memory) const;
 

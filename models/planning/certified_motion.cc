@@ -27,6 +27,7 @@ CertifiedMotion::CertifiedMotion(robot::Clearance& clearance, double margin)
       approach_(clearance.own_pairs().size()) {}
 
 bool CertifiedMotion::Clear(const Eigen::Ref<const Eigen::VectorXd>& q) {
+  ++evaluations_;
   clearance_.MoveTo(q);
   return !clearance_.NearerThan(margin_);
 }
@@ -54,6 +55,7 @@ double CertifiedMotion::SampledShare(const Eigen::Ref<const Eigen::VectorXd>& q_
   for (int i = 0; i < kSamples; ++i) {
     samples_.col(i) = q_0 + (i + 1.0) / kSamples * (q_1 - q_0);
   }
+  ++evaluations_;
   const int clear = std::countr_one(batch_->Clear(samples_, kSamples, std::max(margin_, 0.0)));
   return static_cast<double>(std::min(clear, kSamples)) / kSamples;
 }
@@ -64,6 +66,7 @@ double CertifiedMotion::ProvedShare(const Eigen::Ref<const Eigen::VectorXd>& q_0
   while (share < 1.0) {
     q_ = q_0 + share * (q_1 - q_0);
     path_ = (1.0 - share) * (q_1 - q_0).cwiseAbs();
+    ++evaluations_;
     clearance_.MoveTo(q_);
     const double step = FreeShare() * (1.0 - share);
     if (step < std::min(kLeastShare, 1.0 - share)) return share;
@@ -75,7 +78,10 @@ double CertifiedMotion::ProvedShare(const Eigen::Ref<const Eigen::VectorXd>& q_0
 
 double CertifiedMotion::FreeShare() {
   bound_.Calc(clearance_.X_WL(), path_, travel_);
-  bound_.CalcApproach(clearance_.X_WL(), path_, clearance_.own_pairs(), approach_);
+  for (std::size_t i = 0; i < approach_.size(); ++i) {
+    const auto& pair = clearance_.own_pairs()[i];
+    approach_[i] = bound_.Between(clearance_.X_WL(), path_, pair.first, pair.second);
+  }
   // What is farther than the whole rest of the path can lead need not be known.
   for (std::size_t link = 0; link < travel_.size(); ++link) {
     distances_[link] = margin_ + travel_[link];

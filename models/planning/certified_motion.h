@@ -34,6 +34,9 @@ class CertifiedMotion {
   double ClearShare(const Eigen::Ref<const Eigen::VectorXd>& q_0,
                     const Eigen::Ref<const Eigen::VectorXd>& q_1);
 
+  /// At how many configurations distances were looked at so far.
+  long evaluations() const { return evaluations_; }
+
  private:
   /// The share of the motion before the first sample that is not clear.
   double SampledShare(const Eigen::Ref<const Eigen::VectorXd>& q_0,
@@ -45,6 +48,7 @@ class CertifiedMotion {
 
   robot::Clearance& clearance_;
   const double margin_;
+  long evaluations_{0};
   const robot::TravelBound bound_;
   Eigen::VectorXd q_, path_;
   std::optional<BatchClearance> batch_;

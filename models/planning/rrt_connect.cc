@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "oca/models/planning/certified_motion.h"
+#include "oca/models/planning/search_tree.h"
 #include "oca/models/random.h"
 #include "oca/models/robot/joint_limits.h"
 
@@ -15,72 +16,7 @@ namespace {
 
 using Path = std::vector<Eigen::VectorXd>;
 
-// A piece of an edge shorter than this is not worth a node, rad.
-constexpr double kLeastProgress = 0.02;
-
-struct Node {
-  Eigen::VectorXd q;
-  int parent;
-};
-
-class Tree {
- public:
-  explicit Tree(const Eigen::VectorXd& root) { nodes_.push_back({root, -1}); }
-
-  int size() const { return static_cast<int>(nodes_.size()); }
-  const Eigen::VectorXd& q(int node) const { return nodes_[node].q; }
-  int last() const { return size() - 1; }
-
-  int Nearest(const Eigen::VectorXd& q) const {
-    int nearest = 0;
-    double least = (nodes_[0].q - q).squaredNorm();
-    for (int i = 1; i < size(); ++i) {
-      const double distance = (nodes_[i].q - q).squaredNorm();
-      if (distance >= least) continue;
-      least = distance;
-      nearest = i;
-    }
-    return nearest;
-  }
-
-  /// Grows from the nearest node towards q as far as it is clear, and as `most` nodes go however
-  /// far q is; whether it arrived, and grew.
-  struct Growth {
-    bool arrived;
-    bool grew;
-  };
-  Growth Grow(const Eigen::VectorXd& q, double step, int most, CertifiedMotion& motion) {
-    int from = Nearest(q);
-    bool grew = false;
-    while (size() < most) {
-      const Eigen::VectorXd way = q - nodes_[from].q;
-      const double length = way.norm();
-      if (length == 0.0) return {true, grew};
-      const double share = std::min(1.0, step / length);
-      const Eigen::VectorXd next = share == 1.0 ? q : Eigen::VectorXd(nodes_[from].q + share * way);
-      const double clear = motion.ClearShare(nodes_[from].q, next);
-      const bool whole = clear == 1.0 && (share < 1.0 || motion.Clear(next));
-      if (!whole && 0.9 * clear * share * length < kLeastProgress) return {false, grew};
-      nodes_.push_back(
-          {whole ? next : Eigen::VectorXd(nodes_[from].q + 0.9 * clear * share * way), from});
-      from = last();
-      grew = true;
-      if (!whole || share == 1.0) return {whole, grew};
-    }
-    return {false, grew};
-  }
-
-  /// From the root to a node.
-  Path PathTo(int node) const {
-    Path path;
-    for (; node >= 0; node = nodes_[node].parent) path.push_back(nodes_[node].q);
-    std::reverse(path.begin(), path.end());
-    return path;
-  }
-
- private:
-  std::vector<Node> nodes_;
-};
+using Tree = SearchTree;
 
 struct Room {
   Eigen::VectorXd lower, upper;
@@ -99,13 +35,6 @@ struct Room {
     return q;
   }
 };
-
-Path Join(const Tree& from_start, int start_node, const Tree& from_goal, int goal_node) {
-  Path path = from_start.PathTo(start_node);
-  Path back = from_goal.PathTo(goal_node);
-  path.insert(path.end(), std::next(back.rbegin()), back.rend());  // the meeting point once
-  return path;
-}
 
 }  // namespace
 
@@ -132,8 +61,8 @@ std::optional<Path> RrtConnect(robot::Clearance& clearance, const Eigen::VectorX
       const Eigen::VectorXd meeting = growing.q(growing.last());
       if (grow(other, meeting).arrived) {
         const int other_node = other.Nearest(meeting);
-        Path path = start_grows ? Join(from_start, growing.last(), from_goal, other_node)
-                                : Join(from_start, other_node, from_goal, growing.last());
+        Path path = start_grows ? JoinPaths(from_start, growing.last(), from_goal, other_node)
+                                : JoinPaths(from_start, other_node, from_goal, growing.last());
         Shorten(clearance, options, path);
         return path;
       }

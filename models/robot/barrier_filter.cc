@@ -178,15 +178,15 @@ void BarrierFilter::FillRows(const Tick& tick, Solution& result) const {
   work.rows.clear();
   work.unmovable.clear();
   work.qp.num_rows = 0;
-  const bool trusted = tick.clear != nullptr && tick.clear->clear_for > settings_.trust_time;
   for (std::size_t i = 0; i < set.proximities.size(); ++i) {
     const Proximity& proximity = set.proximities[i];
     DistanceRow(*model_, tick.X_WL, proximity, work.row);
     const double headroom = proximity.distance - std::min(settings_.safe_distance, proximity.range);
     const double rest = proximity.normal.dot(proximity.obstacle_velocity);
     double bound = rest - Approach(headroom);
-    const bool known =
-        trusted && tick.clear->Knows(proximity.obstacle, !proximity.own_link.empty());
+    const bool known = tick.clear != nullptr &&
+                       tick.clear->ClearFor(proximity.obstacle, !proximity.own_link.empty()) >
+                           settings_.trust_time;
     if (known) bound = std::min(bound, work.row.dot(work.qp.wish));
     const bool recovers = headroom < 0.0 && !known;
     const double growth = std::min(-settings_.recovery_gain * headroom, settings_.recovery_speed);

@@ -47,6 +47,18 @@ Clearance::Clearance(std::shared_ptr<const RobotModel> model, bool self_collisio
   own_scales_.assign(own_pairs_.size(), 1.0);
 }
 
+void Clearance::IgnoreOwn(int link, int other) {
+  for (std::size_t i = own_pairs_.size(); i-- > 0;) {
+    const auto& [a, b] = own_pairs_[i];
+    if (!(a == link && b == other) && !(a == other && b == link)) continue;
+    const auto at = static_cast<std::ptrdiff_t>(i);
+    own_pairs_.erase(own_pairs_.begin() + at);
+    own_places_.erase(own_places_.begin() + at);
+    own_scales_.erase(own_scales_.begin() + at);
+  }
+  ++version_;
+}
+
 void Clearance::KeepOwn(const OwnRanges& ranges, double reference) {
   for (std::size_t i = 0; i < own_pairs_.size(); ++i) {
     own_scales_[i] =

@@ -74,6 +74,8 @@ class Clearance {
   }
   /// What is left out.
   const std::vector<std::pair<int, int>>& ignored() const { return ignored_; }
+  /// Leaves two links of the robot out from now on, by their numbers in either order.
+  void IgnoreOwn(int link, int other);
   /// Moves body number `body`, of a scene in which time goes on.
   void MoveBody(int body, const Eigen::Isometry3d& X_WO) {
     bodies_[body].X_WO = X_WO;

@@ -52,6 +52,23 @@ double MotionTally::TravelOf(const RobotModel& model, models::Name link) const {
   return *std::max_element(travel_.begin(), travel_.end());
 }
 
+double MotionTally::TravelOf(const MotionSample& sample, models::Name link,
+                             models::Name own_link) const {
+  const RobotModel& model = *sample.model;
+  if (own_link.empty()) return TravelOf(model, link);
+  const auto number = [&](models::Name name) {
+    const auto& links = model.links();
+    const auto found = std::find_if(links.begin(), links.end(),
+                                    [&](const Link& other) { return other.name == name; });
+    return found == links.end() ? -1 : static_cast<int>(found - links.begin());
+  };
+  const int one = number(link);
+  const int other = number(own_link);
+  if (one < 0 || other < 0) return TravelOf(model, link) + TravelOf(model, own_link);
+  const Eigen::Map<const Eigen::VectorXd> path(path_.data(), std::ssize(path_));
+  return sample.travel->Between(poses_, path, one, other);
+}
+
 void MotionTally::CalcTravel(const MotionSample& sample) {
   const Eigen::Map<const Eigen::VectorXd> before(position_.data(), std::ssize(position_));
   Eigen::Map<Eigen::VectorXd> path(path_.data(), before.size());
@@ -62,7 +79,6 @@ void MotionTally::CalcTravel(const MotionSample& sample) {
 
 double MotionTally::LeastInStep(const MotionSample& sample, double step) {
   const ProximitySet& now = *sample.proximities;
-  const RobotModel& model = *sample.model;
   const double fastest = std::max(fastest_, now.fastest);
   const double most = travel_.empty() ? 0.0 : *std::max_element(travel_.begin(), travel_.end());
   // What is listed neither before nor after; two links of the robot may come near each other.
@@ -72,14 +88,13 @@ double MotionTally::LeastInStep(const MotionSample& sample, double step) {
     const Pair* const before = FindPair(proximity, place);
     const double speed =
         std::max(before ? before->obstacle_speed : fastest_, proximity.obstacle_speed);
-    const double travel =
-        TravelOf(model, proximity.link) + TravelOf(model, proximity.own_link) + step * speed;
+    const double travel = TravelOf(sample, proximity.link, proximity.own_link) + step * speed;
     least = std::min(least, LeastDistanceBetween(before ? before->distance : reach_,
                                                  proximity.distance, travel));
   }
   for (const Pair& pair : pairs_) {
     if (pair.found) continue;
-    const double travel = TravelOf(model, pair.link) + TravelOf(model, pair.own_link) +
+    const double travel = TravelOf(sample, pair.link, pair.own_link) +
                           step * std::max(pair.obstacle_speed, now.fastest);
     least = std::min(least, LeastDistanceBetween(pair.distance, now.max_distance, travel));
   }

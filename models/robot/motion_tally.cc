@@ -75,6 +75,7 @@ void MotionTally::Add(const MotionSample& sample) {
       goal_time_ = sample.time - first_time_;
     }
     AddStandstill(sample);
+    AddProgress(sample);
   }
   if (sample.request) {
     if (samples_ > 0) request_path_ += PathLength(*sample.request, request_);
@@ -164,6 +165,23 @@ void MotionTally::AddStandstill(const MotionSample& sample) {
   const double stood = sample.time - still_since_;
   if (stood < kPatience * (1.0 - kTallyRounding) || stood <= stuck_time_) return;
   stuck_time_ = stood;
+  NoteWhatIsNearest(sample);
+}
+
+/// Once the request is at its goal an arm that goes about and comes no nearer is as stuck as one
+/// that stands.
+void MotionTally::AddProgress(const MotionSample& sample) {
+  const double away = Farthest(*sample.position, *sample.goal);
+  const bool requested = !sample.request || Farthest(*sample.request, *sample.goal) > kArrived;
+  if (samples_ == 0 || requested || away <= kArrived || away < nearest_away_ - kStill) {
+    nearest_away_ = away;
+    gained_at_ = sample.time;
+  } else if (sample.time - gained_at_ > std::max(kPatience, stuck_time_)) {
+    NoteWhatIsNearest(sample);
+  }
+}
+
+void MotionTally::NoteWhatIsNearest(const MotionSample& sample) {
   // What blocked may be gone by the time that the arm goes on.
   if (sample.proximities == nullptr || sample.proximities->proximities.empty()) return;
   const auto& near = sample.proximities->proximities;
@@ -184,6 +202,10 @@ MotionMetricsValue MotionTally::At(const MotionSample& now) const {
   if (now.position && now.goal) {
     value.time_to_goal = goal_time_;
     value.stuck_time = stuck_time_;
+    const double without_gain = now.time - gained_at_;
+    if (!goal_time_ && without_gain >= kPatience * (1.0 - kTallyRounding)) {
+      value.stuck_time = std::max(stuck_time_, without_gain);
+    }
     value.stuck_link = stuck_link_;
     value.stuck_obstacle = stuck_obstacle_;
   }
@@ -236,6 +258,8 @@ bool MotionTally::finite() const {
                             max_acceleration_,
                             limit_violations_,
                             stuck_time_,
+                            nearest_away_,
+                            gained_at_,
                             min_distance_.value_or(0.0),
                             goal_time_.value_or(0.0)};
   return std::all_of(std::begin(numbers), std::end(numbers),

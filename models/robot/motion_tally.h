@@ -66,10 +66,14 @@ class MotionTally {
   double LeastInStep(const MotionSample& sample, double step);
   Pair* FindPair(const Proximity& proximity, std::size_t& place);
   double TravelOf(const RobotModel& model, models::Name link) const;
+  /// Of a link relative to an own link, if there is one, else in the world.
+  double TravelOf(const MotionSample& sample, models::Name link, models::Name own_link) const;
   void AddPosition(Positions position, const RobotModel* model, double step);
   void CountViolations(Positions position, const RobotModel& model, double step);
   void AddDelta(Positions delta);
   void AddStandstill(const MotionSample& sample);
+  void AddProgress(const MotionSample& sample);
+  void NoteWhatIsNearest(const MotionSample& sample);
 
   int samples_{0};
   double first_time_{0.0};
@@ -103,6 +107,8 @@ class MotionTally {
   double stuck_time_{0.0};
   models::Name stuck_link_;
   models::Name stuck_obstacle_;
+  double nearest_away_{0.0};             // least distance from the goal since the request is there
+  double gained_at_{0.0};                // s; when it last fell by more than kStill
   std::optional<double> goal_time_;      // when it came to the goal, if it is there
   std::vector<double> position_;         // of the last sample
   std::vector<double> velocity_;         // between the last two samples

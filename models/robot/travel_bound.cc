@@ -27,44 +27,16 @@ void TravelBound::Calc(std::span<const Eigen::Isometry3d> X_WL,
   std::fill(travel.begin(), travel.end(), 0.0);
   for (const LinkBall& ball : balls_) {
     double& most = travel[static_cast<std::size_t>(ball.link)];
-    most = std::max(most, TravelFrom(0, ball, X_WL, path));
+    most = std::max(most, TravelOf(ball, 0, X_WL, path));
   }
 }
 
-void TravelBound::CalcApproach(std::span<const Eigen::Isometry3d> X_WL,
-                               const Eigen::Ref<const Eigen::VectorXd>& path,
-                               std::span<const std::pair<int, int>> pairs,
-                               std::span<double> approach) const {
-  assert(std::ssize(X_WL) == model_->num_links());
-  assert(approach.size() == pairs.size());
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const int carrier = CarrierOf(pairs[i].first, pairs[i].second);
-    approach[i] = 0.0;
-    for (const int link : {pairs[i].first, pairs[i].second}) {
-      double most = 0.0;
-      for (const LinkBall& ball : balls_) {
-        if (ball.link == link) most = std::max(most, TravelFrom(carrier, ball, X_WL, path));
-      }
-      approach[i] += most;
-    }
-  }
-}
-
-/// Links are numbered parents first.
-int TravelBound::CarrierOf(int link, int other) const {
-  while (link != other) {
-    int& higher = link > other ? link : other;
-    higher = model_->steps()[static_cast<std::size_t>(higher - 1)].parent_link;
-  }
-  return link;
-}
-
-double TravelBound::TravelFrom(int carrier, const LinkBall& ball,
-                               std::span<const Eigen::Isometry3d> X_WL,
-                               const Eigen::Ref<const Eigen::VectorXd>& path) const {
+double TravelBound::TravelOf(const LinkBall& ball, int root,
+                             std::span<const Eigen::Isometry3d> X_WL,
+                             const Eigen::Ref<const Eigen::VectorXd>& path) const {
   const Eigen::Vector3d centre = X_WL[static_cast<std::size_t>(ball.link)] * ball.centre;
   double sum = 0.0;
-  for (int link = ball.link; link > carrier;) {
+  for (int link = ball.link; link > root;) {
     const KinematicStep& step = model_->steps()[static_cast<std::size_t>(link - 1)];
     if (step.column >= 0) {
       const double moved = std::abs(step.multiplier) * path[step.column];
@@ -80,6 +52,23 @@ double TravelBound::TravelFrom(int carrier, const LinkBall& ball,
     link = step.parent_link;
   }
   return sum;
+}
+
+double TravelBound::Between(std::span<const Eigen::Isometry3d> X_WL,
+                            const Eigen::Ref<const Eigen::VectorXd>& path, int link,
+                            int other) const {
+  int root = link;
+  for (int last = other; root != last;) {  // parents come before their children
+    int& later = root > last ? root : last;
+    later = model_->steps()[static_cast<std::size_t>(later - 1)].parent_link;
+  }
+  double travel[2] = {0.0, 0.0};
+  for (const LinkBall& ball : balls_) {
+    if (ball.link != link && ball.link != other) continue;
+    double& most = travel[ball.link == link ? 0 : 1];
+    most = std::max(most, TravelOf(ball, root, X_WL, path));
+  }
+  return travel[0] + travel[1];
 }
 
 double LeastDistanceBetween(double before, double after, double travel) {

@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "oca/models/robot/robot_model.h"
@@ -31,11 +30,11 @@ class TravelBound {
   /// link without solids. No heap.
   void Calc(std::span<const Eigen::Isometry3d> X_WL, const Eigen::Ref<const Eigen::VectorXd>& path,
             std::span<double> travel) const;
-  /// How much nearer the solids of two links can come, m: what both travel as seen from the link
-  /// that carries both. `pairs` are numbers of links, `approach` has an entry for each. No heap.
-  void CalcApproach(std::span<const Eigen::Isometry3d> X_WL,
-                    const Eigen::Ref<const Eigen::VectorXd>& path,
-                    std::span<const std::pair<int, int>> pairs, std::span<double> approach) const;
+
+  /// The same for two links of the robot relative to each other, m: only joints between them count,
+  /// for what moves both alike leaves their distance as it is. No heap.
+  double Between(std::span<const Eigen::Isometry3d> X_WL,
+                 const Eigen::Ref<const Eigen::VectorXd>& path, int link, int other) const;
 
  private:
   struct LinkBall {
@@ -43,10 +42,9 @@ class TravelBound {
     Eigen::Vector3d centre;  // in the link's frame
     double radius;
   };
-  int CarrierOf(int link, int other) const;
-  /// Of the solids of a link, as seen from a link that carries it.
-  double TravelFrom(int carrier, const LinkBall& ball, std::span<const Eigen::Isometry3d> X_WL,
-                    const Eigen::Ref<const Eigen::VectorXd>& path) const;
+  /// Of one solid, relative to the link `root` before it; 0: the robot's root.
+  double TravelOf(const LinkBall& ball, int root, std::span<const Eigen::Isometry3d> X_WL,
+                  const Eigen::Ref<const Eigen::VectorXd>& path) const;
 
   const RobotModel* model_;
   std::vector<LinkBall> balls_;

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/log.h"
 #include "oca/models/robot/robot_model.h"
@@ -25,6 +27,10 @@ ElasticBand::Params Checked(const ElasticBand::Params& params) {
   if (params.clear_distance > params.margin) {
     throw ConfigError(fmt::format("clear_distance: got {} m; expected at most margin, {} m",
                                   params.clear_distance, params.margin));
+  }
+  if (params.hard_distance > params.clear_distance) {
+    throw ConfigError(fmt::format("hard_distance: got {} m; expected at most clear_distance, {} m",
+                                  params.hard_distance, params.clear_distance));
   }
   for (const double distance : {params.trust_distance, params.flying_distance}) {
     if (distance <= params.clear_distance) continue;
@@ -53,6 +59,11 @@ void ElasticBand::Params::Describe(Fields<Params>& fields) {
   fields
       .Add("clear_distance", &Params::clear_distance, "m",
            "distance that a band keeps that counts as clear; above the filter's safe_distance")
+      .Above(0.0);
+  fields
+      .Add("hard_distance", &Params::hard_distance, "m",
+           "distance from what stands, and of own links, that no plan goes below; start and goal, "
+           "if they are nearer but clear, lower it there to their own")
       .Above(0.0);
   fields
       .Add("trust_distance", &Params::trust_distance, "m",
@@ -96,7 +107,10 @@ void ElasticBand::Params::Describe(Fields<Params>& fields) {
       .Above(0.0);
   fields.Add("stuck_time", &Params::stuck_time, "s", "without progress, after which it is stuck")
       .Above(0.0);
-  fields.Add("stuck_motion", &Params::stuck_motion, "rad", "what counts as progress").Above(0.0);
+  fields
+      .Add("stuck_motion", &Params::stuck_motion, "rad",
+           "nearer to the goal, that counts as progress")
+      .Above(0.0);
   fields.Add("self_collision", &Params::self_collision, "", "keeps own links apart too");
   fields
       .Add("self_distance", &Params::self_distance, "m",
@@ -106,11 +120,12 @@ void ElasticBand::Params::Describe(Fields<Params>& fields) {
   fields.Add("enabled", &Params::enabled, "", "false: the request as it is");
 }
 
-planning::ReplanSettings ElasticBand::SettingsOf(const Params& params) {
+planning::ReplanSettings ElasticBand::SettingsOf(const Params& params, const ModelSet& models) {
   planning::ReplanSettings settings;
   planning::BandPlannerSettings& planner = settings.planner;
   planner.band.margin = params.margin;
   planner.band.clear_distance = params.clear_distance;
+  planner.band.hard_distance = params.hard_distance;
   planner.band.trust_distance = params.trust_distance;
   planner.band.flying_distance = params.flying_distance;
   planner.band.clearance = params.clearance;
@@ -129,6 +144,7 @@ planning::ReplanSettings ElasticBand::SettingsOf(const Params& params) {
   settings.stuck_motion = params.stuck_motion;
   settings.self_collision = params.self_collision;
   settings.self_distance = params.self_distance;
+  settings.own_prefix = models.FullName(params.model) + "/";
   settings.seed = static_cast<std::uint64_t>(params.seed);
   return settings;
 }
@@ -136,7 +152,7 @@ planning::ReplanSettings ElasticBand::SettingsOf(const Params& params) {
 ElasticBand::ElasticBand(const Params& params, const ModelSet& models)
     : params_(Checked(params)),
       model_(MovableModel(models, params.model)),
-      replanner_(model_, SettingsOf(params_)),
+      replanner_(model_, SettingsOf(params_, models)),
       position_(DeclareDiscreteState("position", PositionSpec(*model_), 0.0)),
       velocity_(DeclareDiscreteState("velocity", RateSpec(*model_), 0.0)),
       acceleration_(DeclareDiscreteState(
@@ -146,6 +162,7 @@ ElasticBand::ElasticBand(const Params& params, const ModelSet& models)
       obstacles(DeclareInput<ObstacleSet>("obstacles")),
       measured_position(DeclareInput<Vector>("measured_position", PositionSpec(*model_))),
       measured_velocity(DeclareOptionalInput<Vector>("measured_velocity", RateSpec(*model_))),
+      ignored(DeclareOptionalInput<IgnoredPairs>("ignored")),
       position(DeclareStateOutput("position", position_)),
       velocity(DeclareStateOutput("velocity", velocity_)),
       acceleration(DeclareStateOutput("acceleration", acceleration_)),
@@ -156,7 +173,7 @@ ElasticBand::ElasticBand(const Params& params, const ModelSet& models)
   DeclareUpdate<&ElasticBand::Sample>(
       Every{params_.period}, Writes(position_, velocity_, acceleration_), kTime, ahead, memory_);
   DeclareUpdate<&ElasticBand::Plan>(Every{params_.plan_period}, Writes(memory_), kTime, kLog, ahead,
-                                    obstacles, measured_position, measured_velocity);
+                                    obstacles, measured_position, measured_velocity, ignored);
   if (!params_.enabled) return;
   DeclareRole(Limits{.shown = Limits::Shown::kBelow,
                      .signal = plan,
@@ -195,27 +212,87 @@ void ElasticBand::CalcClear(double time, const RequestAhead& request, const Obst
                        memory, motion);
 }
 
-void ElasticBand::Report(double time, const BandMemory& memory, Log& log) const {
-  const std::string pair = memory.link.empty()
-                               ? "nothing near"
-                               : fmt::format("{} to {}, {:.3f} m", memory.link.text(),
-                                             memory.obstacle.text(), memory.distance);
-  log.Write(LogLevel::kWarning, time,
-            fmt::format("the arm is stuck: no progress to its goal for {} s; what blocks: {}",
-                        params_.stuck_time, pair));
+namespace {
+
+std::string PairText(models::Name link, models::Name other) {
+  return fmt::format("{} to {}", link.text(), other.text());
+}
+
+/// Why the goal cannot be had, and by how much.
+std::string BlockText(const BandMemory& memory, const char* unit) {
+  using planning::BandBlock;
+  switch (memory.block) {
+    case BandBlock::kLimit:
+      return fmt::format("it is {:.3g} {} beyond a limit of {}", memory.block_amount, unit,
+                         memory.block_link.text());
+    case BandBlock::kContact:
+      return fmt::format("there {} is {:.3g} m deep in {}", memory.block_link.text(),
+                         memory.block_amount, memory.block_body.text());
+    case BandBlock::kWay:
+      return fmt::format(
+          "no way there was found; where the arm comes nearest to it, {} are {:.3g} m "
+          "apart",
+          PairText(memory.block_link, memory.block_body), memory.block_amount);
+    case BandBlock::kNone:
+      break;
+  }
+  return "nothing was found to be in the way";
+}
+
+}  // namespace
+
+void ElasticBand::Report(double time, const BandMemory& memory, const ReportedBefore& before,
+                         Log& log) const {
+  const auto warn = [&](const std::string& text) { log.Write(LogLevel::kWarning, time, text); };
+  if (memory.block != before.block && memory.block != planning::BandBlock::kNone) {
+    warn(
+        fmt::format("the goal cannot be reached: {}; the arm is to rest as near to it as was found",
+                    BlockText(memory, UnitOf(memory.block_link))));
+  }
+  if (memory.stuck && !before.stuck) {
+    const std::string pair =
+        memory.block != planning::BandBlock::kNone ? BlockText(memory, UnitOf(memory.block_link))
+        : memory.link.empty()
+            ? "nothing near"
+            : fmt::format("{}, {:.3f} m", PairText(memory.link, memory.obstacle), memory.distance);
+    warn(fmt::format("the arm is stuck: no progress to its goal for {} s; what blocks: {}",
+                     params_.stuck_time, pair));
+  }
+  const bool tight = memory.clear && memory.lack != planning::BandLack::kNone &&
+                     memory.distance < params_.hard_distance;
+  if (tight && !before.tight) {
+    warn(fmt::format(
+        "{} leaves {} {:.3g} m apart, less than hard_distance, {} m: its own distance "
+        "is kept there",
+        memory.lack == planning::BandLack::kGoal ? "the goal" : "where the arm is",
+        PairText(memory.link, memory.obstacle), memory.distance, params_.hard_distance));
+  }
+}
+
+const char* ElasticBand::UnitOf(models::Name joint) const {
+  const auto& names = model_->position_names();
+  const auto at = std::find(names.begin(), names.end(), joint);
+  if (at == names.end()) return "m";
+  const int number = model_->FindJoint(at->text());
+  const bool slides =
+      model_->joints()[static_cast<std::size_t>(number)].type == robot::JointType::kPrismatic;
+  return slides ? "m" : "rad";
 }
 
 void ElasticBand::Plan(double time, Log& log, const RequestAhead& request, const ObstacleSet& set,
                        VectorView measured, std::optional<VectorView> rate,
-                       BandMemory& memory) const {
+                       const IgnoredPairs* left_out, BandMemory& memory) const {
   if (!request.trajectory || !params_.enabled) return;
   RequireSize(*request.trajectory, measured.size());
   const planning::BandSituation now{time, request.trajectory, set.obstacles, measured,
-                                    set.estimates};
-  const bool was_stuck = memory.stuck;
+                                    set.estimates,
+                                    left_out == nullptr ? nullptr : &left_out->pairs};
+  const ReportedBefore before{memory.block, memory.stuck,
+                              memory.clear && memory.lack != planning::BandLack::kNone &&
+                                  memory.distance < params_.hard_distance};
   replanner_.Follow(now, memory);
-  if (memory.stuck && !was_stuck) Report(time, memory, log);
   replanner_.Plan(now, params_.plan_period.TickAfter(time), rate, memory);
+  Report(time, memory, before, log);
 }
 
 }  // namespace oca::systems

@@ -9,6 +9,7 @@
 #include "oca/models/planning/band_replanner.h"
 #include "oca/systems/signals/band_memory.h"
 #include "oca/systems/signals/clear_motion.h"
+#include "oca/systems/signals/ignored_pairs.h"
 #include "oca/systems/signals/model_set.h"
 #include "oca/systems/signals/request_ahead.h"
 #include "oca/systems/signals/signals.h"
@@ -31,20 +32,30 @@ namespace oca::systems {
 /// starts from the arm. The first eight plans look for shorter ways even if theirs is clear; after
 /// them a plan whose obstacles still stand where they stood is kept.
 ///
-/// `clear` says for how long the motion is clear from now on: until the plan comes nearer than
-/// trust_distance to what stands, flying_distance to what moves, or exceeds a limit that the
-/// request keeps. It is 0 while the arm is more than 0.005 from the band, another motion is
-/// requested, or obstacles are not where they were foreseen, to 5 mm now and in 0.3 s, until a plan
-/// that was made for them has begun. A SafetyFilter lets such a motion through.
+/// One distance is hard: no plan comes nearer than hard_distance to what stands, nor own links to
+/// each other, at any time; a start or a goal that is nearer, but clear, lowers it there to its own,
+/// with a warning. clear_distance and margin are wishes: they yield to goal, start and passages.
+///
+/// `clear` says for how long the motion is clear from now on: until the plan comes nearer than it
+/// must to what stands (hard_distance, or trust_distance if the plan is not clear), flying_distance
+/// to what moves, or exceeds a limit that the request keeps. It is 0 while the arm is more than
+/// 0.005 from the band, another motion is requested, or obstacles are not where they were foreseen,
+/// to 5 mm now and in 0.3 s, until a plan that was made for them has begun; what stands where it
+/// stood is known all the same, if the arm is within 0.001 of a band that passes nearer than 0.01 m.
+/// A SafetyFilter lets such a motion through.
 ///
 /// Control samples are those of the end of each period, held, as from a sampled SplineGenerator.
 ///
 /// Own links are asked for their own distance, robot::OwnRangesAlong of self_distance and the
 /// request: clear_distance stands for it, and margin and trust_distance for as many times it.
 ///
-/// The arm counts as stuck if the request rests, the goal is not reached to 0.01 and nothing moved
-/// by stuck_motion for stuck_time; `plan` then names the pair that is nearest, and a warning is
-/// logged.
+/// A goal beyond limits is taken to the limit. Before one in contact, or to which no way is found,
+/// the arm rests as near as the search has come, until what stands changes, or the request; a
+/// warning says what blocks, and by how much.
+///
+/// The arm counts as stuck if the request rests, the goal is not reached to 0.01 and for stuck_time
+/// the arm was nowhere nearer to it by stuck_motion, nor had a plan that leads there; `plan` then
+/// names the pair that is nearest, and a warning is logged.
 ///
 /// Plans allocate; control samples do not, nor does a tick at which a plan is kept.
 ///
@@ -52,6 +63,7 @@ namespace oca::systems {
 ///       obstacles          ObstacleSet
 ///       measured_position  n  u
 ///       measured_velocity  n  u/s        optional; absent counts as 0
+///       ignored            IgnoredPairs  optional; pairs whose distance does not count
 /// out   position      n  u
 ///       velocity      n  u/s
 ///       acceleration  n  u/s^2
@@ -75,6 +87,7 @@ class ElasticBand final : public System {
     Period plan_period{1, 50};
     double margin{0.12};
     double clear_distance{0.045};
+    double hard_distance{0.002};
     double trust_distance{0.03};
     double flying_distance{0.01};
     double clearance{1e4};
@@ -101,14 +114,21 @@ class ElasticBand final : public System {
   ElasticBand(const Params& params, const ModelSet& models);
 
  private:
-  static planning::ReplanSettings SettingsOf(const Params& params);
+  static planning::ReplanSettings SettingsOf(const Params& params, const ModelSet& models);
   void CalcClear(double time, const RequestAhead& request, const ObstacleSet& set,
                  VectorView measured, VectorView planned, const BandMemory& memory,
                  ClearMotion& motion) const;
   void Start(VectorView measured, MutableVectorView position_out) const;
-  void Report(double time, const BandMemory& memory, Log& log) const;
+  /// What was true, and told, before a plan.
+  struct ReportedBefore {
+    planning::BandBlock block;
+    bool stuck, tight;
+  };
+  void Report(double time, const BandMemory& memory, const ReportedBefore& before, Log& log) const;
+  const char* UnitOf(models::Name joint) const;
   void Plan(double time, Log& log, const RequestAhead& request, const ObstacleSet& set,
-            VectorView measured, std::optional<VectorView> rate, BandMemory& memory) const;
+            VectorView measured, std::optional<VectorView> rate, const IgnoredPairs* left_out,
+            BandMemory& memory) const;
   void Sample(double time, const RequestAhead& request, const BandMemory& memory,
               MutableVectorView next_position, MutableVectorView next_velocity,
               MutableVectorView next_acceleration) const;
@@ -126,6 +146,7 @@ class ElasticBand final : public System {
   const Input<ObstacleSet> obstacles;
   const Input<Vector> measured_position;
   const OptionalInput<Vector> measured_velocity;
+  const OptionalInput<IgnoredPairs> ignored;
   const Output<Vector> position;
   const Output<Vector> velocity;
   const Output<Vector> acceleration;

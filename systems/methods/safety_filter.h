@@ -42,9 +42,9 @@ namespace oca::systems {
 /// within 10 s. With a progress_weight the joints that are to get somewhere are dear, so that the
 /// others evade and the arm does not stop in front of what it could pass.
 ///
-/// A request that is known to be clear for more than trust_time is let through: a row about what it
-/// was planned with asks for no more than r gives, a_i^T u >= min(..., a_i^T r). So the filter does
-/// not push the arm off a way past what comes near fast.
+/// A request that is known to be clear of something for more than trust_time is let through there:
+/// a row about it asks for no more than r gives, a_i^T u >= min(..., a_i^T r). So the filter does
+/// not push the arm off a way past what comes near fast, nor off a goal that is near what stands.
 ///
 /// Where h < 0 a second row asks for h to grow by min(-recovery_gain h, recovery_speed), at the
 /// price recovery_penalty: a wish that may be denied, so that a slow retreat is never forbidden.

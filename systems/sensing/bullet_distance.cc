@@ -103,7 +103,8 @@ BulletDistance::BulletDistance(const Params& params, const ModelSet& models)
       scene_(DeclareCached<&BulletDistance::CalcScene>(obstacles)),
       near_(DeclareCached<&BulletDistance::CalcNear>(links, scene_)),
       asked_(DeclareCached<&BulletDistance::CalcAsked>(ahead)),
-      proximities(DeclareProximities(link_forces_ ? moving_others_ : 0)) {
+      proximities(DeclareProximities(link_forces_ ? moving_others_ : 0)),
+      ignored(DeclareOutput<IgnoredPairs, &BulletDistance::CalcIgnored>("ignored", {})) {
   DeclareRoles(params, models);
 }
 

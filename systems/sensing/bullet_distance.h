@@ -12,6 +12,7 @@
 #include "oca/models/robot/own_ranges.h"
 #include "oca/systems/sensing/link_colliders.h"
 #include "oca/systems/sensing/near_obstacles.h"
+#include "oca/systems/signals/ignored_pairs.h"
 #include "oca/systems/signals/model_set.h"
 #include "oca/systems/signals/request_ahead.h"
 #include "oca/systems/signals/signals.h"
@@ -59,6 +60,7 @@ namespace oca::systems {
 ///                                  by the name that the file has for it, or else the nearest file
 ///                                  around it
 /// out   proximities   ProximitySet
+///       ignored       IgnoredPairs  the pairs of `ignore`, for who measures on his own
 /// state -
 /// throws ConfigError if a model or a link of `ignore` does not exist, no movable link of the model
 ///        has a collision shape, a pair is no pair, max_distance is not positive,
@@ -123,6 +125,7 @@ class BulletDistance final : public System {
     robot::OwnRanges ranges{};
     bool known{false};
   };
+  void CalcIgnored(IgnoredPairs& result) const { result.pairs = ignored_; }
   void CalcAsked(const RequestAhead* request, Asked& result) const;
   void CalcScene(const ObstacleSet& set, ObstacleScene& result) const { result.Follow(set); }
   void CalcNear(const LinkPoses& poses, const ObstacleScene& of, NearObstacles& result) const;
@@ -175,6 +178,7 @@ class BulletDistance final : public System {
 
  public:
   const Output<ProximitySet> proximities;
+  const Output<IgnoredPairs> ignored;
 };
 
 }  // namespace oca::systems

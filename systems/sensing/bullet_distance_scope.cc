@@ -126,7 +126,7 @@ std::string BulletDistance::OutOfSight(const Params& params, const ModelSet& mod
 
 std::vector<std::pair<models::Name, models::Name>> BulletDistance::MakeIgnored(
     const Params& params, const ModelSet& models) const {
-  std::vector<std::pair<models::Name, models::Name>> ignored;
+  std::vector<std::pair<models::Name, models::Name>> found;
   for (std::size_t i = 0; i < params.ignore.size(); ++i) {
     const auto& pair = params.ignore[i];
     if (pair.size() != 2) {
@@ -152,11 +152,11 @@ std::vector<std::pair<models::Name, models::Name>> BulletDistance::MakeIgnored(
     } catch (const std::runtime_error& error) {
       throw ConfigError(fmt::format("ignore[{}]: {}", i, error.what()));
     }
-    ignored.emplace_back(pair[0], FullLinkName(models, pair[1]));
+    found.emplace_back(pair[0], FullLinkName(models, pair[1]));
     if (slash == std::string::npos || models.FullName(model) != name_) continue;
-    ignored.emplace_back(pair[1].substr(slash + 1), name_ + "/" + pair[0]);
+    found.emplace_back(pair[1].substr(slash + 1), name_ + "/" + pair[0]);
   }
-  return ignored;
+  return found;
 }
 
 std::vector<LinkCollider> BulletDistance::MakeMovable() const {

@@ -14,7 +14,7 @@ using systems::Json;
 Fault Signal<BandMemory>::Check(const BandMemory& value, Look /*look*/) {
   return Fault::UnlessFinite(value.held.controls().allFinite() &&
                              value.next.controls().allFinite() && std::isfinite(value.nearest) &&
-                             std::isfinite(value.cost));
+                             std::isfinite(value.block_amount) && std::isfinite(value.cost));
 }
 
 void Signal<BandMemory>::WriteJson(const BandMemory& value, std::string& out) {
@@ -22,10 +22,17 @@ void Signal<BandMemory>::WriteJson(const BandMemory& value, std::string& out) {
       Json{{"plans", value.plans},
            {"start", planning::kBandStartNames[static_cast<std::size_t>(value.start)]},
            {"clear", value.clear},
+           {"reaches", value.reaches},
            {"stuck", value.stuck},
            {"nearest", value.nearest},
            {"link", value.link.text()},
            {"obstacle", value.obstacle.text()},
+           {"distance", value.distance},
+           {"lack", planning::kBandLackNames[static_cast<std::size_t>(value.lack)]},
+           {"block", planning::kBandBlockNames[static_cast<std::size_t>(value.block)]},
+           {"block_link", value.block_link.text()},
+           {"block_body", value.block_body.text()},
+           {"block_amount", value.block_amount},
            {"time", value.time},
            {"cost", value.cost},
            {"evaluations", value.evaluations}});

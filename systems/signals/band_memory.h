@@ -9,8 +9,10 @@
 namespace oca::systems {
 
 /// JSON: {"plans", "start": "request" | "last" | "pause" | "detour" | "random" | "path", "clear",
-/// "stuck", "nearest", "link", "obstacle", "time", "cost", "evaluations"}; the bands themselves are
-/// neither written nor read.
+/// "reaches", "stuck", "nearest", "link", "obstacle", "distance", "lack": "none" | "start" | "goal" |
+/// "passage" | "own links", "block": "none" | "limit" | "contact" | "way", "block_link",
+/// "block_body", "block_amount", "time", "cost", "evaluations"}; the bands themselves are neither
+/// written nor read.
 using planning::BandMemory;
 
 }  // namespace oca::systems

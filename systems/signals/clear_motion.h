@@ -9,7 +9,8 @@
 
 namespace oca::systems {
 
-/// JSON: {"clear_for", "bodies", "own_links"}
+/// JSON: {"clear_for", "bodies", "own_links", "standing_for", "standing"}; the last two may be left
+/// out
 using robot::ClearMotion;
 
 }  // namespace oca::systems

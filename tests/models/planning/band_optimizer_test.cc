@@ -152,7 +152,7 @@ TEST(BandOptimizerTest, IsNotClearWhereItExceedsLimitsThatTheRequestKeeps) {
   EXPECT_TRUE(check(room - 0.01).clear());
   const BandCheck beyond = check(room + 0.01);
   EXPECT_FALSE(beyond.clear());
-  EXPECT_LT(beyond.touch, beyond.last);
+  EXPECT_LT(beyond.touch(), beyond.last);
   EXPECT_EQ(beyond.min_distance, band.settings().margin);
 }
 
@@ -229,7 +229,8 @@ TEST(BandOptimizerTest, TouchesWhatStandsSoonerThanWhatMovesAndWhereItBeginsToo)
     std::vector<BandBody> bodies = sweep.bodies;
     bodies[0].stands = stands;
     band.Prepare(curve, hold, bodies, true);
-    return band.Check(curve).touch;
+    const BandCheck check = band.Check(curve);
+    return std::min(check.touch_trust, check.touch_flying);
   };
   const double never = std::numeric_limits<double>::infinity();
   settings.trust_distance = 0.0;
@@ -242,6 +243,85 @@ TEST(BandOptimizerTest, TouchesWhatStandsSoonerThanWhatMovesAndWhereItBeginsToo)
   EXPECT_EQ(touch(distance - 1e-3, 1.9, true), never);
   EXPECT_EQ(touch(1.9, distance - 1e-3, false), never);
   EXPECT_EQ(touch(0.0, distance + 1e-3, false), curve.start());
+}
+
+TEST(BandOptimizerTest, AsksForNoMoreThanGoalAndStartLeave) {
+  // The arm rests near the box, at a distance that is known.
+  const Sweep sweep;
+  const BandRequest hold = [&](double, int derivative, Eigen::Ref<VectorXd> out) {
+    out = derivative == 0 ? sweep.home : VectorXd::Zero(7);
+  };
+  BandOptimizer far(sweep.model, {.margin = 2.0, .clear_distance = 2.0});
+  BandCurve curve = sweep.Curve();
+  far.Prepare(curve, hold, sweep.bodies, true);
+  const double distance = far.Distance(sweep.home, 0.0);
+  ASSERT_LT(distance, 2.0);
+  BandOptimizer band(sweep.model, {.margin = distance + 0.1,
+                                   .clear_distance = distance + 0.05,
+                                   .hard_distance = 0.5 * distance});
+  band.Prepare(curve, hold, sweep.bodies, true);
+  const BandCheck without = band.Check(curve);
+  EXPECT_FALSE(without.wide());
+  EXPECT_TRUE(without.clear()) << "what stands is kept at the hard distance";
+  EXPECT_NEAR(without.kept, distance, 1e-9);
+  EXPECT_GT(band.Cost(curve), 0.0);
+  const VectorXd goal = sweep.home;
+  band.YieldAt(goal, &goal);
+  EXPECT_TRUE(band.Check(curve).wide());
+  EXPECT_EQ(band.Check(curve).kept, BandCheck::kNever);
+  EXPECT_NEAR(band.Cost(curve), 0.0, 1e-6) << "the goal itself costs nothing";
+  // What moves is asked for all, whatever the goal leaves.
+  std::vector<BandBody> flying = sweep.bodies;
+  flying[0].stands = false;
+  band.Prepare(curve, hold, flying, true);
+  band.YieldAt(goal, &goal);
+  EXPECT_FALSE(band.Check(curve).clear());
+}
+
+TEST(BandOptimizerTest, ItsGradientKnowsThatLessIsAskedForNearTheGoal) {
+  const Sweep sweep;
+  BandOptimizer band(sweep.model, {.margin = 0.6});
+  BandCurve curve = sweep.Curve();
+  models::Random random(5);
+  curve.Follow([&](double) -> VectorXd {
+    VectorXd x(7);
+    for (int j = 0; j < 7; ++j) x[j] = random.Uniform(-0.3, 0.3);
+    return x;
+  });
+  curve.controls().rightCols(3).setZero();
+  band.Prepare(curve, sweep.request(), sweep.bodies, true);
+  VectorXd goal(7);
+  sweep.request()(curve.end(), 0, goal);
+  band.YieldAt(sweep.home, &goal);
+  const VectorXd gradient = 2.0 * band.HalfGradient(curve);
+  for (const int i : {3, 8, 14, 20}) {
+    for (const int j : {0, 1, 3}) {
+      BandCurve more = curve, less = curve;
+      more.controls()(j, i) += 1e-6;
+      less.controls()(j, i) -= 1e-6;
+      const double numeric = (band.Cost(more) - band.Cost(less)) / 2e-6;
+      EXPECT_NEAR(gradient[(i - 3) * 7 + j], numeric, 1e-4 * std::max(1.0, std::fabs(numeric)));
+    }
+  }
+}
+
+TEST(BandOptimizerTest, ReturnsWithinASecondOnceNothingIsInTheWay) {
+  const Sweep sweep;
+  BandOptimizer band(sweep.model, {});
+  const auto away = [&](double from) {
+    BandCurve curve = sweep.Curve();
+    VectorXd zero = VectorXd::Zero(7), off = zero;
+    off[3] = 0.3;
+    curve.StartWith(off, zero, zero);
+    band.Prepare(curve, sweep.request(), {}, true);
+    band.ReturnBetween({{-1.0, from}}, 1.0);
+    band.Relax(curve, 30);
+    VectorXd x(7);
+    curve.Evaluate(1.2, 0, x);
+    return x.cwiseAbs().maxCoeff();
+  };
+  EXPECT_LT(away(0.0), 0.02);
+  EXPECT_GT(away(5.0), 0.05);
 }
 
 TEST(BandOptimizerTest, LooksAtItsOwnLinksWithoutAnyBody) {

@@ -73,6 +73,23 @@ TEST_F(BandReplannerTest, KeepsAPlanWhileWhatStandsStaysWhereItStood) {
   EXPECT_EQ(memory_.plans, 2u);
 }
 
+TEST_F(BandReplannerTest, LeavesOutPairsThatWhoeverMeasuresLeavesOut) {
+  obstacles_[0].X_WO.translation() = Vector3d(0.7, 0.4, 0.0);  // in the way
+  const VectorXd here = Requested(0.0);
+  replanner_.Plan(At(0.0, here), 0.02, std::nullopt, memory_);
+  EXPECT_NE(memory_.start, BandStart::kRequest);
+  memory_ = {};
+  std::vector<std::pair<models::Name, models::Name>> all;
+  for (const robot::Link& link : test::Arm("planar3")->links()) {
+    all.emplace_back(link.name, models::Name("box"));
+  }
+  BandSituation now = At(0.0, here);
+  now.ignored = &all;
+  replanner_.Plan(now, 0.02, std::nullopt, memory_);
+  EXPECT_EQ(memory_.start, BandStart::kRequest);
+  EXPECT_TRUE(memory_.link.empty());
+}
+
 TEST_F(BandReplannerTest, StartsFromAnArmThatIsFartherThanRestartDistance) {
   const VectorXd rate = Vector3d(0.5, 0, 0);
   for (const double off : {0.099, 0.101}) {

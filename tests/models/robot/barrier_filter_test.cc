@@ -117,6 +117,23 @@ TEST_F(BarrierFilterTest, LetsThroughWhatIsClearOfWhatItWasPlannedWith) {
   EXPECT_FALSE(Answer(Settings(), {0.5, 0}).isApprox(Eigen::Vector2d(0.5, 0), 1e-9));
 }
 
+TEST_F(BarrierFilterTest, LetsThroughWhatIsClearOfWhatStandsWhateverElseIsNotKnown) {
+  AddBeside(0.06, 1.0);
+  const Eigen::Vector2d wish(0.5, 0);
+  const ClearMotion standing{.clear_for = 0.0,
+                             .bodies = {models::Name("ball"), models::Name("fly")},
+                             .standing_for = 0.1,
+                             .standing = {models::Name("ball")}};
+  clear_ = &standing;
+  EXPECT_TRUE(Answer(Settings(), wish).isApprox(wish, 1e-9));
+  const ClearMotion other{.clear_for = 0.0,
+                          .bodies = {models::Name("ball")},
+                          .standing_for = 0.1,
+                          .standing = {models::Name("fly")}};
+  clear_ = &other;
+  EXPECT_LT(Answer(Settings(), wish)[0], -0.5);
+}
+
 TEST_F(BarrierFilterTest, BrakesIfItHasNoProofOfItsAnswer) {
   AddBeside(0.08);
   BarrierSettings settings = Settings();

@@ -131,6 +131,21 @@ TEST(ClearanceTest, SeesAFoldedArmMeetItselfOnlyIfAsked) {
   EXPECT_GT(met, 0);
 }
 
+TEST(ClearanceTest, LeavesOutTwoLinksInEitherOrder) {
+  Clearance all(planning::test::Arm("lwr4"), true);
+  const auto pairs = all.own_pairs();
+  ASSERT_GT(pairs.size(), 2u);
+  for (const bool turned : {false, true}) {
+    Clearance some(planning::test::Arm("lwr4"), true);
+    const auto [a, b] = pairs[1];
+    some.IgnoreOwn(turned ? b : a, turned ? a : b);
+    ASSERT_EQ(some.own_pairs().size(), pairs.size() - 1);
+    EXPECT_EQ(some.own_pairs()[0], pairs[0]);
+    EXPECT_EQ(some.own_pairs()[1], pairs[2]);
+    EXPECT_EQ(some.own_scales().size(), pairs.size() - 1);
+  }
+}
+
 TEST(ClearanceTest, FollowsABodyThatMoves) {
   Clearance clearance(planning::test::Arm("planar2"), false, planning::test::Post());
   clearance.MoveTo(Eigen::Vector2d::Zero());

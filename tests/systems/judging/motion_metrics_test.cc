@@ -275,6 +275,30 @@ TEST(MotionMetricsTest, IsNotStuckWhereItStandsAsRequestedOrForAShortTime) {
   EXPECT_GT(Bench(alone).At(3.5).stuck_time.value(), 2.0);
 }
 
+TEST(MotionMetricsTest, IsStuckWhereItGoesAboutAndComesNoNearer) {
+  const VectorScript goal = [](double) { return Vector2d(1.0, 0.0); };
+  const auto about = [&](double gain) {
+    Bench bench({.position =
+                     [gain](double t) {
+                       return Vector2d(gain * t, std::sin(5.0 * t));  // within 1 of its goal
+                     },
+                 .request = goal,
+                 .goal = goal,
+                 .distance = [](double) { return 0.03; }});
+    return bench.At(6.0);
+  };
+  // Every 0.1 s off by more than 0.02, so it never stands; the largest distance stays 1 or so.
+  const MotionMetricsValue stuck = about(0.0);
+  EXPECT_GT(stuck.stuck_time.value(), 4.0);
+  EXPECT_EQ(stuck.stuck_obstacle, models::Name("box"));
+  // A request that still goes on asks for no gain.
+  Bench asked({.position = [](double t) { return Vector2d(0.0, std::sin(5.0 * t)); },
+               .request = [](double t) { return Vector2d(0.1 * t, 0.0); },
+               .goal = goal,
+               .distance = [](double) { return 0.03; }});
+  EXPECT_EQ(asked.At(6.0).stuck_time, 0.0);
+}
+
 TEST(MotionMetricsTest, FindsTheFastestAndTheHardestTick) {
   // q = t^2 on joint 2: over the last tick 1.9 rad/s, and 2 rad/s^2 at each.
   Bench bench({.position = [](double t) { return Vector2d(0.0, -t * t); }});

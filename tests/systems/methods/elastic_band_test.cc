@@ -84,6 +84,15 @@ TEST(ElasticBandTest, RefusesToCallClearWhatItDoesNotLookAt) {
             "accepted");
 }
 
+TEST(ElasticBandTest, RefusesAHardDistanceThatIsMoreThanItPrefers) {
+  EXPECT_THAT(RefusalOf({.period = Period(1, 100), .hard_distance = 0.05}),
+              HasSubstr("hard_distance: got 0.05 m; expected at most clear_distance, 0.045 m"));
+  EXPECT_THAT(RefusalOf({.period = Period(1, 100), .hard_distance = 0.0}),
+              HasSubstr("hard_distance: got 0"));
+  EXPECT_EQ(RefusalOf({.period = Period(1, 100), .hard_distance = 0.045, .trust_distance = 0.045}),
+            "accepted");
+}
+
 TEST(ElasticBandTest, RefusesToBeTrustedWithLessThanIsClear) {
   EXPECT_THAT(RefusalOf({.period = Period(1, 100), .trust_distance = 0.05}),
               HasSubstr("got 0.05 m; expected at most clear_distance, 0.045 m"));
@@ -222,6 +231,89 @@ TEST(ElasticBandTest, NamesWhatBlocksAnArmThatDoesNotGetOn) {
   EXPECT_TRUE(bench.Plan().stuck);
   EXPECT_EQ(bench.Plan().obstacle, models::Name("post"));
   EXPECT_FALSE(bench.Plan().link.empty());
+}
+
+/// Ticks from k on, the arm following; how far it went in the last two seconds, summed.
+double WayOf(Bench& bench, int& k, int ticks) {
+  double way = 0.0;
+  VectorXd last = bench.Position();
+  for (const int end = k + ticks; k < end; ++k) {
+    bench.Tick(k);
+    if (k >= end - 200) way += (bench.Position() - last).norm();
+    last = bench.Position();
+  }
+  return way;
+}
+
+TEST(ElasticBandTest, ArrivesAtAGoalNearerToAThingThanWhatItPrefersToKeep) {
+  // At the goal the arm, 0.05 m thick, lies along y, 8 mm from the box behind it.
+  Bench bench(BoxAt({-0.108, 0.5, 0.0}));
+  int k = 0;
+  EXPECT_LT(WayOf(bench, k, 900), 1e-9);
+  EXPECT_TRUE(bench.Position().isApprox(Vector3d(1.57, 0, 0), 1e-9));
+  EXPECT_TRUE(bench.Plan().clear);
+  EXPECT_TRUE(bench.Plan().reaches);
+  EXPECT_FALSE(bench.Plan().stuck);
+  EXPECT_EQ(bench.Plan().lack, planning::BandLack::kGoal);
+  EXPECT_LT(bench.Plan().distance, 0.02);
+  EXPECT_GT(bench.Plan().distance, 0.002);
+  EXPECT_EQ(bench->clear.Eval(bench.context()).clear_for, 30.0) << "the filter lets it stand there";
+}
+
+TEST(ElasticBandTest, RestsBeforeAGoalInContactSaysSoAndGoesOnOnceItIsFree) {
+  Bench bench(BoxAt({0.0, 0.8, 0.0}, 0.4));
+  int k = 0;
+  EXPECT_LT(WayOf(bench, k, 1200), 0.01);
+  const BandMemory& plan = bench.Plan();
+  EXPECT_TRUE(plan.stuck);
+  EXPECT_TRUE(plan.clear);
+  EXPECT_EQ(plan.block, planning::BandBlock::kContact);
+  EXPECT_EQ(plan.block_body, models::Name("post"));
+  EXPECT_GT(plan.block_amount, 0.1);
+  EXPECT_LT((bench.Position() - Vector3d(1.57, 0, 0)).norm(), 1.57) << "it came nearer";
+  bench->obstacles.Fix(bench.context(), BoxAt({5.0, 5.0, 0.0}));
+  EXPECT_LT(WayOf(bench, k, 800), 1e-9);
+  EXPECT_TRUE(bench.Position().isApprox(Vector3d(1.57, 0, 0), 1e-9));
+  EXPECT_FALSE(bench.Plan().stuck);
+  EXPECT_EQ(bench.Plan().block, planning::BandBlock::kNone);
+}
+
+TEST(ElasticBandTest, RestsAtTheLimitThatAGoalIsBeyond) {
+  Bench bench(BoxAt({5.0, 5.0, 0.0}));
+  const double limit = Planar().Get("arm")->upper_limits()[1];
+  bench->ahead.Fix(
+      bench.context(),
+      RequestAhead{std::make_shared<const motion::Trajectory>(motion::Trajectory::CubicHermite(
+          {{.time = 0.5, .position = Vector3d(0, 0, 0)},
+           {.time = 4.5, .position = Vector3d(0, limit + 0.2, 0)}}))});
+  int k = 0;
+  EXPECT_LT(WayOf(bench, k, 900), 0.01);
+  EXPECT_NEAR(bench.Position()[1], limit, 1e-3);
+  EXPECT_EQ(bench.Plan().block, planning::BandBlock::kLimit);
+  EXPECT_NEAR(bench.Plan().block_amount, 0.2, 1e-9);
+  EXPECT_EQ(bench.Plan().block_link, Planar().Get("arm")->position_names()[1]);
+  EXPECT_TRUE(bench.Plan().stuck);
+}
+
+TEST(ElasticBandTest, KnowsWhatStandsWhileSomethingElseDoesWhatNobodyForesaw) {
+  ObstacleSet set = BoxAt({0.6, 0.6, 0.0});
+  set.obstacles.push_back(BoxAt({3.0, 3.0, 0.0}).obstacles[0]);
+  auto body = std::make_shared<ObstacleBody>(*set.obstacles[1].body);
+  body->id = models::Name("fly");
+  set.obstacles[1].body = body;
+  set.obstacles[1].linear = Vector3d(0.1, 0.0, 0.0);
+  Bench bench(set);
+  bench.AdvanceTo(0.045);  // on its plan, which does not move yet
+  const auto clear = [&] { return bench->clear.Eval(bench.context()); };
+  EXPECT_GT(clear().ClearFor(models::Name("post"), false), 1.0);
+  EXPECT_GT(clear().ClearFor(models::Name("fly"), false), 1.0);
+  set.obstacles[1].linear = Vector3d(-0.1, 0.0, 0.0);
+  bench->obstacles.Fix(bench.context(), set);
+  EXPECT_GT(clear().ClearFor(models::Name("post"), false), 1.0);
+  EXPECT_EQ(clear().ClearFor(models::Name("fly"), false), 0.0);
+  set.obstacles[0].X_WO.translation().x() += 0.01;
+  bench->obstacles.Fix(bench.context(), set);
+  EXPECT_EQ(clear().ClearFor(models::Name("post"), false), 0.0);
 }
 
 TEST(ElasticBandTest, RefusesARequestForAnotherArm) {

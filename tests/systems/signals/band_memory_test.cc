@@ -16,10 +16,18 @@ TEST(BandMemorySignalTest, WritesWhatThePlanCameTo) {
   memory.nearest = 0.0625;
   memory.link = models::Name("wrist");
   memory.obstacle = models::Name("box");
+  memory.lack = planning::BandLack::kGoal;
+  memory.block = planning::BandBlock::kContact;
+  memory.block_link = memory.link;
+  memory.block_body = memory.obstacle;
+  memory.block_amount = 0.25;
   std::string text;
   Signal<BandMemory>::WriteJson(memory, text);
-  EXPECT_EQ(text, R"({"plans":3,"start":"detour","clear":true,"stuck":true,"nearest":0.0625,)"
-                  R"("link":"wrist","obstacle":"box","time":0.0,"cost":0.0,"evaluations":0})");
+  EXPECT_EQ(text,
+            R"({"plans":3,"start":"detour","clear":true,"reaches":true,"stuck":true,)"
+            R"("nearest":0.0625,"link":"wrist","obstacle":"box","distance":0.0,"lack":"goal",)"
+            R"("block":"contact","block_link":"wrist","block_body":"box","block_amount":0.25,)"
+            R"("time":0.0,"cost":0.0,"evaluations":0})");
 }
 
 TEST(BandMemorySignalTest, ABandThatIsNotFiniteIsNoSignal) {

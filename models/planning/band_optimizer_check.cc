@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is asked of bands, and whether they keep it: BandOptimizer.
+#include <algorithm>
+#include <cmath>
+
+#include "oca/models/planning/band_optimizer.h"
+
+namespace oca::planning {
+namespace {
+
+constexpr double kExcessTolerance = 1e-3;  // that still counts as within the limits
+constexpr double kExcessPrice = 0.05;      // m; an excess of 1 counts as so much missing distance
+constexpr double kNearPause = 1.0;         // s
+constexpr double kYieldRounding = 1e-6;    // m
+
+}  // namespace
+
+void BandOptimizer::YieldAt(const Eigen::VectorXd& start, const Eigen::VectorXd* goal) {
+  left_.clear();
+  yield_start_ = start;
+  AddLeft(start, checks_.front().time, false);
+  if (goal == nullptr) return;
+  yield_goal_ = *goal;
+  AddLeft(*goal, checks_.back().time, true);
+}
+
+void BandOptimizer::AddLeft(const Eigen::VectorXd& q, double time, bool at_goal) {
+  if (!something_near_) return;
+  PlaceAt(q, time);
+  clearance_.Collect(settings_.margin, pairs_);
+  for (const robot::NearPair& pair : pairs_) {
+    if (Flies(pair)) continue;
+    left_.push_back(
+        {pair.link, pair.body, pair.other_link, pair.distance - kYieldRounding, at_goal});
+  }
+}
+
+double BandOptimizer::Yielding(const robot::NearPair& pair, bool at_goal_alone) const {
+  double most = robot::kUnlimited;
+  for (const Left& left : left_) {
+    if (at_goal_alone && !left.at_goal) continue;
+    if (left.link != pair.link || left.body != pair.body || left.other_link != pair.other_link) {
+      continue;
+    }
+    const double away = (q_ - (left.at_goal ? yield_goal_ : yield_start_)).norm();
+    most = std::min(most, left.distance + kYieldSlope * away);
+  }
+  return most;
+}
+
+BandOptimizer::Lack BandOptimizer::LackAt(double nearest, double time, BandCheck& check) {
+  Lack lack;
+  const double reach =
+      std::max({settings_.clear_distance, settings_.trust_distance, settings_.flying_distance});
+  if (!(nearest < reach)) return lack;
+  clearance_.Collect(reach, pairs_);
+  for (const robot::NearPair& pair : pairs_) {
+    const double clear = settings_.clear_distance;
+    if (Flies(pair)) {
+      const double lacking = std::max(clear - pair.distance, 0.0);
+      lack.wide = std::max(lack.wide, lacking);
+      lack.hard = std::max(lack.hard, lacking);
+      if (pair.distance < settings_.flying_distance) {
+        check.touch_flying = std::min(check.touch_flying, time);
+      }
+      continue;
+    }
+    const double most = Yielding(pair, false);
+    const double wide = std::min(clear, most);
+    const double hard = std::min({settings_.hard_distance * pair.scale, clear, most});
+    if (pair.distance < wide) check.kept = std::min(check.kept, pair.distance / pair.scale);
+    lack.wide = std::max(lack.wide, wide - pair.distance);
+    lack.hard = std::max(lack.hard, hard - pair.distance);
+    if (pair.distance < std::min(settings_.trust_distance, most)) {
+      check.touch_trust = std::min(check.touch_trust, time);
+    }
+    if (pair.distance < hard) check.touch_hard = std::min(check.touch_hard, time);
+  }
+  return lack;
+}
+
+BandCheck BandOptimizer::Check(const BandCurve& curve) {
+  BandCheck check{.min_distance = settings_.margin, .distance = settings_.margin};
+  if (!something_near_) return check;
+  Eigen::VectorXd x(q_.size()), before;
+  for (const Sample& sample : checks_) {
+    curve.Evaluate(sample.time, 0, x);
+    Place(sample, x);
+    if (before.size() > 0) check.way += (q_ - before).cwiseAbs().sum();
+    before = q_;
+    const robot::NearPair pair = clearance_.Nearest(settings_.margin);
+    if (pair.distance < check.min_distance) {
+      check.min_distance = pair.distance;
+      check.distance = pair.distance / pair.scale;
+      check.time = sample.time;
+      check.own_links = pair.body < 0;
+      check.link = model_->links()[pair.link].name;
+      check.body = pair.body >= 0 ? bodies_[pair.body].name : model_->links()[pair.other_link].name;
+    }
+    const double wanted = pair.link < 0 || Flies(pair) ? settings_.margin : Yielding(pair, true);
+    if (pair.distance < std::min(settings_.margin, wanted)) {
+      if (check.near.empty() || sample.time - check.near.back().second > kNearPause) {
+        check.near.emplace_back(sample.time, sample.time);
+      }
+      check.near.back().second = sample.time;
+    }
+    const double excess = std::max(AddedExcess(sample, curve) - kExcessTolerance, 0.0);
+    const Lack lack = LackAt(pair.distance, sample.time, check);
+    if (excess > 0.0) check.touch_limits = std::min(check.touch_limits, sample.time);
+    check.breach += sample.weight * (lack.hard + kExcessPrice * excess);
+    if (!(lack.wide > 0.0 || excess > 0.0)) continue;
+    if (check.wide()) check.first = sample.time;
+    check.last = sample.time;
+    check.violation += sample.weight * (lack.wide + kExcessPrice * excess);
+  }
+  return check;
+}
+
+BandOptimizer::Room BandOptimizer::RoomAt(const Eigen::VectorXd& q, double time) {
+  Room room{settings_.clear_distance, settings_.clear_distance, {}, {}};
+  if (!something_near_) return room;
+  PlaceAt(q, time);
+  clearance_.Collect(settings_.clear_distance, pairs_);
+  for (const robot::NearPair& pair : pairs_) {
+    if (Flies(pair)) {
+      room.flying = std::min(room.flying, pair.distance);
+    } else if (pair.distance / pair.scale < room.standing) {
+      room.standing = pair.distance / pair.scale;
+      room.link = model_->links()[static_cast<std::size_t>(pair.link)].name;
+      room.body = pair.body >= 0 ? bodies_[static_cast<std::size_t>(pair.body)].name
+                                 : model_->links()[static_cast<std::size_t>(pair.other_link)].name;
+    }
+  }
+  return room;
+}
+
+}  // namespace oca::planning

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bands of BandPlanner that follow paths past what stands.
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "oca/models/planning/band_planner.h"
+#include "oca/models/planning/rrt_connect.h"
+#include "oca/models/planning/smooth_step.h"
+#include "oca/models/random.h"
+
+namespace oca::planning {
+namespace {
+
+using Eigen::VectorXd;
+
+// Of paths where the work of a plan is bounded.
+constexpr int kBoundedNodes = 150;
+constexpr int kBoundedShortcuts = 50;
+constexpr int kShortcuts = 150;         // of what a PathSearch found
+constexpr std::uint64_t kPathTurn = 3;  // one of so many plans looks for paths, if anything moves
+constexpr double kPathRoom = 1.3;       // times what a band keeps, so that it may bend
+constexpr double kPathSpeed = 0.9;      // rad/s, in the 2-norm
+
+}  // namespace
+
+BandCurve BandPlanner::Along(const BandTask& task, const std::vector<VectorXd>& path) const {
+  std::vector<double> lengths{0.0};
+  for (std::size_t k = 1; k < path.size(); ++k) {
+    lengths.push_back(lengths.back() + (path[k] - path[k - 1]).norm());
+  }
+  const double begin = task.start + std::min(0.2, 0.1 * (zero_.end() - task.start));
+  const double end = zero_.end() - std::min(0.5, 0.2 * (zero_.end() - task.start));
+  VectorXd request(zero_.size());
+  return Shaped(task, [&](double time) -> VectorXd {
+    const double at = lengths.back() * SmoothStep((time - begin) / (end - begin));
+    const auto above = std::upper_bound(lengths.begin() + 1, lengths.end() - 1, at);
+    const auto k = static_cast<std::size_t>(above - lengths.begin());
+    const double span = lengths[k] - lengths[k - 1];
+    const double share = span > 0.0 ? (at - lengths[k - 1]) / span : 0.0;
+    task.request(time, 0, request);
+    return path[k - 1] + share * (path[k] - path[k - 1]) - request;
+  });
+}
+
+void BandPlanner::TryPaths(const BandTask& task, BandPlan& best) {
+  if (standing_->bodies().empty()) return;
+  VectorXd here(zero_.size()), goal(zero_.size());
+  task.request(task.start, 0, here);
+  here += task.deviation[0];
+  task.request(zero_.end(), 0, goal);
+  const bool bounded = settings_.most_evaluations > 0;
+  for (int i = 0; i < (bounded ? std::min(settings_.paths, 1) : settings_.paths); ++i) {
+    RrtOptions options;
+    options.seed = models::Random::Seed(task.seed, static_cast<std::uint64_t>(i));
+    options.most_nodes = bounded ? kBoundedNodes : settings_.path_nodes;
+    if (bounded) options.shortcuts = kBoundedShortcuts;
+    std::optional<std::vector<VectorXd>> path;
+    for (const double margin : {1.3 * settings_.band.clear_distance, 0.015}) {
+      options.margin = margin;
+      path = RrtConnect(*standing_, here, goal, options);
+      if (path) break;
+    }
+    if (!path) continue;
+    const int steps = std::max(StepsLeft(2 * settings_.start_iterations), kFewestBandSteps);
+    Keep(task, Finish(BandStart::kPath, Along(task, *path), steps), best);
+  }
+}
+
+SearchLevels BandPlanner::LevelsFor(const VectorXd& here, const VectorXd& goal) {
+  const auto room = [&](const VectorXd& q) {
+    standing_->MoveTo(q);
+    return standing_->Nearest(2.0 * settings_.band.clear_distance).distance;
+  };
+  // So that the first step from either end need not be tiny.
+  const double goal_room = room(goal);
+  const double most = 0.5 * std::min(room(here), goal_room > 0.0 ? goal_room : robot::kUnlimited);
+  SearchLevels levels;
+  const auto add = [&](double margin) {
+    margin = std::min(margin, most);
+    if (levels.margins.empty() || margin < levels.margins.back()) levels.margins.push_back(margin);
+  };
+  add(kPathRoom * settings_.band.clear_distance);
+  for (const double margin : kClearLevels) add(margin);
+  add(kPathRoom * settings_.band.hard_distance);
+  return levels;
+}
+
+void BandPlanner::GoOnSearching(const BandTask& task, BandPlan& best) {
+  PathSearch& search = *task.paths;
+  if (!anything_stands_) return;
+  if (moving_ && task.search % kPathTurn != kPathTurn - 1) return;
+  const bool in_the_way = best.check.touch_hard < BandCheck::kNever || !moving_;
+  const bool goal_taken = !best.reaches && best.goal_room <= 0.0;
+  if (best.check.clear() ? !goal_taken && (best.level == 0 || moving_) : !in_the_way) {
+    return;
+  }
+  VectorXd here(zero_.size());
+  task.request(task.start, 0, here);
+  here += task.deviation[0];
+  const VectorXd goal = GoalAt(task, std::max(zero_.end(), task.request_end));
+  standing_->MoveTo(here);
+  const double room = standing_->Nearest(settings_.band.clear_distance).distance;
+  if (!(room > 0.0)) return;  // first out of contact
+  if (!search.IsFor(goal) || room < search.margin()) {
+    standing_->MoveTo(goal);
+    const bool goal_clear = standing_->Nearest(0.0).distance > 0.0;
+    search.Begin(here, goal, goal_clear, LevelsFor(here, goal), task.seed);
+  }
+  if (best.check.clear() && best.reaches && search.margin() <= best.check.kept) {
+    search.Reset();
+    return;
+  }
+  long looks = 0;
+  standing_->KeepOwn(own_, search.margin());
+  search.MoveStart(*standing_, here, looks);
+  search.Continue(*standing_, settings_.path_evaluations, looks);
+  path_looks_ += looks;
+  if (search.state() == PathSearch::State::kFound) {
+    std::vector<VectorXd> path = search.path();
+    RrtOptions options;
+    options.seed = task.seed;
+    options.margin = search.margin();
+    options.shortcuts = kShortcuts;
+    Shorten(*standing_, options, path);
+    standing_->KeepOwn(own_, settings_.band.clear_distance);
+    TryPath(task, path, best);
+    search.Reset();
+  } else if (search.state() == PathSearch::State::kExhausted) {
+    standing_->MoveTo(search.nearest());
+    const robot::NearPair pair = standing_->Nearest();
+    if (pair.link >= 0) {
+      best.rest_link = model().links()[static_cast<std::size_t>(pair.link)].name;
+      best.rest_body = StandingName(task, pair);
+      best.rest_room = pair.distance / pair.scale;
+    }
+  }
+  standing_->KeepOwn(own_, settings_.band.clear_distance);
+}
+
+models::Name BandPlanner::StandingName(const BandTask& task, const robot::NearPair& pair) const {
+  if (pair.body < 0) return model().links()[static_cast<std::size_t>(pair.other_link)].name;
+  int place = 0;
+  for (const BandBody& body : task.bodies) {
+    if (body.stands && place++ == pair.body) return body.name;
+  }
+  return {};
+}
+
+void BandPlanner::TryPath(const BandTask& task, const std::vector<VectorXd>& path, BandPlan& best) {
+  // A path of straight pieces needs time and points: the more, the nearer the band is to it.
+  double length = 0.0;
+  for (std::size_t k = 1; k < path.size(); ++k) length += (path[k] - path[k - 1]).norm();
+  double speed = robot::kUnlimited;
+  for (Eigen::Index j = 0; j < zero_.size(); ++j) {
+    speed = std::min(speed, model().velocity_limits()[j]);
+  }
+  double duration =
+      std::max(length / std::min(kPathSpeed, speed / 2.5), task.request_end - task.start);
+  for (const double interval : {0.25, 0.15, 0.1}) {
+    Prepare(task, {duration + settings_.tail, interval});
+    const BandCurve along = Along(task, path);
+    BandPlan raw{.curve = along, .start = BandStart::kPath};
+    raw.cost = band_.Cost(along);
+    Judge(raw);
+    Keep(task, std::move(raw), best);
+    Keep(task, Finish(BandStart::kPath, along, settings_.start_iterations), best);
+    if (best.check.clear() || moving_) return;
+    duration *= 1.4;
+  }
+}
+
+}  // namespace oca::planning
