@@ -24,8 +24,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kNear = 0.3;  // m
-constexpr int kConfigurations = 1000;
+constexpr double kManyNear = 0.3;  // m
+constexpr int kManyConfigurations = 1000;
 
 /// Points on a sphere's surface 0.9 to 1.1 m around the shoulder: what stands around the arm.
 std::vector<Vector3d> Surroundings(int count) {
@@ -45,7 +45,7 @@ void TickAmong(benchmark::State& state, const systems::ObstacleSet& obstacles, i
   systems::ModelSet models;
   models.Add("arm", arm);
   std::vector<systems::LinkPoses> poses;
-  for (const auto& q : PathConfigurations(kConfigurations)) {
+  for (const auto& q : PathConfigurations(kManyConfigurations)) {
     systems::NameLinks(*arm, poses.emplace_back());
     poses.back().poses = robot::LinkPoses(*arm, q);
   }
@@ -69,11 +69,11 @@ void TickAmong(benchmark::State& state, const systems::ObstacleSet& obstacles, i
     for (std::size_t k = 0; k < colliders.size(); ++k) {
       const systems::LinkCollider& link = colliders[k];
       const Eigen::Isometry3d& X_WL = poses[i].poses[static_cast<std::size_t>(link.number)];
-      near.Add(scene.balls(), X_WL * link.centre, link.radius + kNear);
+      near.Add(scene.balls(), X_WL * link.centre, link.radius + kManyNear);
       for (const int place : near.of(k)) {
         const systems::Obstacle& obstacle = set.obstacles[static_cast<std::size_t>(place)];
         const auto distance =
-            systems::DistanceToBody(link, X_WL, *obstacle.body->collider, obstacle.X_WO, kNear);
+            systems::DistanceToBody(link, X_WL, *obstacle.body->collider, obstacle.X_WO, kManyNear);
         found += distance.status == geometry::DistanceStatus::kBeyond ? 0 : 1;
       }
     }

@@ -18,9 +18,9 @@
 namespace oca::bench {
 namespace {
 
-constexpr double kNear = 0.3;   // m
-constexpr double kAll = 100.0;  // m
-constexpr int kConfigurations = 1000;
+constexpr double kTickNear = 0.3;  // m
+constexpr double kAll = 100.0;     // m
+constexpr int kTickConfigurations = 1000;
 
 struct TickScene {
   TickScene(int obstacle_count, bool path, bool meshes)
@@ -28,8 +28,8 @@ struct TickScene {
             : MeshArm() ? MeshArm()
                         : OwnMeshArm()),
         obstacles(ToSet(MakeObstacles(*arm, obstacle_count))) {
-    for (const auto& q :
-         path ? PathConfigurations(kConfigurations) : RandomConfigurations(*arm, kConfigurations)) {
+    for (const auto& q : path ? PathConfigurations(kTickConfigurations)
+                              : RandomConfigurations(*arm, kTickConfigurations)) {
       systems::LinkPoses links;
       systems::NameLinks(*arm, links);
       links.poses = robot::LinkPoses(*arm, q);
@@ -65,7 +65,7 @@ void Tick(benchmark::State& state, const TickScene& scene, double max_distance) 
 void FclTick(benchmark::State& state, const TickScene& scene, double max_distance) {
   std::vector<systems::LinkCollider> links = systems::MakeLinkColliders(*scene.arm);
   std::erase_if(links, [&](const auto& link) { return scene.arm->body(link.number) < 0; });
-  FclScene fcl(links, scene.obstacles, max_distance, max_distance == kNear);
+  FclScene fcl(links, scene.obstacles, max_distance, max_distance == kTickNear);
   std::size_t i = 0;
   const AllocationCounter allocations(state);
   for (auto _ : state) {
@@ -77,7 +77,7 @@ void FclTick(benchmark::State& state, const TickScene& scene, double max_distanc
 void Register(int count, bool path, double max_distance, bool meshes) {
   const std::string name =
       fmt::format("geometry/tick/{}/{}/{}{}", count, path ? "path" : "random",
-                  max_distance == kNear ? "cull" : "all", meshes ? "" : "/primitives");
+                  max_distance == kTickNear ? "cull" : "all", meshes ? "" : "/primitives");
   const auto add = [&](const std::string& row, auto run) {
     benchmark::RegisterBenchmark(row.c_str(), [=](benchmark::State& state) {
       run(state, TickScene(count, path, meshes), max_distance);
@@ -90,7 +90,7 @@ void Register(int count, bool path, double max_distance, bool meshes) {
 void RegisterAll() {
   for (const bool path : {true, false}) {
     for (const int count : {1, 10, 100, 1000}) {
-      for (const double max_distance : {kNear, kAll}) {
+      for (const double max_distance : {kTickNear, kAll}) {
         for (const bool meshes : {true, false}) Register(count, path, max_distance, meshes);
       }
     }

@@ -17,11 +17,11 @@
 namespace oca::bench {
 namespace {
 
-constexpr int kConfigurations = 1000;
+constexpr int kArmConfigurations = 1000;
 
 template <class Calc>
 void OverPath(benchmark::State& state, const Calc& calc) {
-  const auto path = PathConfigurations(kConfigurations);
+  const auto path = PathConfigurations(kArmConfigurations);
   std::size_t i = 0;
   const AllocationCounter allocations(state);
   for (auto _ : state) {
@@ -74,7 +74,7 @@ void Mapping(benchmark::State& state, robot::MappingMethod method) {
   const auto arm = PrimitiveArm();
   const auto wrenches = SomeWrenches(*arm);
   std::vector<std::vector<Eigen::Isometry3d>> poses;
-  for (const auto& q : PathConfigurations(kConfigurations)) {
+  for (const auto& q : PathConfigurations(kArmConfigurations)) {
     poses.push_back(robot::LinkPoses(*arm, q));
   }
   robot::MappingWorkspace workspace(*arm);
@@ -96,7 +96,7 @@ void KdlMapping(benchmark::State& state) {
   }
   KdlArm kdl(*arm);
   std::vector<Eigen::MatrixXd> jacobians;
-  for (const auto& q : PathConfigurations(kConfigurations)) {
+  for (const auto& q : PathConfigurations(kArmConfigurations)) {
     kdl.Calc(q);
     jacobians.push_back(kdl.jacobian());
   }
