@@ -97,7 +97,7 @@ void RegisterAll() {
   }
 }
 
-const bool kRegistered = (RegisterAll(), true);
+const bool kTicksRegistered = (RegisterAll(), true);
 
 }  // namespace
 }  // namespace oca::bench
