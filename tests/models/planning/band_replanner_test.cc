@@ -80,7 +80,8 @@ TEST_F(BandReplannerTest, LeavesOutPairsThatWhoeverMeasuresLeavesOut) {
   EXPECT_NE(memory_.start, BandStart::kRequest);
   memory_ = {};
   std::vector<std::pair<models::Name, models::Name>> all;
-  for (const robot::Link& link : test::Arm("planar3")->links()) {
+  const auto arm = test::Arm("planar3");
+  for (const robot::Link& link : arm->links()) {
     all.emplace_back(link.name, models::Name("box"));
   }
   BandSituation now = At(0.0, here);
