@@ -80,7 +80,7 @@ TEST_F(ImportCommandTest, AnUnknownFrameIsRefusedWithItsPlace) {
   const auto scene = run.folder().Write("scene.yaml", text.out);
   const Ran ran = Import(scene.string());
   EXPECT_EQ(ran.status, 2);
-  EXPECT_THAT(ran.err, AllOf(HasSubstr("scene.yaml:35: object 'can': frame; got 'shelf/bord'"),
+  EXPECT_THAT(ran.err, AllOf(HasSubstr("scene.yaml:34: object 'can': frame; got 'shelf/bord'"),
                              HasSubstr("nearest is 'shelf/board'")));
 }
 
@@ -126,7 +126,7 @@ TEST_F(ImportCommandTest, AFolderOfScenesIsRunAndGoesOnWhereItStopped) {
   const std::string words =
       "SIMULATOR=$S tools/benchmark_scenes.sh --no-plan --samples 1 "
       "--duration 0.5 -o " +
-      Path("out") + " ";
+      Path("results") + " ";
   const std::string robot = " models/robots/ur5e/ur5e.urdf";
   const Ran ran = run(words + Path("made") + robot);
   EXPECT_EQ(ran.status, 0) << ran.err;
@@ -136,7 +136,7 @@ TEST_F(ImportCommandTest, AFolderOfScenesIsRunAndGoesOnWhereItStopped) {
   EXPECT_EQ(again.out, ran.out);
   EXPECT_THAT(again.err, Not(HasSubstr("1/1")));
   EXPECT_EQ(run(words + "--set parameters.avoid=false " + Path("made") + robot).status, 64);
-  EXPECT_EQ(run(words + Path("out/cage") + robot).status, 2);  // no pairs
+  EXPECT_EQ(run(words + Path("results/cage") + robot).status, 2);  // no pairs
 }
 
 }  // namespace import_command_test

@@ -120,11 +120,13 @@ TEST_F(PlanarCertificateTest, FollowsPairsThatComeAndGo) {
   EXPECT_NEAR(Certified().value(), 0.5 * (1.0 + 0.5 - 0.8), 1e-12);
 }
 
-TEST_F(PlanarCertificateTest, AddsTheTravelOfBothLinksOfAPairOfTheArm) {
+TEST_F(PlanarCertificateTest, OfAPairOfTheArmTheJointsBetweenThemCount) {
   Near("planar2_link_2", 0.3).own_link = models::Name("planar2_link_1");
   Add(Vector2d::Zero());
-  Add(Vector2d(0.1, 0.0));  // ends 0.95 m and 0.55 m from the shoulder
-  EXPECT_NEAR(Certified().value(), 0.3 - 0.5 * 0.1 * (0.95 + 0.55), 1e-12);
+  Add(Vector2d(0.1, 0.0));
+  EXPECT_NEAR(Certified().value(), 0.3, 1e-12) << "joint 1 carries both";
+  Add(Vector2d(0.1, 0.1));  // the fore link ends 0.45 m from the elbow
+  EXPECT_NEAR(Certified().value(), 0.3 - 0.5 * 0.1 * 0.45, 1e-12);
 }
 
 TEST_F(PlanarCertificateTest, HasNoValueOnceSomethingWasUnknown) {

@@ -148,7 +148,7 @@ TEST(ElasticBandTest, GoesRoundAPostAndArrivesWithoutAJump) {
   }
   EXPECT_TRUE(bench.Plan().clear);
   EXPECT_GT(farthest, 0.1);
-  EXPECT_TRUE(last.isApprox(Vector3d(1.57, 0, 0), 1e-9));
+  EXPECT_TRUE(last.isApprox(Vector3d(1.57, 0, 0), 1e-9)) << last.transpose();
   EXPECT_FALSE(bench.Plan().stuck);
 }
 
