@@ -137,7 +137,7 @@ TEST(ElasticBandTest, GoesRoundAPostAndArrivesWithoutAJump) {
   Bench bench(BoxAt({0.6, 0.6, 0.0}));
   VectorXd last = Vector3d::Zero(), speed = Vector3d::Zero();
   double farthest = 0.0;
-  for (int k = 0; k < 700; ++k) {
+  for (int k = 0; k < 800; ++k) {
     bench.Tick(k);
     const VectorXd q = bench.Position();
     EXPECT_LT(((q - last) / 0.01 - speed).cwiseAbs().maxCoeff(), 0.5) << k;
