@@ -284,9 +284,9 @@ void ElasticBand::Plan(double time, Log& log, const RequestAhead& request, const
                        const IgnoredPairs* left_out, BandMemory& memory) const {
   if (!request.trajectory || !params_.enabled) return;
   RequireSize(*request.trajectory, measured.size());
-  const planning::BandSituation now{time, request.trajectory, set.obstacles, measured,
-                                    set.estimates,
-                                    left_out == nullptr ? nullptr : &left_out->pairs};
+  const planning::BandSituation now{
+      time,     request.trajectory, set.obstacles,
+      measured, set.estimates,      left_out == nullptr ? nullptr : &left_out->pairs};
   const ReportedBefore before{memory.block, memory.stuck,
                               memory.clear && memory.lack != planning::BandLack::kNone &&
                                   memory.distance < params_.hard_distance};

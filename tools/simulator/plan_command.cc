@@ -15,8 +15,8 @@
 #include "oca/framework/dataflow/json_text.h"
 #include "oca/models/error.h"
 #include "oca/models/planning/clairvoyant.h"
-#include "oca/models/planning/shortest_path.h"
 #include "oca/models/planning/first_sight.h"
+#include "oca/models/planning/shortest_path.h"
 #include "tools/simulator/commands.h"
 #include "tools/simulator/terminal.h"
 
