@@ -26,8 +26,8 @@ done
 readers=("$@")
 [ $# -gt 0 ] || mapfile -t readers < <(ls tests/fuzz/corpus)
 
-EXTRA_PACKAGES="clang" tools/setup.sh fuzz oca_fuzz
-fuzzer=$PWD/$(find build/fuzz -type f -name oca_fuzz -perm -u+x)
+EXTRA_PACKAGES="clang" tools/setup.sh clang oca_fuzz
+fuzzer=$PWD/$(find build/clang -type f -name oca_fuzz -perm -u+x)
 mkdir -p build/fuzz/found
 
 gather() { # READER FOLDER: files of ours that it reads

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # What takes too long for tools/test.sh. Usage: tools/test_long.sh [OPTION]... [SECTION...]
 #   headers    each public header is compiled alone
-#   clang      Clang builds everything without a warning, and its build passes all tests
+#   clang      Clang builds everything without a warning, and its build passes all tests under address
+#              and undefined-behaviour sanitizers
 #   tidy       clang-tidy finds nothing (tools/tidy.sh)
-#   asan       all tests under address and undefined-behaviour sanitizers
 #   tsan       the tests that use threads under the thread sanitizer
 #   fuzz       readers are fuzzed (tools/fuzz.sh)
 #   campaigns  the recommended method stays clear in random scenarios, and other methods end
@@ -17,7 +17,7 @@
 # Prints a line a section: pass or FAIL, its seconds, and where its log is; exit status 1 if one fails.
 set -uo pipefail
 cd "$(dirname "$0")/.."
-sections=(headers clang tidy asan tsan fuzz campaigns bench package coverage)
+sections=(headers clang tidy tsan fuzz campaigns bench package coverage)
 fuzz_seconds=30 samples=20
 usage() { sed -n 's/^# \?//p' "$0" | sed -n 3,18p >&2; exit "$1"; }
 chosen=()
@@ -46,11 +46,6 @@ clang() {
 }
 
 tidy() { tools/tidy.sh; }
-
-asan() {
-  tools/setup.sh debug
-  ctest --preset debug -j "$jobs"
-}
 
 tsan() {
   local tests=(dataflow_test simulation_test live_test record_test sweep_test)
