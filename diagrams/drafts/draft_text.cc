@@ -51,14 +51,8 @@ std::string Quoted(const std::string& text) {
 
 std::string SmallerDistances(double reach) {
   if (reach >= kUsualReach) return "";
-  const double share = reach / kUsualReach;
-  return fmt::format(
-      "  # Distances for a reach of {:.2g} m, m:\n"
-      "  safe_distance: {:.2g}\n"
-      "  flying_distance: {:.2g}\n"
-      "  clear_distance: {:.2g}\n"
-      "  band_margin: {:.2g}\n",
-      reach, 0.03 * share, 0.01 * share, 0.045 * share, 0.12 * share);
+  return fmt::format("  scale: {:<32.2g} # times the method's distances; the arm's reach, m\n",
+                     reach / kUsualReach);
 }
 
 std::string PackagesText(const DraftRobot& robot) {

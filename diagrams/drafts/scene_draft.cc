@@ -181,11 +181,11 @@ class SceneDraftMaker {
     const Eigen::Vector3d p_WT = X_WL[static_cast<std::size_t>(draft_.robot.tip)].translation();
     for (const scenes::SceneObject& object : scene_.objects) {
       const Eigen::Isometry3d X_WO = frames.PoseOf(object);
-      if (frames.Moves(object.frame)) {
+      if (frames.Moves(object.frame.text)) {
         Tell(
             fmt::format("{}: object '{}' is in the frame of '{}', which moves: it stands where "
                         "that is at the start",
-                        object.where, object.id, object.frame));
+                        object.frame.where, object.id, object.frame.text));
       }
       for (auto& body : shapes_->BodiesOf(object, X_WO.inverse() * p_WT)) {
         bodies_of_[object.id].push_back(body.id);
@@ -201,16 +201,16 @@ class SceneDraftMaker {
 
   void AddHeld(const scenes::HeldSceneObject& held, const internal::SceneFrames& frames) {
     const scenes::SceneObject& object = held.object;
-    const int link = LinkOf(held.link, object.where + ": link_name");
+    const int link = LinkOf(held.link, "link_name");
     const Eigen::Isometry3d X_LO =
         frames.X_WL()[static_cast<std::size_t>(link)].inverse() * frames.PoseOf(object);
     for (auto& body : shapes_->BodiesOf(object, Eigen::Vector3d::Zero())) {
       bodies_of_[object.id].push_back(body.id);
       body.X_OB = X_LO * body.X_OB;
-      internal::HeldText text{std::move(body), held.link, {}};
-      for (const std::string& touched : held.touch_links) {
-        LinkOf(touched, object.where + ": touch_links");
-        if (touched != held.link) text.touches.push_back(touched);
+      internal::HeldText text{std::move(body), held.link.text, {}};
+      for (const scenes::PlacedName& touched : held.touch_links) {
+        LinkOf(touched, "touch_links");
+        if (touched.text != held.link.text) text.touches.push_back(touched.text);
       }
       // Bodies of one object that touch each other are no collision.
       for (const std::string& earlier : bodies_of_[object.id]) {
@@ -220,11 +220,11 @@ class SceneDraftMaker {
     }
   }
 
-  int LinkOf(const std::string& name, const std::string& where) const {
+  int LinkOf(const scenes::PlacedName& name, std::string_view key) const {
     try {
-      return model_->FindLink(name);
+      return model_->FindLink(name.text);
     } catch (const models::ModelError& error) {
-      throw models::ModelError(fmt::format("{}: {}", where, error.what()));
+      throw models::ModelError(fmt::format("{}: {}: {}", name.where, key, error.what()));
     }
   }
 
@@ -243,15 +243,15 @@ class SceneDraftMaker {
   }
 
   void AddPose(const scenes::RequestedPose& pose, const internal::SceneFrames& frames) {
-    LinkOf(pose.link, pose.where + ": link_name");
-    const Eigen::Isometry3d& X_WF = frames.Find(pose.frame, pose.where);
+    LinkOf(pose.link, "link_name");
+    const Eigen::Isometry3d& X_WF = frames.Find(pose.frame);
     Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();
     if (pose.rotation) {
-      const Eigen::Isometry3d& X_WR = frames.Find(pose.rotation_frame, pose.where);
+      const Eigen::Isometry3d& X_WR = frames.Find(pose.rotation_frame);
       X_WG.linear() = X_WR.linear() * pose.rotation->toRotationMatrix();
     }
     X_WG.translation() = X_WF * pose.position - X_WG.linear() * pose.offset;
-    text_.pose = internal::PoseGoalText{pose.link, X_WG, !pose.rotation.has_value()};
+    text_.pose = internal::PoseGoalText{pose.link.text, X_WG, !pose.rotation.has_value()};
     Tell(
         fmt::format("{}: goal of a pose: the joints that reach it are found when the diagram is "
                     "loaded; tolerances are not looked at",

@@ -40,7 +40,7 @@ void SceneFrames::AddFixed(const scenes::PlanningScene& scene) {
 }
 
 bool SceneFrames::TryAdd(const scenes::SceneObject& object) {
-  const auto frame = frames_.find(object.frame);
+  const auto frame = frames_.find(object.frame.text);
   if (frame == frames_.end()) return false;
   const Eigen::Isometry3d X_WO = frame->second * object.X_FO;
   frames_.emplace(object.id, X_WO);
@@ -60,15 +60,13 @@ void SceneFrames::AddObjects(const scenes::PlanningScene& scene) {
   }
   models::ModelErrors errors;
   for (const scenes::SceneObject* object : left) {
-    errors.Try(
-        [&] { Find(object->frame, fmt::format("{}: object '{}'", object->where, object->id)); });
+    errors.Try([&] { Find(object->frame); });
   }
   errors.Throw();
 }
 
-const Eigen::Isometry3d& SceneFrames::Find(const std::string& frame,
-                                           const std::string& where) const {
-  const auto found = frames_.find(frame);
+const Eigen::Isometry3d& SceneFrames::Find(const scenes::PlacedName& frame) const {
+  const auto found = frames_.find(frame.text);
   if (found != frames_.end()) return found->second;
   std::vector<std::string> names;
   for (const auto& [name, X] : frames_) {
@@ -77,11 +75,11 @@ const Eigen::Isometry3d& SceneFrames::Find(const std::string& frame,
   throw models::ModelError(fmt::format(
       "{}: frame; got '{}'; expected a link, an object, a subframe or a fixed frame, nearest is "
       "'{}'",
-      where, frame, models::NearestName(frame, names)));
+      frame.where, frame.text, models::NearestName(frame.text, names)));
 }
 
 Eigen::Isometry3d SceneFrames::PoseOf(const scenes::SceneObject& object) const {
-  return Find(object.frame, object.where) * object.X_FO;
+  return Find(object.frame) * object.X_FO;
 }
 
 bool SceneFrames::Moves(const std::string& frame) const {

@@ -19,8 +19,8 @@ class SceneFrames {
   SceneFrames(const robot::RobotModel& model, const Eigen::VectorXd& q,
               const std::vector<std::string>& worlds, const scenes::PlanningScene& scene);
 
-  /// throws ModelError `where: frame; got X; expected Y` if there is none
-  const Eigen::Isometry3d& Find(const std::string& frame, const std::string& where) const;
+  /// throws ModelError `file:line: frame; got X; expected Y` if there is none
+  const Eigen::Isometry3d& Find(const scenes::PlacedName& frame) const;
   /// Of an object.
   Eigen::Isometry3d PoseOf(const scenes::SceneObject& object) const;
   const std::vector<Eigen::Isometry3d>& X_WL() const { return X_WL_; }

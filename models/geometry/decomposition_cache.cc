@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 // Changes with the way parts are made or written.
 constexpr std::string_view kMagic = "OCA decomposition 2\n";
-constexpr std::uint64_t kMostPoints = 10'000'000;
+constexpr std::size_t kPointSize = 3 * sizeof(double);
 
 // FNV-1a of 64 bits from a given start.
 std::uint64_t Hash(std::string_view bytes, std::uint64_t hash) {
@@ -73,33 +73,42 @@ DecompositionEntry::DecompositionEntry(const fs::path& cache, const fs::path& me
                               Hash(content, 0x9ae16a3b2f90404full));
 }
 
+std::vector<std::shared_ptr<const ConvexHull>> PartsOf(std::string_view body,
+                                                       const std::string& name) {
+  std::vector<std::shared_ptr<const ConvexHull>> parts;
+  std::uint64_t count = 0;
+  if (!Take(body, &count)) return {};
+  while (parts.size() < count) {
+    std::uint64_t points = 0;
+    if (!Take(body, &points) || points > body.size() / kPointSize) return {};
+    std::vector<Eigen::Vector3d> vertices(points);
+    for (Eigen::Vector3d& p : vertices) {
+      for (int axis = 0; axis < 3; ++axis) Take(body, &p[axis]);
+    }
+    try {
+      parts.push_back(MakeConvexHull(vertices, fmt::format("{} part {}", name, parts.size())));
+    } catch (const models::ModelError&) {
+      return {};
+    }
+  }
+  return parts;
+}
+
 std::vector<std::shared_ptr<const ConvexHull>> DecompositionEntry::Read(
     const std::string& name) const {
   std::error_code error;
   if (file_.empty() || !fs::is_regular_file(file_, error)) return {};
-  std::vector<std::shared_ptr<const ConvexHull>> parts;
   try {
     const std::string text = models::ReadUnnoted(file_);
     std::string_view rest = text;
-    std::uint64_t sum = 0, count = 0;
+    std::uint64_t sum = 0;
     if (!rest.starts_with(kMagic)) return {};
     rest.remove_prefix(kMagic.size());
-    if (!Take(rest, &sum) || sum != Hash(rest, 0) || !Take(rest, &count)) return {};
-    while (parts.size() < count) {
-      std::uint64_t points = 0;
-      if (!Take(rest, &points) || points > kMostPoints) return {};
-      std::vector<Eigen::Vector3d> vertices(points);
-      for (Eigen::Vector3d& p : vertices) {
-        for (int axis = 0; axis < 3; ++axis) {
-          if (!Take(rest, &p[axis])) return {};
-        }
-      }
-      parts.push_back(MakeConvexHull(vertices, fmt::format("{} part {}", name, parts.size())));
-    }
+    if (!Take(rest, &sum) || sum != Hash(rest, 0)) return {};
+    return PartsOf(rest, name);
   } catch (const models::ModelError&) {  // damaged: it is made anew
     return {};
   }
-  return parts;
 }
 
 void DecompositionEntry::Write(const std::vector<std::shared_ptr<const ConvexHull>>& parts) const {

@@ -5,11 +5,17 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "oca/models/geometry/convex_hull.h"
 
 namespace oca::geometry::internal {
+
+/// What stands in an entry after its check sum: the number of parts, and of each the number of its
+/// points and these, in the byte order of the machine. Empty if it is none.
+std::vector<std::shared_ptr<const ConvexHull>> PartsOf(std::string_view body,
+                                                       const std::string& name);
 
 /// One decomposition on disk. Written under another name and then renamed, so that whoever reads
 /// at the same time sees all of it or nothing.

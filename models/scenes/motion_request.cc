@@ -94,7 +94,7 @@ class RequestReader {
   void ReadPose(const Foreign& position, const std::vector<Foreign>& rotations) {
     RequestedPose pose;
     pose.where = position.where();
-    pose.link = position.Get("link_name").Text();
+    pose.link = internal::NameOf(position.Get("link_name"));
     pose.frame = internal::FrameOf(position);
     if (const auto offset = position.Find("target_point_offset")) pose.offset = offset->Vector();
     const Foreign region = position.Get("constraint_region");
@@ -108,9 +108,9 @@ class RequestReader {
     if (!rotations.empty()) {
       const Foreign& rotation = rotations.front();
       const std::string link = rotation.Get("link_name").Text();
-      if (link != pose.link) {
+      if (link != pose.link.text) {
         rotation.Refuse(fmt::format("link '{}'", models::internal::Shown(link)),
-                        fmt::format("'{}', of which the position is", pose.link));
+                        fmt::format("'{}', of which the position is", pose.link.text));
       }
       pose.rotation = rotation.Get("orientation").Rotation();
       pose.rotation_frame = internal::FrameOf(rotation);

@@ -13,12 +13,12 @@ namespace oca::scenes {
 
 /// Where a link shall be, in a frame of the scene.
 struct RequestedPose {
-  std::string link{};
-  std::string frame{};                                ///< empty: that of the scene
+  PlacedName link{};
+  PlacedName frame{};                                 ///< empty: that of the scene
   Eigen::Vector3d position{Eigen::Vector3d::Zero()};  ///< of the link's origin + offset, m
   Eigen::Vector3d offset{Eigen::Vector3d::Zero()};    ///< in the link's frame, m
   std::optional<Eigen::Quaterniond> rotation{};       ///< none: it may turn freely
-  std::string rotation_frame{};
+  PlacedName rotation_frame{};
   std::string where{};
 };
 

@@ -77,9 +77,11 @@ class SceneReader {
     internal::NoteUnknown(item, {"link_name", "object", "touch_links", "detach_posture", "weight"},
                           scene_.notes);
     HeldSceneObject held;
-    held.link = item.Get("link_name").Text();
+    held.link = internal::NameOf(item.Get("link_name"));
     held.object = internal::ObjectOf(item.Get("object"), scene_.notes);
-    held.touch_links = item.Texts("touch_links");
+    for (const Foreign& link : item.Items("touch_links")) {
+      held.touch_links.push_back(internal::NameOf(link));
+    }
     Claim(held.object.id, item);
     scene_.held.push_back(std::move(held));
   }
@@ -94,7 +96,7 @@ class SceneReader {
     for (const Foreign& item : tree_.Items("fixed_frame_transforms")) {
       const std::string child = item.Get("child_frame_id").Text();
       const auto transform = item.Find("transform");
-      SceneFrame frame{child.starts_with('/') ? child.substr(1) : child, internal::FrameOf(item),
+      SceneFrame frame{child.starts_with('/') ? child.substr(1) : child, internal::FrameOf(item).text,
                        transform ? transform->Pose() : Eigen::Isometry3d::Identity(), item.where()};
       for (const SceneFrame& other : scene_.frames) {
         if (other.name == frame.name) item.Refuse("frame '" + child + "' twice", "it once");

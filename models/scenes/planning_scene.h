@@ -33,6 +33,12 @@ struct SceneBody {
   std::string where{};                                    ///< "file:line"
 };
 
+/// A name of something else, and where it is said.
+struct PlacedName {
+  std::string text{};
+  std::string where{};  ///< "file:line"
+};
+
 struct SceneFrame {
   std::string name{};
   std::string parent{};  ///< empty: the frame of the scene, or of the object
@@ -42,7 +48,7 @@ struct SceneFrame {
 
 struct SceneObject {
   std::string id{};
-  std::string frame{};                                    ///< empty: the frame of the scene
+  PlacedName frame{};                                     ///< empty: the frame of the scene
   Eigen::Isometry3d X_FO{Eigen::Isometry3d::Identity()};  ///< in that frame
   std::vector<SceneBody> bodies{};                        ///< at least one
   std::vector<SceneFrame> subframes{};
@@ -51,9 +57,9 @@ struct SceneObject {
 
 /// An object that a link carries.
 struct HeldSceneObject {
-  std::string link{};
+  PlacedName link{};
   SceneObject object{};
-  std::vector<std::string> touch_links{};
+  std::vector<PlacedName> touch_links{};
 };
 
 /// Where joints are, rad or m, by name.

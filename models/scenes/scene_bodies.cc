@@ -170,10 +170,13 @@ ScenePlane PlaneOf(std::span<const double> coefficients, const std::string& wher
   return {normal / length, offset};
 }
 
-std::string FrameOf(const Foreign& tree) {
+PlacedName FrameOf(const Foreign& tree) {
   const auto header = tree.Find("header");
-  const std::string frame = header ? header->Text("frame_id") : "";
-  return frame.starts_with('/') ? frame.substr(1) : frame;
+  const auto id = header ? header->Find("frame_id") : std::nullopt;
+  if (!id) return {"", tree.where()};
+  PlacedName frame = NameOf(*id);
+  if (frame.text.starts_with('/')) frame.text.erase(0, 1);
+  return frame;
 }
 
 void NoteUnknown(const Foreign& tree, std::initializer_list<std::string_view> known,
@@ -252,7 +255,7 @@ JointPositions JointsOf(const Foreign& robot_state, std::vector<std::string>& no
     }
     for (std::size_t i = 0; i < names.size(); ++i) {
       joints.bases.push_back(
-          {names[i], FrameOf(*state), transforms[i].Pose(), transforms[i].where()});
+          {names[i], FrameOf(*state).text, transforms[i].Pose(), transforms[i].where()});
     }
   }
   return joints;

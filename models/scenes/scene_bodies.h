@@ -29,8 +29,10 @@ SceneObject ObjectOf(const Foreign& tree, std::vector<std::string>& notes);
 /// `sensor_msgs/JointState` and MultiDOFJointState of a moveit_msgs/RobotState.
 JointPositions JointsOf(const Foreign& robot_state, std::vector<std::string>& notes);
 
+inline PlacedName NameOf(const Foreign& text) { return {text.Text(), text.where()}; }
+
 /// The frame_id of a header without a leading slash, as ROS 1 writes it; empty if it has none.
-std::string FrameOf(const Foreign& tree);
+PlacedName FrameOf(const Foreign& tree);
 
 /// Adds a line for each key that is not known.
 void NoteUnknown(const Foreign& tree, std::initializer_list<std::string_view> known,

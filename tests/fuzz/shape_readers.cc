@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Meshes, clouds, maps and tables of numbers.
 #include "oca/models/csv_table.h"
+#include "oca/models/geometry/decomposition_cache.h"
 #include "oca/models/geometry/mesh.h"
 #include "oca/models/geometry/octree.h"
 #include "oca/models/geometry/point_cloud.h"
@@ -39,6 +40,10 @@ bool ReadMesh(std::string_view bytes) {
   return Accepts([&] { geometry::LoadMesh(FileOf(kName, bytes)); });
 }
 
+bool ReadParts(std::string_view bytes) {
+  return !geometry::internal::PartsOf(bytes, "fuzz").empty();
+}
+
 template <const char* kName>
 bool ReadTree(std::string_view bytes) {
   return Accepts([&] { geometry::LoadOctree(FileOf(kName, bytes)); });
@@ -58,6 +63,7 @@ std::vector<Reader> ShapeReaders() {
           {"obj", kText, ReadMesh<kObj>},
           {"octree_bt", kBinary, ReadTree<kBt>},
           {"octree_ot", kBinary, ReadTree<kOt>},
+          {"parts", kBinary, ReadParts},
           {"pcd", kBinary, ReadCloud<kPcd>},
           {"pgm", kBinary, ReadMap<kPgm>},
           {"ply", kBinary, ReadCloud<kPly>},

@@ -80,7 +80,7 @@ TEST_F(ImportCommandTest, AnUnknownFrameIsRefusedWithItsPlace) {
   const auto scene = run.folder().Write("scene.yaml", text.out);
   const Ran ran = Import(scene.string());
   EXPECT_EQ(ran.status, 2);
-  EXPECT_THAT(ran.err, AllOf(HasSubstr("scene.yaml:34: object 'can': frame; got 'shelf/bord'"),
+  EXPECT_THAT(ran.err, AllOf(HasSubstr("scene.yaml:35: frame; got 'shelf/bord'"),
                              HasSubstr("nearest is 'shelf/board'")));
 }
 

@@ -94,7 +94,7 @@ TEST(PlanningSceneTest, IsReadAsMotionBenchMakerWritesIt) {
   EXPECT_EQ(scene.robot, "arm");
   ASSERT_EQ(scene.objects.size(), 1U);
   const SceneObject& shelf = scene.objects[0];
-  EXPECT_EQ(shelf.frame, "world");
+  EXPECT_EQ(shelf.frame.text, "world");
   EXPECT_EQ(shelf.X_FO.translation(), Eigen::Vector3d(1.0, 2.0, 3.0));
   EXPECT_NEAR(shelf.X_FO.linear()(1, 0), 2.0 * 0.6 * 0.8, 1e-15);  // sin of twice the half angle
   ASSERT_EQ(shelf.bodies.size(), 2U);
@@ -107,8 +107,10 @@ TEST(PlanningSceneTest, IsReadAsMotionBenchMakerWritesIt) {
   ASSERT_EQ(shelf.subframes.size(), 1U);
   EXPECT_EQ(shelf.subframes[0].name, "edge");
   ASSERT_EQ(scene.held.size(), 1U);
-  EXPECT_EQ(scene.held[0].link, "hand");
-  EXPECT_THAT(scene.held[0].touch_links, ElementsAre("finger"));
+  EXPECT_EQ(scene.held[0].link.text, "hand");
+  ASSERT_EQ(scene.held[0].touch_links.size(), 1U);
+  EXPECT_EQ(scene.held[0].touch_links[0].text, "finger");
+  EXPECT_THAT(scene.held[0].touch_links[0].where, HasSubstr(".yaml:9"));
   EXPECT_EQ(*scene.joints.Find("j2"), -0.2);
   EXPECT_EQ(scene.joints.Find("j3"), nullptr);
   EXPECT_EQ(scene.joints.bases.at(0).X_PF.translation().x(), 1.0);
@@ -148,7 +150,7 @@ world:
 )");
   EXPECT_THAT(scene.allowed.pairs, ElementsAre(std::pair<std::string, std::string>("a", "b")));
   const SceneObject& ball = scene.objects.at(0);
-  EXPECT_EQ(ball.frame, "base");
+  EXPECT_EQ(ball.frame.text, "base");
   ASSERT_EQ(ball.bodies.size(), 3U);
   EXPECT_EQ(std::get<geometry::Sphere>(std::get<geometry::Shape>(ball.bodies[0].shape)).radius,
             0.25);
