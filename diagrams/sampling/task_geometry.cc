@@ -160,6 +160,10 @@ double TaskGeometry::LowestLinkOrigin(const Eigen::VectorXd& q) const {
 bool TaskGeometry::HasClearPath(double margin, int most_nodes, std::uint64_t seed) {
   PlaceObstacles(0.0);
   robot::Clearance clearance(model_, true, clearance_->bodies());
+  const motion::KeyPoint start{.time = 0.0, .position = Request(0.0)};
+  const motion::KeyPoint goal{.time = 1.0, .position = Goal()};
+  const auto straight = motion::Trajectory::Linear({start, goal});
+  clearance.KeepOwn(robot::OwnRangesAlong(model_, &straight, robot::kSelfDistance), margin);
   return planning::RrtConnect(
              clearance, Request(0.0), Goal(),
              {.seed = seed, .margin = margin, .most_nodes = most_nodes, .shortcuts = 0})

@@ -74,6 +74,11 @@ std::pair<robot::PostureSolution, int> FindPosture(
     std::vector<robot::PlacedBody> bodies;
     if (goal.bodies) bodies = goal.bodies(goal.time.value_or(before.time));
     robot::Clearance surroundings(model, true, std::move(bodies));
+    if (goal.clearance > 0.0) {
+      const auto rest = motion::Trajectory::Linear({before});
+      surroundings.KeepOwn(robot::OwnRangesAlong(model, &rest, robot::kSelfDistance),
+                           goal.clearance);
+    }
     return {robot::SolveInverseKinematics(*model, link, goal.X_WG, before.position, settings,
                                           &surroundings),
             link};

@@ -96,7 +96,8 @@ class SceneReader {
     for (const Foreign& item : tree_.Items("fixed_frame_transforms")) {
       const std::string child = item.Get("child_frame_id").Text();
       const auto transform = item.Find("transform");
-      SceneFrame frame{child.starts_with('/') ? child.substr(1) : child, internal::FrameOf(item).text,
+      SceneFrame frame{child.starts_with('/') ? child.substr(1) : child,
+                       internal::FrameOf(item).text,
                        transform ? transform->Pose() : Eigen::Isometry3d::Identity(), item.where()};
       for (const SceneFrame& other : scene_.frames) {
         if (other.name == frame.name) item.Refuse("frame '" + child + "' twice", "it once");

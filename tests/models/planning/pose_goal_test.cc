@@ -116,6 +116,33 @@ TEST(PoseGoalTest, KeepsTheClearanceFromWhatIsThereAtItsTime) {
   EXPECT_LT((KeyPointAt(goal, At(0.0, bent), arm).position - bent).norm(), 1e-6);
 }
 
+TEST(PoseGoalTest, KeepsClearWhereOwnLinksStandNearerThanThat) {
+  const auto arm = Robot("ur5e");
+  const Eigen::VectorXd bent = (Eigen::VectorXd(6) << 0.3, -1.2, 1.4, -1.0, -1.5, 0.2).finished();
+  PoseGoal goal;
+  goal.X_WG = robot::LinkPoses(*arm, bent)[static_cast<std::size_t>(arm->FindLink("ur5e_flange"))];
+  goal.link = "ur5e_flange";
+  goal.time = 3.0;
+  goal.clearance = 0.05;
+  robot::Clearance own(arm, true);
+  own.MoveTo(bent);
+  ASSERT_LT(own.Nearest().distance, 0.03);  // by design, in every posture
+  robot::PlacedBody ball{geometry::MakeCollider(geometry::Sphere{0.05}, "ball"),
+                         Eigen::Isometry3d::Identity()};
+  ball.X_WO.translation() = own.X_WL()[static_cast<std::size_t>(arm->FindLink("ur5e_link_3"))] *
+                            Eigen::Vector3d(0.0, 0.0, 0.5);
+  robot::Clearance beside(arm, false, {ball});
+  beside.MoveTo(bent);
+  const robot::NearPair nearest = beside.Nearest();
+  ball.X_WO.translation() += (nearest.distance - 0.03) * nearest.normal;
+  goal.bodies = [&](double) { return std::vector{ball}; };
+  beside.SetBodies({ball});
+  beside.MoveTo(bent);
+  ASSERT_LT(beside.Nearest().distance, 0.05);
+  beside.MoveTo(KeyPointAt(goal, At(0.0, bent), arm).position);
+  EXPECT_GE(beside.Nearest().distance, 0.05 - 1e-4);
+}
+
 TEST(PoseGoalTest, RefusesWhatItCannotStartFromOrName) {
   const auto arm = Robot("planar2");
   const motion::KeyPoint before = At(3.0, Eigen::Vector2d(0.3, 0.3));

@@ -9,36 +9,18 @@
 #include <variant>
 
 #include "oca/framework/dataflow/error.h"
+#include "tests/systems/signals/signal_texts.h"
 #include "tests/temporary_folder.h"
 
 namespace oca::systems {
 namespace signals_test {
 
+using test::kObstacle;
+using test::Refusal;
+using test::WriteText;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-template <class T>
-std::string WriteText(const T& value) {
-  std::string text;
-  Signal<T>::WriteJson(value, text);
-  return text;
-}
-
-/// The message of the refusal; fails the test if there is none.
-template <class T>
-std::string Refusal(const std::string& text) {
-  try {
-    Signal<T>::ReadJson(text);
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "was accepted: " << text;
-  return "";
-}
-
-constexpr const char* kObstacle = R"([{"id":"box","shape":{"type":"box","size":[0.2,0.3,0.4]},)"
-                                  R"("pose":{"xyz":[1.0,2.0,3.0],"quaternion":[0.0,0.0,0.0,1.0]},)"
-                                  R"("twist":{"linear":[0.1,0.0,0.0],"angular":[0.0,0.0,0.5]}}])";
 constexpr const char* kProximity =
     R"([{"link":"l","obstacle":"o","distance":-0.25,"point_on_link":[1.0,0.0,0.0],)"
     R"("point_on_obstacle":[0.0,1.0,0.0],"normal":[0.0,0.0,1.0]}])";
@@ -287,49 +269,6 @@ TEST(SignalsTest, SeesANumberThatIsNotFiniteAnywhere) {
   EXPECT_TRUE(Signal<WrenchSet>::Check(wrenches, Look::kFinite).ok());
   wrenches.wrenches[0].origin.y() = kNaN;
   EXPECT_FALSE(Signal<WrenchSet>::Check(wrenches, Look::kFinite).ok());
-}
-
-/// What a tracker says of a ball: 36 entries of the covariance, of which the first is given.
-std::string Tracked(const std::string& id, const std::string& first) {
-  std::string text = R"({"id":")" + id + R"(","shape":{"type":"sphere","radius":0.1},)" +
-                     R"("pose":{"xyz":[1.0,2.0,3.0],"quaternion":[0.0,0.0,0.0,1.0]},)" +
-                     R"("twist":{"linear":[0.1,0.0,0.0],"angular":[0.0,0.0,0.5]},)" +
-                     R"("acceleration":[0.0,0.0,-9.81],"covariance":[)" + first;
-  for (int i = 1; i < 36; ++i) text += i % 7 == 0 ? ",0.5" : ",0.0";
-  return text + R"(],"age":0.05})";
-}
-
-TEST(SignalsTest, AnEstimateIsWrittenAsItIsRead) {
-  const std::string text = "[" + Tracked("a", "0.25") + "," + Tracked("b", "0.75") + "]";
-  const auto set = Signal<ObstacleSet>::ReadJson(text);
-  ASSERT_EQ(set.estimates.size(), 2u);
-  EXPECT_EQ(set.estimates[0].covariance(0, 0), 0.25);
-  EXPECT_EQ(set.estimates[1].covariance(5, 5), 0.5);
-  EXPECT_EQ(set.estimates[1].acceleration.z(), -9.81);
-  EXPECT_EQ(set.estimates[1].age, 0.05);
-  EXPECT_TRUE(Signal<ObstacleSet>::Check(set, Look::kWhole).ok());
-  EXPECT_EQ(WriteText(set), text);
-}
-
-TEST(SignalsTest, AnObstacleWithoutTwistHasAVelocityThatNobodyKnows) {
-  const std::string text = R"([{"id":"a","shape":{"type":"sphere","radius":0.1},)"
-                           R"("pose":{"xyz":[1.0,2.0,3.0],"quaternion":[0.0,0.0,0.0,1.0]}}])";
-  const auto set = Signal<ObstacleSet>::ReadJson(text);
-  EXPECT_FALSE(set.obstacles[0].velocity_known);
-  EXPECT_TRUE(Signal<ObstacleSet>::ReadJson(kObstacle).obstacles[0].velocity_known);
-  EXPECT_EQ(WriteText(set), text);
-}
-
-TEST(SignalsTest, EstimatesAreWholeAndOfAllObstacles) {
-  std::string without = Tracked("a", "1.0");
-  without.replace(without.find("\"age\""), 5, "\"ags\"");
-  EXPECT_THAT(Refusal<ObstacleSet>("[" + without + "]"), HasSubstr("ags"));
-  std::string few = Tracked("a", "1.0");
-  few.erase(few.find(",0.0", few.find("covariance")), 4);
-  EXPECT_THAT(Refusal<ObstacleSet>("[" + few + "]"), HasSubstr("got 35 numbers; expected 36"));
-  std::string known = kObstacle;
-  known.insert(known.size() - 1, "," + Tracked("a", "1.0"));
-  EXPECT_THAT(Refusal<ObstacleSet>(known), HasSubstr("an estimate of some obstacles"));
 }
 
 TEST(SignalsTest, ALinkWithoutTwistRestsAndATwistIsRead) {
