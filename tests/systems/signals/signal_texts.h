@@ -8,7 +8,7 @@
 #include "oca/framework/dataflow/error.h"
 #include "oca/systems/signals/signals.h"
 
-namespace oca::systems::test {
+namespace oca::test {
 
 template <class T>
 std::string WriteText(const T& value) {
@@ -35,4 +35,4 @@ inline constexpr const char* kObstacle =
     R"("pose":{"xyz":[1.0,2.0,3.0],"quaternion":[0.0,0.0,0.0,1.0]},)"
     R"("twist":{"linear":[0.1,0.0,0.0],"angular":[0.0,0.0,0.5]}}])";
 
-}  // namespace oca::systems::test
+}  // namespace oca::test
