@@ -63,7 +63,7 @@ class AllowedPairs {
       const bool meant = std::find(bodies.begin(), bodies.end(), held.body.id) != bodies.end();
       auto& touches = held.touches;
       const bool known = std::find(touches.begin(), touches.end(), link) != touches.end();
-      if (meant && !known && link != held.link.text) touches.push_back(link);
+      if (meant && !known && link != held.link) touches.push_back(link);
     }
   }
 
