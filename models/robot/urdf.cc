@@ -6,7 +6,7 @@
 #include <tinyxml.h>
 
 #include <algorithm>
-#include <ranges>
+#include <span>
 
 #include "oca/models/error.h"
 #include "oca/models/geometry/decomposition.h"
@@ -273,10 +273,11 @@ class UrdfReader {
   }
 
   void WarnOfMissingVisuals() const {
-    const std::size_t told = options_.sum_up ? 1 : missing_visuals_.size();
-    const std::size_t more = missing_visuals_.size() - std::min(told, missing_visuals_.size());
+    const std::size_t all = missing_visuals_.size();
+    const std::size_t told = options_.sum_up ? std::min<std::size_t>(1, all) : all;
+    const std::size_t more = all - told;
     const std::string rest = more == 0 ? "" : fmt::format("; and {} more visuals", more);
-    for (const std::string& why : missing_visuals_ | std::views::take(told)) {
+    for (const std::string& why : std::span(missing_visuals_).first(told)) {
       options_.warn(fmt::format("not drawn: {}{}", why, rest));
     }
   }

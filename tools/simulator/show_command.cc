@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
-#include <ranges>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -65,7 +65,7 @@ int ShowCommand(const ShowArguments& arguments) {
   models::OpenedFiles opened;
   record::RobotRecord record = ReadRobot(arguments);
   const std::size_t told = std::min(record.warnings.size(), kMostTold);
-  for (const std::string& line : record.warnings | std::views::take(told)) {
+  for (const std::string& line : std::span(record.warnings).first(told)) {
     Tell("{}: warning: {}\n", arguments.robot.urdf, line);
   }
   if (record.warnings.size() > told) {

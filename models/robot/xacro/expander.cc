@@ -23,8 +23,8 @@ const std::string& Required(const Node& node, const char* attribute) {
 
 void CheckAttributes(const Node& node, AttributeNames known) {
   for (const auto& [name, value] : node.attributes) {
-    const bool is_known =
-        std::any_of(known.begin(), known.end(), [&](const char* one) { return name == one; });
+    const bool is_known = std::any_of(known.begin(), known.end(),
+                                      [&name = name](const char* one) { return name == one; });
     if (!is_known) {
       throw Mistake("unknown attribute", fmt::format("'{}'", name),
                     fmt::format("one of {}", fmt::join(known, ", ")));

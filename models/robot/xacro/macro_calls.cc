@@ -36,8 +36,9 @@ void Expander::CallMacro(const std::string& name, const Node& node, Scope& scope
 /// Attributes, then defaults, of parameters that are no blocks.
 void Expander::Pass(const Macro& macro, const Node& node, Scope& scope, Scope& inner) {
   for (const auto& [name, text] : node.attributes) {
-    const bool known = std::any_of(macro.parameters.begin(), macro.parameters.end(),
-                                   [&](const Parameter& one) { return one.name == name; });
+    const bool known =
+        std::any_of(macro.parameters.begin(), macro.parameters.end(),
+                    [&name = name](const Parameter& one) { return one.name == name; });
     if (!known) {
       std::vector<std::string> names;
       for (const Parameter& one : macro.parameters) names.push_back(one.name);
