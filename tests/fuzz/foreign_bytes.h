@@ -31,6 +31,7 @@ inline const std::filesystem::path& FuzzFolder() {
 /// The file of that name there, with these bytes.
 inline std::filesystem::path FileOf(const char* name, std::string_view bytes) {
   const std::filesystem::path file = FuzzFolder() / name;
+  std::filesystem::remove(file);  // made anew: to cut one short waits for the disk
   std::ofstream(file, std::ios::binary) << bytes;
   return file;
 }
