@@ -1,9 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Sets up a fresh Debian 12 machine and runs all tests as users build them, then those that read
-# foreign files once more: robots and meshes under the address and undefined-behaviour sanitizers,
-# diagrams under valgrind, which needs no second build. `ctest --preset debug` runs everything under
-# the sanitizers.
+# foreign files once more under valgrind, and the page in a browser.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 jobs=$(nproc)
@@ -14,21 +12,19 @@ ctest --preset release -j "$jobs"
 echo "Inputs from outside that once went wrong"
 tests/cases/run.sh
 
-hostile=(robot_test geometry_test)
-tools/setup.sh debug "${hostile[@]}"
-for test in "${hostile[@]}"; do
-  echo "$test under sanitizers"
-  # Not the million pairs, which take minutes there.
-  "$(find build/debug/tests -type f -name "$test")" --gtest_brief=1 \
-    --gtest_filter='-Shares/*:Scales/*:DistanceInvariance*:DistanceEnumeration*:DistanceProof*'
-done
-
-for test in files_test loading_test; do
-  echo "$test under valgrind"
-  # Not all diagrams again and again, which take minutes there.
-  valgrind -q --error-exitcode=1 \
-    "$(find build/release/tests -type f -name "$test")" --gtest_brief=1 --gtest_filter='-*EveryBlueprintTest*:*FileNested*'
-done
+# All under sanitizers takes a build of its own: tools/test_long.sh clang, or `ctest --preset debug`.
+echo "What reads files, under valgrind"
+under_valgrind() { # TEST FILTER: not what computes for minutes there
+  OCA_FUZZ_INPUTS=20 valgrind -q --error-exitcode=1 \
+    "$(find build/release/tests -type f -name "$1")" --gtest_brief=1 --gtest_filter="$2"
+}
+running=()
+under_valgrind files_test '*' & running+=($!)
+under_valgrind loading_test '-*EveryBlueprintTest*:*FileNested*' & running+=($!)
+under_valgrind fuzz_replay_test '*' & running+=($!)
+under_valgrind robot_test 'Urdf*:Srdf*:Xacro*:Xml*:Mesh*:JointLimitsFile*:HoldJoints*:Posture*:Inertia*:FuseCapsules*' & running+=($!)
+under_valgrind geometry_test 'Mesh*:Octree*:PlyFile*:PointCloud*:Lzf*:Collider*:ConvexHull*:Decomposition*:CoarseMesh*' & running+=($!)
+for process in "${running[@]}"; do wait "$process"; done
 
 if command -v chromium > /dev/null && [ -f build/release/tools/viewer/viewer.html ]; then
   echo "The page in a real browser"

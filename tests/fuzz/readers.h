@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <ostream>
 #include <span>
 #include <string_view>
 
@@ -14,6 +15,9 @@ struct Reader {
   Kind kind;  ///< of text fewer inputs tell something new, and take longer
   bool (*read)(std::string_view bytes);  ///< whether it accepted them
 };
+
+/// For messages of tests.
+inline void PrintTo(const Reader& reader, std::ostream* to) { *to << reader.name; }
 
 /// All of them.
 std::span<const Reader> Readers();
