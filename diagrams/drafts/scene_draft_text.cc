@@ -149,7 +149,8 @@ std::string SceneDiagramText(const DraftOptions& options, const DraftRobot& robo
       "  avoidance: {}\n"
       "  self_collision: true\n"
       "  acceleration_limit: 10.0                # rad/s^2 or m/s^2; where the robot's description "
-      "has none\n{}"
+      "has none\n"
+      "  judge_looks: 10                         # a tick; goals of scenes stand near things\n{}"
       "simulator: {{duration: 20}}                 # s\n",
       Quoted(scene.scene), scene.request.empty() ? "" : " and " + Quoted(scene.request),
       Quoted(scene.name),

@@ -70,7 +70,8 @@ double MotionTally::TravelOf(const MotionSample& sample, models::Name link,
 }
 
 void MotionTally::CalcTravel(const MotionSample& sample) {
-  const Eigen::Map<const Eigen::VectorXd> before(position_.data(), std::ssize(position_));
+  const Eigen::Map<const Eigen::VectorXd> before(looked_position_.data(),
+                                                 std::ssize(looked_position_));
   Eigen::Map<Eigen::VectorXd> path(path_.data(), before.size());
   path = (*sample.position - before).cwiseAbs();
   ForwardKinematics(*sample.model, before, poses_);

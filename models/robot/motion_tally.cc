@@ -64,9 +64,8 @@ std::optional<double> FinalError(const MotionSample& now) {
 void MotionTally::Add(const MotionSample& sample) {
   const double step = sample.time - last_time_;  // without meaning in the first sample
   if (samples_ == 0) first_time_ = sample.time;
-  if (samples_ > 0 && in_contact_) contact_time_ += step;
-  AddDistance(sample);
-  Certify(sample, step);
+  Look(sample);
+  looks_ = 0;
   if (sample.position) AddPosition(*sample.position, sample.model, step);
   if (sample.position && sample.goal) {
     if (*FinalError(sample) > kArrived) {
@@ -84,6 +83,16 @@ void MotionTally::Add(const MotionSample& sample) {
   if (sample.delta) AddDelta(*sample.delta);
   last_time_ = sample.time;
   ++samples_;
+}
+
+void MotionTally::Look(const MotionSample& sample) {
+  const double step = sample.time - looked_at_;
+  if (samples_ > 0 && in_contact_) contact_time_ += step;
+  AddDistance(sample);
+  Certify(sample, step);
+  if (sample.position) Keep(*sample.position, looked_position_);
+  looked_at_ = sample.time;
+  ++looks_;
 }
 
 void MotionTally::AddDistance(const MotionSample& sample) {
@@ -219,7 +228,7 @@ MotionMetricsValue MotionTally::At(const MotionSample& now) const {
   }
   if (certain_ && looked_) value.certified_min_distance = certified_;
   if (now.proximities != nullptr && looked_) {
-    value.contact_time = contact_time_ + (in_contact_ ? now.time - last_time_ : 0.0);
+    value.contact_time = contact_time_ + (in_contact_ ? now.time - looked_at_ : 0.0);
     value.first_contact_time = first_contact_time_;
   }
   if (now.delta) {
@@ -249,6 +258,7 @@ bool MotionTally::finite() const {
                             reach_,
                             fastest_,
                             last_time_,
+                            looked_at_,
                             contact_time_,
                             max_abs_delta_,
                             position_path_,
@@ -264,8 +274,8 @@ bool MotionTally::finite() const {
                             goal_time_.value_or(0.0)};
   return std::all_of(std::begin(numbers), std::end(numbers),
                      [](double number) { return std::isfinite(number); }) &&
-         all_finite(position_) && all_finite(velocity_) && all_finite(request_) &&
-         all_finite(delta_);
+         all_finite(position_) && all_finite(looked_position_) && all_finite(velocity_) &&
+         all_finite(request_) && all_finite(delta_);
 }
 
 }  // namespace oca::robot

@@ -32,9 +32,13 @@ struct MotionSample {
 class MotionTally {
  public:
   int samples() const { return samples_; }
-  double last_time() const { return last_time_; }
+  /// How many looks came after the last sample, and when the last look or sample was, s.
+  int looks() const { return looks_; }
+  double looked_at() const { return looked_at_; }
 
   void Add(const MotionSample& sample);
+  /// Distances alone, between two samples.
+  void Look(const MotionSample& sample);
   /// The metrics at `now`, which is not before the last sample; only the final error reads more of
   /// it than the time.
   MotionMetricsValue At(const MotionSample& now) const;
@@ -76,6 +80,8 @@ class MotionTally {
   void NoteWhatIsNearest(const MotionSample& sample);
 
   int samples_{0};
+  int looks_{0};           // since the last sample
+  double looked_at_{0.0};  // s; the last one, or sample
   double first_time_{0.0};
   double last_time_{0.0};
   std::optional<double> min_distance_;
@@ -85,9 +91,10 @@ class MotionTally {
   bool looked_{false};   // a sample had a pair that was looked at
   bool certain_{false};  // all of every sample so far was known
   double certified_{0.0};
-  double reach_{0.0};    // max_distance of the last sample
-  double fastest_{0.0};  // of the last sample
-  PairList pairs_;       // of the last sample
+  double reach_{0.0};                    // max_distance of the last sample
+  double fastest_{0.0};                  // of the last sample
+  PairList pairs_;                       // of the last sample
+  std::vector<double> looked_position_;  // of the last look or sample
   std::vector<Eigen::Isometry3d> poses_;
   std::vector<double> path_;
   std::vector<double> travel_;

@@ -20,10 +20,14 @@ void MotionMetrics::Params::Describe(Fields<Params>& fields) {
       .Required();
   fields.Add("model", &Params::model, "",
              "robot whose position comes in, for certified_min_distance; none if left out");
+  fields.Add("looks", &Params::looks, "", "how often distances are looked at in a period")
+      .AtLeast(1)
+      .AtMost(1000);
 }
 
 MotionMetrics::MotionMetrics(const Params& params, const ModelSet& models)
-    : period_(Validated(params).period.seconds()),
+    : looks_(Validated(params).looks),
+      between_(params.period.numerator(), params.period.denominator() * params.looks),
       model_(params.model.empty() ? nullptr : MovableModel(models, params.model)),
       travel_(model_ ? std::optional<robot::TravelBound>(*model_) : std::nullopt),
       spec_(MakeSpec()),
@@ -37,8 +41,8 @@ MotionMetrics::MotionMetrics(const Params& params, const ModelSet& models)
                                                       proximities, x_)),
       metrics(DeclareOutput<MotionMetricsValue, &MotionMetrics::CalcMetrics>(
           "metrics", {}, kTime, position, request, goal, delta, proximities, tally_)) {
-  DeclareUpdate<&MotionMetrics::Update>(Every{params.period}, Writes(x_), kTime, position, request,
-                                        goal, delta, proximities);
+  DeclareUpdate<&MotionMetrics::Update>(Every{between_}, Writes(x_), kTime, position, request, goal,
+                                        delta, proximities);
   DeclareRole(Boundary{"the judge"});
   DeclareRole(Judges{.metrics = metrics,
                      .position = position,
@@ -66,7 +70,15 @@ robot::MotionSample MotionMetrics::Sample(double time, OptionalVector position_v
 void MotionMetrics::Update(double time, OptionalVector position_value, OptionalVector request_value,
                            OptionalVector goal_value, OptionalVector delta_value,
                            const ProximitySet* proximity_set, robot::MotionTally& next) const {
-  next.Add(Sample(time, position_value, request_value, goal_value, delta_value, proximity_set));
+  Add(Sample(time, position_value, request_value, goal_value, delta_value, proximity_set), next);
+}
+
+void MotionMetrics::Add(const robot::MotionSample& sample, robot::MotionTally& tally) const {
+  if (tally.samples() == 0 || tally.looks() + 1 == looks_) {
+    tally.Add(sample);
+  } else {
+    tally.Look(sample);
+  }
 }
 
 void MotionMetrics::CalcTally(double time, OptionalVector position_value,
@@ -75,9 +87,9 @@ void MotionMetrics::CalcTally(double time, OptionalVector position_value,
                               const robot::MotionTally& x, robot::MotionTally& value) const {
   value = x;
   // Times of ticks are rationals rounded to doubles, so their differences are off by a little.
-  const bool pending = x.samples() == 0 || time - x.last_time() > 0.999999 * period_;
+  const bool pending = x.samples() == 0 || time - x.looked_at() > 0.999999 * between_.seconds();
   if (!pending) return;
-  value.Add(Sample(time, position_value, request_value, goal_value, delta_value, proximity_set));
+  Add(Sample(time, position_value, request_value, goal_value, delta_value, proximity_set), value);
 }
 
 void MotionMetrics::CalcMetrics(double time, OptionalVector position_value,

@@ -27,7 +27,8 @@ namespace oca::systems {
 
 /// Measures a run: how near it came, how hard it was pushed, how smoothly it moved and whether it
 /// arrived. Samples are taken every `period`, which should be that of control, at the state before
-/// the updates of the instant.
+/// the updates of the instant. Distances are looked at `looks` times a period: samples in what
+/// follows, where distances are meant, are all of these.
 ///
 /// - min_distance: the least distance of all samples, with its pair and its time
 /// - certified_min_distance: a proved lower bound of the distance at every time, also between the
@@ -65,7 +66,7 @@ namespace oca::systems {
 /// in    proximities  ProximitySet              optional
 /// out   metrics      MotionMetrics
 /// state x            MotionTally
-/// throws ConfigError if period is not positive or there is no such model
+/// throws ConfigError if period is not positive, looks is less than 1 or there is no such model
 /// source models/robot/travel_bound.h
 class MotionMetrics final : public System {
  public:
@@ -74,6 +75,7 @@ class MotionMetrics final : public System {
   struct Params {
     Period period{};
     std::string model{};
+    int looks{1};
     static void Describe(Fields<Params>& fields);
   };
   static Params Example() { return {.period = Period(1, 100), .model = {}}; }
@@ -83,7 +85,8 @@ class MotionMetrics final : public System {
 
  private:
   using OptionalVector = std::optional<VectorView>;
-  const double period_;                                   // s
+  const int looks_;
+  const Period between_;                                  // looks
   const std::shared_ptr<const robot::RobotModel> model_;  ///< null: positions mean nothing
   const std::optional<robot::TravelBound> travel_;
   const PortSpec spec_;
@@ -92,6 +95,7 @@ class MotionMetrics final : public System {
   robot::MotionSample Sample(double time, OptionalVector position_value,
                              OptionalVector request_value, OptionalVector goal_value,
                              OptionalVector delta_value, const ProximitySet* proximity_set) const;
+  void Add(const robot::MotionSample& sample, robot::MotionTally& tally) const;
   void Update(double time, OptionalVector position_value, OptionalVector request_value,
               OptionalVector goal_value, OptionalVector delta_value,
               const ProximitySet* proximity_set, robot::MotionTally& next) const;

@@ -65,9 +65,10 @@ struct Scripts {
 /// Metrics at 10 Hz over scripted signals.
 class Bench {
  public:
-  explicit Bench(const Scripts& scripts) {
+  explicit Bench(const Scripts& scripts, int looks = 1) {
     DiagramBuilder builder;
-    metrics_ = &builder.Add<MotionMetrics>("metrics", MotionMetrics::Params{Period(1, 10)});
+    metrics_ = &builder.Add<MotionMetrics>(
+        "metrics", MotionMetrics::Params{.period = Period(1, 10), .looks = looks});
     const auto connect = [&](const char* name, const VectorScript& script,
                              const OptionalInput<Vector>& input) {
       if (script) builder.Connect(builder.Add<Script>(name, script).value, input);
@@ -169,6 +170,28 @@ TEST(MotionMetricsTest, LooksAtTicksOnly) {
   Bench bench({.distance = [](double t) { return t > 0.41 && t < 0.49 ? 0.0 : 1.0; }});
   EXPECT_EQ(bench.At(0.45).min_distance, 1.0);
   EXPECT_EQ(bench.At(1.0).min_distance, 1.0);
+}
+
+TEST(MotionMetricsTest, LooksAtDistancesBetweenTicksIfAskedTo) {
+  const Scripts scripts{.position = [](double t) -> Vector2d {
+                          return {t * t, 0.0};
+                        },
+                        .delta = [](double t) -> Vector2d {
+                          return {std::sin(20.0 * t), 0.0};
+                        },
+                        .distance = [](double t) { return t > 0.41 && t < 0.49 ? 0.0 : 1.0; }};
+  Bench ticks(scripts);
+  Bench looks(scripts, 4);
+  EXPECT_EQ(looks.At(0.43).min_distance, 0.0);
+  EXPECT_EQ(looks.At(1.0).min_distance_time, 0.425);
+  EXPECT_NEAR(*looks.At(1.0).contact_time, 0.075, 1e-12);
+  EXPECT_EQ(ticks.At(1.0).contact_time, 0.0);
+  // All else is of the ticks.
+  EXPECT_EQ(looks.At(1.0).path_length, ticks.At(1.0).path_length);
+  EXPECT_EQ(looks.At(1.0).max_joint_acceleration, ticks.At(1.0).max_joint_acceleration);
+  EXPECT_EQ(looks.At(1.0).delta_sign_changes_per_second,
+            ticks.At(1.0).delta_sign_changes_per_second);
+  EXPECT_EQ(looks.At(1.0).max_abs_delta, ticks.At(1.0).max_abs_delta);
 }
 
 // Joint 1: up, up, down, up in turn gives two reversals a cycle of 4 ticks; joint 2 rests.
