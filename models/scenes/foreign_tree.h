@@ -25,7 +25,7 @@ struct ForeignValue {
   enum class Kind { kNull, kScalar, kList, kMap };
   Kind kind{Kind::kNull};
   bool quoted{false};
-  int line{0};
+  int line{1};
   std::string text{};                 ///< of a scalar
   std::vector<std::string> keys{};    ///< of a map, one an item
   std::vector<ForeignValue> items{};  ///< of a list or map
