@@ -95,10 +95,11 @@ inline constexpr int kFewestBandSteps = 5;  ///< on a start; less is no trial
 /// where the last one cannot be made clear otherwise.
 ///
 /// Of bands that are clear one that ends where it is to end is better than one that does not (where
-/// something moves, after one that is wide), then one of a wider degree (kClearLevels), then one of a shorter way. Where nothing moves the last
-/// band as it is counts as well. What stands and own links are proved to keep hard_distance between
-/// the points of the grid too (BandCertificate), else a band is not clear. With BandTask::paths a
-/// PathSearch goes on in every plan that is not clear, or of which a wider degree may be found.
+/// something moves, after one that is wide), then one of a wider degree (kClearLevels), then one of
+/// a shorter way. Where nothing moves the last band as it is counts as well. What stands and own
+/// links are proved to keep hard_distance between the points of the grid too (BandCertificate),
+/// else a band is not clear. With BandTask::paths a PathSearch goes on in every plan that is not
+/// clear, or of which a wider degree may be found.
 ///
 /// The work is bounded and the answer a function of the arguments. Allocates.
 class BandPlanner {
