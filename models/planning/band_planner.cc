@@ -306,6 +306,7 @@ BandPlan BandPlanner::Bend(const BandTask& task, const BandCheck& trouble, const
       Explore(task, trouble, zero_, best);
     }
   }
+  if (!best.check.clear() && end_fixed_ && !moving_) Wait(task, best);
   if (task.paths != nullptr) GoOnSearching(task, best);
   return best;
 }

@@ -15,6 +15,8 @@ using Eigen::VectorXd;
 
 constexpr std::uint64_t kRrtTurn = 3;  // one of so many bounded searches tries paths
 
+constexpr double kStopWithin = 0.15;  // s; how long an arm that stops goes on as fast, about
+
 /// 1 between first and last, falling to 0 within `ramp` on either side.
 double Window(double time, double first, double last, double ramp) {
   return SmoothStep((time - first + ramp) / ramp) * SmoothStep((last + ramp - time) / ramp);
@@ -49,6 +51,26 @@ void BandPlanner::Explore(const BandTask& task, const BandCheck& trouble, const 
   }
   const bool turn = settings_.most_evaluations == 0 || task.search % kRrtTurn == kRrtTurn - 1;
   if (!best.check.clear() && turn && task.paths == nullptr) TryPaths(task, best);
+}
+
+void BandPlanner::Wait(const BandTask& task, BandPlan& best) {
+  end_fixed_ = false;
+  band_.FixEnd(false);
+  VectorXd stop(zero_.size()), v(zero_.size()), request(zero_.size());
+  task.request(task.start, 0, stop);
+  task.request(task.start, 1, v);
+  stop += task.deviation[0] + kStopWithin * (v + task.deviation[1]);
+  BandCurve here = Shaped(task, [&](double time) -> VectorXd {
+    task.request(time, 0, request);
+    return stop - request;
+  });
+  BandPlan stay{.curve = here, .start = BandStart::kPause};
+  stay.cost = band_.Cost(here);
+  Judge(stay);
+  Keep(task, std::move(stay), best);
+  Keep(task, Finish(BandStart::kPause, std::move(here), settings_.iterations), best);
+  end_fixed_ = true;
+  band_.FixEnd(true);
 }
 
 void BandPlanner::AddPauses(const BandTask& task, const BandCheck& trouble,
