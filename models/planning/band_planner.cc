@@ -274,8 +274,9 @@ BandPlan BandPlanner::PlanAnew(const BandTask& task, const BandCurve* last) {
 }
 
 BandPlan BandPlanner::Bend(const BandTask& task, const BandCheck& trouble, const BandCurve* last) {
-  // Where something moves, who is back early has evaded it once more for nothing.
-  if (!Moves(task.bodies)) band_.ReturnBetween(trouble.near, kEvadeAhead);
+  // Where something moves, who is back early has evaded it once more for nothing: unless the way
+  // straight back, and the request as far as is foreseen, keep the margin.
+  if (!moving_ || trouble.near.empty()) band_.ReturnBetween(trouble.near, kEvadeAhead);
   BandCurve warm = zero_;
   if (last != nullptr && !last->empty()) {
     VectorXd x(zero_.size());
