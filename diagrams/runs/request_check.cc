@@ -10,6 +10,7 @@
 
 #include "oca/diagrams/foresight/foresight.h"
 #include "oca/diagrams/foresight/motion_ahead.h"
+#include "oca/diagrams/runs/way_check.h"
 #include "oca/framework/dataflow/dynamic_port.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/error.h"
@@ -151,6 +152,8 @@ class RequestJudge {
     TellContact(*scene, clearance, *at_start_, start_, 0.0, "the arm starts");
     TellContact(*scene, clearance, *ahead_->source, ahead_->motion->Evaluate(end, 0), end,
                 "the request ends");
+    if (start_.size() != model_.num_positions()) return;
+    if (const auto text = NoWayText(*scene)) Add(*ahead_->source, *text);
   }
 
   void TellContact(const foresight::Foresight& scene, robot::Clearance& clearance,

@@ -14,6 +14,7 @@ namespace oca::runs {
 /// - a start or a request beyond the limits of a position
 /// - a request faster than a limit of a speed, or that needs more than one of an acceleration
 /// - contact at the start, and at the end of the request with what is there then
+/// - a request to whose end a bounded search found no way past what stands (NoWayText)
 ///
 /// Of what depends on the run, as what a sensor sees, nothing is said.
 std::vector<std::string> RequestWarnings(const loading::LoadedDiagram& loaded);

@@ -42,6 +42,19 @@ ordered_json TreeOf(const std::vector<ExpectationResult>& expectations) {
   return list;
 }
 
+ordered_json TreeOf(const std::vector<Blocked>& blocked) {
+  ordered_json list = ordered_json::array();
+  for (const auto& [system, by] : blocked) {
+    list.push_back({{"system", system},
+                    {"kind", by.kind},
+                    {"pair", {by.one.text(), by.other.text()}},
+                    {"amount", by.amount},
+                    {"unit", by.unit},
+                    {"text", by.text}});
+  }
+  return list;
+}
+
 /// What the seed drew of a family of scenarios.
 ordered_json TreeOf(const sampling::Scenario& scenario) {
   ordered_json parameters = ordered_json::object();
@@ -104,6 +117,7 @@ std::string ResultJson(const loading::LoadedDiagram& loaded, const RunResult& re
                     {"realtime_factor", result.duration / result.wall_seconds},
                     {"metrics", MetricsTree(result.metrics)},
                     {"not_seen", BlindSpots(loaded)},
+                    {"blocked", TreeOf(result.blocked)},
                     {"expectations", TreeOf(result.expectations)},
                     {"integrator", TreeOf(result.statistics.integrator)},
                     {"interrupted", result.interrupted}};

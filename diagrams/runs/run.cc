@@ -12,6 +12,7 @@
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/port_access.h"
 #include "oca/framework/dataflow/schedule.h"
+#include "oca/systems/signals/roles.h"
 
 namespace oca::runs {
 namespace {
@@ -52,6 +53,14 @@ void CheckOutputList(const std::vector<RunOutput*>& outputs) {
   }
 }
 
+std::vector<Blocked> WhatBlocks(const LoadedDiagram& loaded, const Context& context) {
+  std::vector<Blocked> blocked;
+  for (const auto& knows : loaded.diagram->FindRoles<systems::KnowsWhatBlocks>()) {
+    if (auto by = knows.role->what(context)) blocked.push_back({knows.path, *std::move(by)});
+  }
+  return blocked;
+}
+
 class Runner final : public RunControl {
  public:
   Runner(const LoadedDiagram& loaded, const RunOptions& options)
@@ -81,6 +90,7 @@ class Runner final : public RunControl {
     result_.profile = simulator_->profile();
     result_.judgements = JudgementsOf(*loaded_, simulator_->context());
     result_.metrics = WorstOf(result_.judgements);
+    if (!result_.failure) result_.blocked = WhatBlocks(*loaded_, simulator_->context());
     if (check_) {
       result_.expectations = check_->Finish(*loaded_, result_.metrics, result_.duration);
     }

@@ -8,6 +8,7 @@
 #include "oca/framework/dataflow/profile.h"
 #include "oca/framework/simulation/simulator.h"
 #include "oca/systems/signals/motion_metrics_value.h"
+#include "oca/systems/signals/roles.h"
 
 namespace oca::runs {
 
@@ -34,6 +35,12 @@ struct Judgement {
   systems::MotionMetricsValue metrics;
 };
 
+/// What keeps a robot from its goal, as one system says.
+struct Blocked {
+  std::string system;  ///< its path
+  systems::Obstruction by;
+};
+
 /// What came of a run.
 struct RunResult {
   double duration{0.0};  ///< s, that was simulated
@@ -42,6 +49,7 @@ struct RunResult {
   /// All judges as one (systems::WorstOf); none: nobody judges, or what failed the run fails here.
   std::optional<systems::MotionMetricsValue> metrics{};
   std::vector<Judgement> judgements{};  ///< one a judge, as far as they can be computed
+  std::vector<Blocked> blocked{};       ///< at the end; by systems that know
   std::vector<ExpectationResult> expectations{};
   bool paced{false};                  ///< by the wall clock
   std::vector<SystemTime> profile{};  ///< if it was asked for

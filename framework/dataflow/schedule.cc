@@ -8,9 +8,11 @@
 #include <cstring>
 #include <memory>
 #include <new>
+#include <utility>
 
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/explain.h"
+#include "oca/framework/dataflow/log.h"
 
 namespace oca {
 
@@ -250,6 +252,8 @@ void Schedule::SetTimeAndState(Context& context, double time, const double* stat
 }
 
 void Schedule::TakeCapacity(Context& context) const {
+  // A trial: what it would tell the first tick tells.
+  Log* const log = std::exchange(context.header().log, &SilentLog());
   for (const Event& event : events) {
     if (event.stage != System::Stage::kUpdate && event.stage != System::Stage::kReset) continue;
     const bool writes_objects = std::any_of(event.writes.begin(), event.writes.end(),
@@ -264,6 +268,7 @@ void Schedule::TakeCapacity(Context& context) const {
       if (states[index].type != &kVectorType) GrowLikeNext(context, states[index]);
     }
   }
+  context.header().log = log;
 }
 
 void Schedule::GrowLikeNext(Context& context, const StateEntry& state) const {

@@ -58,7 +58,7 @@ struct BandMemory {
   double moved{0.0};          ///< s; when it last fell, or a plan led there
   double off_since{0.0};      ///< s; since when the arm is not on its band
   Eigen::VectorXd planned{};  ///< where it should be at the last plan
-  int failures{0};            ///< plans in a row that were not clear
+  int failures{0};            ///< plans in a row that were not clear, or do not reach the goal
 
   std::uint64_t plans{0};  ///< that were made so far
   BandStart start{BandStart::kRequest};
@@ -68,6 +68,9 @@ struct BandMemory {
   double kept{0.0};       ///< m; least distance of what stands where less than is wanted is kept
   double goal_room{0.0};  ///< m; that the goal leaves, at most clear_distance
   BandLack lack{BandLack::kNone};  ///< what leaves less than the margin where it is nearest
+  /// That clear plans came nearer than hard_distance, where start or goal leave no more; false again
+  /// once one keeps twice as much.
+  bool tight{false};
   bool stuck{false};     ///< no progress to the goal for stuck_time; link and obstacle say why
   double nearest{0.0};   ///< m; the least distance foreseen, as it counts, or the margin
   double distance{0.0};  ///< m; the same as it is

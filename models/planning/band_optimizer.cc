@@ -134,7 +134,7 @@ void BandOptimizer::AddClearance(bool rows) {
   clearance_.Collect(settings_.margin, pairs_);
   for (const robot::NearPair& pair : pairs_) {
     const double wanted =
-        Flies(pair) ? settings_.margin : std::min(settings_.margin, Yielding(pair, true));
+        Flies(pair) ? settings_.margin : std::min(settings_.margin, LeftByGoal(pair));
     const double lacking = wanted - pair.distance;
     if (!(lacking > 0.0)) continue;
     cost_ += settings_.clearance * lacking * lacking;

@@ -58,7 +58,7 @@ struct BandSettings {
 ///
 /// Of what stands, and of own links, no more is asked than the goal and the start leave there: near
 /// either, a pair's own distance at it, and kYieldSlope more for every rad or m that the joints are
-/// away from it.
+/// away from it. What the start lacks of hard_distance is asked for all the same within a second.
 struct BandCheck {
   static constexpr double kNever = std::numeric_limits<double>::infinity();
   double min_distance;    ///< m, as it counts; or the margin, if all is farther
@@ -203,8 +203,11 @@ class BandOptimizer {
     return pair.body >= 0 && !bodies_[static_cast<std::size_t>(pair.body)].stands;
   }
   void AddLeft(const Eigen::VectorXd& q, double time, bool at_goal);
-  /// The most that may be asked of a pair at q_, as it counts.
-  double Yielding(const robot::NearPair& pair, bool at_goal_alone) const;
+  static bool IsOf(const Left& left, const robot::NearPair& pair);
+  /// The most that may be asked of a pair at q_, as it counts: of what the goal leaves, and of what
+  /// the start does too.
+  double LeftByGoal(const robot::NearPair& pair) const;
+  double LeftByEnds(const robot::NearPair& pair, double time) const;
   /// What lacks of a sample, placed, whose nearest distance is known; into the check.
   struct Lack {
     double wide{0.0}, hard{0.0};

@@ -12,6 +12,7 @@ constexpr double kExcessTolerance = 1e-3;  // that still counts as within the li
 constexpr double kExcessPrice = 0.05;      // m; an excess of 1 counts as so much missing distance
 constexpr double kNearPause = 1.0;         // s
 constexpr double kYieldRounding = 1e-6;    // m
+constexpr double kOutWithin = 1.0;         // s; a start nearer than hard_distance must be left
 
 }  // namespace
 
@@ -35,15 +36,27 @@ void BandOptimizer::AddLeft(const Eigen::VectorXd& q, double time, bool at_goal)
   }
 }
 
-double BandOptimizer::Yielding(const robot::NearPair& pair, bool at_goal_alone) const {
+bool BandOptimizer::IsOf(const Left& left, const robot::NearPair& pair) {
+  return left.link == pair.link && left.body == pair.body && left.other_link == pair.other_link;
+}
+
+double BandOptimizer::LeftByGoal(const robot::NearPair& pair) const {
   double most = robot::kUnlimited;
   for (const Left& left : left_) {
-    if (at_goal_alone && !left.at_goal) continue;
-    if (left.link != pair.link || left.body != pair.body || left.other_link != pair.other_link) {
-      continue;
-    }
-    const double away = (q_ - (left.at_goal ? yield_goal_ : yield_start_)).norm();
-    most = std::min(most, left.distance + kYieldSlope * away);
+    if (!left.at_goal || !IsOf(left, pair)) continue;
+    most = std::min(most, left.distance + kYieldSlope * (q_ - yield_goal_).norm());
+  }
+  return most;
+}
+
+double BandOptimizer::LeftByEnds(const robot::NearPair& pair, double time) const {
+  double most = LeftByGoal(pair);
+  for (const Left& left : left_) {
+    if (left.at_goal || !IsOf(left, pair)) continue;
+    const double lacking = std::max(settings_.hard_distance * pair.scale - left.distance, 0.0);
+    const double share = std::min((time - checks_.front().time) / kOutWithin, 1.0);
+    most =
+        std::min(most, left.distance + share * lacking + kYieldSlope * (q_ - yield_start_).norm());
   }
   return most;
 }
@@ -65,7 +78,7 @@ BandOptimizer::Lack BandOptimizer::LackAt(double nearest, double time, BandCheck
       }
       continue;
     }
-    const double most = Yielding(pair, false);
+    const double most = LeftByEnds(pair, time);
     const double wide = std::min(clear, most);
     const double hard = std::min({settings_.hard_distance * pair.scale, clear, most});
     if (pair.distance < wide) check.kept = std::min(check.kept, pair.distance / pair.scale);
@@ -97,7 +110,7 @@ BandCheck BandOptimizer::Check(const BandCurve& curve) {
       check.link = model_->links()[pair.link].name;
       check.body = pair.body >= 0 ? bodies_[pair.body].name : model_->links()[pair.other_link].name;
     }
-    const double wanted = pair.link < 0 || Flies(pair) ? settings_.margin : Yielding(pair, true);
+    const double wanted = pair.link < 0 || Flies(pair) ? settings_.margin : LeftByGoal(pair);
     if (pair.distance < std::min(settings_.margin, wanted)) {
       if (check.near.empty() || sample.time - check.near.back().second > kNearPause) {
         check.near.emplace_back(sample.time, sample.time);

@@ -7,8 +7,6 @@
 #include <utility>
 
 #include "oca/models/planning/band_certificate.h"
-#include "oca/models/planning/smooth_step.h"
-#include "oca/models/random.h"
 
 namespace oca::planning {
 namespace {
@@ -22,20 +20,12 @@ constexpr double kCoarse = 0.4;
 constexpr int kFewest = 8;
 constexpr std::size_t kMostGrowing = 10;  // intervals from kFine to kCoarse, and a few
 
-constexpr std::uint64_t kRrtTurn = 3;  // one of so many bounded searches tries paths
-
 constexpr double kMuchCheaper = 0.7;
 constexpr double kSameRoom = 1e-4;      // m; of the goal and of a band that comes no nearer
 constexpr double kSameState = 1e-9;     // of a last band and a task's start
 constexpr double kNotCertified = 1e-6;  // m s; what a band lacks that is not proved
 constexpr double kEvadeAhead = 1.5;     // s; before what stands a band begins to bend
 constexpr double kAtRest = 1e-9;
-
-/// 0 before 0, 1 after 1, with two derivatives that vanish at both.
-/// 1 between first and last, falling to 0 within `ramp` on either side.
-double Window(double time, double first, double last, double ramp) {
-  return SmoothStep((time - first + ramp) / ramp) * SmoothStep((last + ramp - time) / ramp);
-}
 
 }  // namespace
 
@@ -284,8 +274,9 @@ BandPlan BandPlanner::PlanAnew(const BandTask& task, const BandCurve* last) {
 }
 
 BandPlan BandPlanner::Bend(const BandTask& task, const BandCheck& trouble, const BandCurve* last) {
-  // Where something moves, who is back early has evaded it once more for nothing.
-  if (!Moves(task.bodies)) band_.ReturnBetween(trouble.near, kEvadeAhead);
+  // Where something moves, who is back early has evaded it once more for nothing: unless the way
+  // straight back, and the request as far as is foreseen, keep the margin.
+  if (!moving_ || trouble.near.empty()) band_.ReturnBetween(trouble.near, kEvadeAhead);
   BandCurve warm = zero_;
   if (last != nullptr && !last->empty()) {
     VectorXd x(zero_.size());
@@ -316,99 +307,9 @@ BandPlan BandPlanner::Bend(const BandTask& task, const BandCheck& trouble, const
       Explore(task, trouble, zero_, best);
     }
   }
+  if (!best.check.clear() && end_fixed_ && !moving_) Wait(task, best);
   if (task.paths != nullptr) GoOnSearching(task, best);
   return best;
-}
-
-void BandPlanner::Explore(const BandTask& task, const BandCheck& trouble, const BandCurve& troubled,
-                          BandPlan& best) {
-  std::vector<Start> starts;
-  AddPauses(task, trouble, starts);
-  AddDetours(task, trouble, starts);
-  // Within a bounded search half the work goes into finding what is worth to be relaxed.
-  const auto all = static_cast<std::ptrdiff_t>(starts.size());
-  const std::ptrdiff_t looks = settings_.most_evaluations == 0
-                                   ? all
-                                   : std::clamp<std::ptrdiff_t>(StepsLeft(1000) / 2, 4, all);
-  const auto first = static_cast<std::ptrdiff_t>(task.search * looks % all);
-  std::rotate(starts.begin(), starts.begin() + first, starts.end());
-  starts.resize(looks);
-  AddRetreats(task, trouble, troubled, starts);
-  for (Start& start : starts) start.cost = band_.Cost(start.curve);
-  std::stable_sort(starts.begin(), starts.end(),
-                   [](const Start& a, const Start& b) { return a.cost < b.cost; });
-  const auto count = std::min(starts.size(), static_cast<std::size_t>(settings_.relaxed_starts));
-  for (std::size_t i = 0; i < count; ++i) {
-    const int steps = StepsLeft(settings_.start_iterations);
-    if (i > 0 && steps < kFewestBandSteps) break;
-    Keep(task,
-         Finish(starts[i].kind, std::move(starts[i].curve), std::max(steps, kFewestBandSteps)),
-         best);
-  }
-  const bool turn = settings_.most_evaluations == 0 || task.search % kRrtTurn == kRrtTurn - 1;
-  if (!best.check.clear() && turn && task.paths == nullptr) TryPaths(task, best);
-}
-
-void BandPlanner::AddPauses(const BandTask& task, const BandCheck& trouble,
-                            std::vector<Start>& starts) const {
-  VectorXd here(zero_.size());
-  task.request(task.start, 0, here);
-  here += task.deviation[0];
-  VectorXd request(zero_.size());
-  for (const double more : {0.3, 1.0, 2.0}) {
-    const double until = trouble.last + more;
-    if (until > zero_.end() - 0.5) break;
-    const auto shape = [&](double time) -> VectorXd {
-      task.request(time, 0, request);
-      return (here - request) * SmoothStep((zero_.end() - time) / (zero_.end() - until));
-    };
-    starts.push_back({BandStart::kPause, Shaped(task, shape), 0.0});
-  }
-}
-
-void BandPlanner::AddRetreats(const BandTask& task, const BandCheck& trouble, const BandCurve& from,
-                              std::vector<Start>& starts) {
-  if (trouble.min_distance >= settings_.band.margin) return;
-  VectorXd q(zero_.size()), x(zero_.size()), out(zero_.size());
-  task.request(trouble.time, 0, q);
-  from.Evaluate(trouble.time, 0, x);
-  if (!band_.DistanceGradient(q + x, trouble.time, out)) return;
-  const double largest = out.cwiseAbs().maxCoeff();
-  if (!(largest > 0.0)) return;
-  const double room = std::max(0.3, 0.5 * (zero_.end() - trouble.last));
-  for (const double size : {0.4, 1.0, -0.7}) {
-    const auto shape = [&](double time) -> VectorXd {
-      return (size / largest) * out *
-             Window(time, trouble.first, trouble.last, std::min(1.5, room));
-    };
-    starts.push_back({BandStart::kDetour, Shaped(task, shape), 0.0});
-  }
-}
-
-void BandPlanner::AddDetours(const BandTask& task, const BandCheck& trouble,
-                             std::vector<Start>& starts) const {
-  const Eigen::Index n = zero_.size();
-  const double room = std::max(0.3, 0.5 * (zero_.end() - trouble.last));
-  const auto add = [&](BandStart kind, const VectorXd& out, double ramp) {
-    const auto shape = [&](double time) -> VectorXd {
-      return out * Window(time, trouble.first, trouble.last, std::min(ramp, room));
-    };
-    starts.push_back({kind, Shaped(task, shape), 0.0});
-  };
-  VectorXd out = VectorXd::Zero(n);
-  for (Eigen::Index j = 0; j < n; ++j) {
-    for (const double size : {0.5, -0.5, 1.2, -1.2}) {
-      out.setZero();
-      out[j] = size;
-      add(BandStart::kDetour, out, 1.5);
-    }
-  }
-  models::Random random(models::Random::Seed(task.seed, "band"));
-  for (int i = 0; i < settings_.random_starts; ++i) {
-    for (Eigen::Index j = 0; j < n; ++j) out[j] = random.Uniform(-1.0, 1.0);
-    out *= random.Uniform(0.3, 1.8) / out.cwiseAbs().maxCoeff();
-    add(BandStart::kRandom, out, random.Uniform(0.5, 3.0));
-  }
 }
 
 }  // namespace oca::planning

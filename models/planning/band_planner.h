@@ -91,14 +91,15 @@ inline constexpr int kFewestBandSteps = 5;  ///< on a start; less is no trial
 ///
 /// A plan looks at about most_evaluations configurations, if that is above 0: a search then tries
 /// some of the starts, the next one (BandTask::search) goes on with others, every third tries one
-/// short path. Clear means within the limits too. While something moves, the end of a band is free
-/// where the last one cannot be made clear otherwise.
+/// short path. Clear means within the limits too. The end of a band is free where none that ends
+/// where it is to end is clear: while something moves, where the last one cannot be made clear.
 ///
 /// Of bands that are clear one that ends where it is to end is better than one that does not (where
-/// something moves, after one that is wide), then one of a wider degree (kClearLevels), then one of a shorter way. Where nothing moves the last
-/// band as it is counts as well. What stands and own links are proved to keep hard_distance between
-/// the points of the grid too (BandCertificate), else a band is not clear. With BandTask::paths a
-/// PathSearch goes on in every plan that is not clear, or of which a wider degree may be found.
+/// something moves, after one that is wide), then one of a wider degree (kClearLevels), then one of
+/// a shorter way. Where nothing moves the last band as it is counts as well. What stands and own
+/// links are proved to keep hard_distance between the points of the grid too (BandCertificate),
+/// else a band is not clear. With BandTask::paths a PathSearch goes on in every plan that is not
+/// clear, or of which a wider degree may be found.
 ///
 /// The work is bounded and the answer a function of the arguments. Allocates.
 class BandPlanner {
@@ -148,7 +149,11 @@ class BandPlanner {
                    std::vector<Start>& starts);
   void AddPauses(const BandTask& task, const BandCheck& trouble, std::vector<Start>& starts) const;
   void AddDetours(const BandTask& task, const BandCheck& trouble, std::vector<Start>& starts) const;
+  /// Where nothing moves: a band that goes on as near to the request as is clear, and ends there.
+  void Wait(const BandTask& task, BandPlan& best);
   void TryPaths(const BandTask& task, BandPlan& best);
+  /// Whether a search for paths may find a better one.
+  bool MayFindMore(const BandTask& task, const BandPlan& best) const;
   void GoOnSearching(const BandTask& task, BandPlan& best);
   SearchLevels LevelsFor(const Eigen::VectorXd& here, const Eigen::VectorXd& goal);
   models::Name StandingName(const BandTask& task, const robot::NearPair& pair) const;

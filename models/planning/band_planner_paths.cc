@@ -20,6 +20,7 @@ constexpr int kBoundedShortcuts = 50;
 constexpr int kShortcuts = 150;         // of what a PathSearch found
 constexpr std::uint64_t kPathTurn = 3;  // one of so many plans looks for paths, if anything moves
 constexpr double kPathRoom = 1.3;       // times what a band keeps, so that it may bend
+constexpr double kEndShare = 0.9;       // of what the ends of a path leave, that it keeps
 constexpr double kPathSpeed = 0.9;      // rad/s, in the 2-norm
 
 }  // namespace
@@ -72,9 +73,11 @@ SearchLevels BandPlanner::LevelsFor(const VectorXd& here, const VectorXd& goal) 
     standing_->MoveTo(q);
     return standing_->Nearest(2.0 * settings_.band.clear_distance).distance;
   };
-  // So that the first step from either end need not be tiny.
   const double goal_room = room(goal);
-  const double most = 0.5 * std::min(room(here), goal_room > 0.0 ? goal_room : robot::kUnlimited);
+  const double left = std::min(room(here), goal_room > 0.0 ? goal_room : robot::kUnlimited);
+  // So that the first step from either end need not be tiny, but not less than must be kept.
+  const double most =
+      std::max(0.5 * left, std::min(settings_.band.hard_distance, kEndShare * left));
   SearchLevels levels;
   const auto add = [&](double margin) {
     margin = std::min(margin, most);
@@ -86,26 +89,31 @@ SearchLevels BandPlanner::LevelsFor(const VectorXd& here, const VectorXd& goal) 
   return levels;
 }
 
+bool BandPlanner::MayFindMore(const BandTask& task, const BandPlan& best) const {
+  if (!moving_) return !best.check.clear() || !best.reaches || best.level > 0;
+  if (task.search % kPathTurn != kPathTurn - 1) return false;
+  const bool goal_taken = !best.reaches && best.goal_room <= 0.0;
+  return best.check.clear() ? goal_taken : best.check.touch_hard < BandCheck::kNever;
+}
+
 void BandPlanner::GoOnSearching(const BandTask& task, BandPlan& best) {
   PathSearch& search = *task.paths;
-  if (!anything_stands_) return;
-  if (moving_ && task.search % kPathTurn != kPathTurn - 1) return;
-  const bool in_the_way = best.check.touch_hard < BandCheck::kNever || !moving_;
-  const bool goal_taken = !best.reaches && best.goal_room <= 0.0;
-  if (best.check.clear() ? !goal_taken && (best.level == 0 || moving_) : !in_the_way) {
-    return;
-  }
+  if (!anything_stands_ || !MayFindMore(task, best)) return;
   VectorXd here(zero_.size());
   task.request(task.start, 0, here);
   here += task.deviation[0];
   const VectorXd goal = GoalAt(task, std::max(zero_.end(), task.request_end));
   standing_->MoveTo(here);
   const double room = standing_->Nearest(settings_.band.clear_distance).distance;
-  if (!(room > 0.0)) return;  // first out of contact
-  if (!search.IsFor(goal) || room < search.margin()) {
+  // First out of contact, and to where paths keep what they must, if that is where the band goes.
+  if (!(room > (best.check.clear() ? settings_.band.hard_distance : 0.0))) return;
+  SearchLevels levels = LevelsFor(here, goal);
+  // What a start that was left made it keep less than must be kept is no way to go.
+  const double must = std::min(settings_.band.hard_distance, levels.margins.back());
+  if (!search.IsFor(goal) || room < search.margin() || search.margin() < kEndShare * must) {
     standing_->MoveTo(goal);
     const bool goal_clear = standing_->Nearest(0.0).distance > 0.0;
-    search.Begin(here, goal, goal_clear, LevelsFor(here, goal), task.seed);
+    search.Begin(here, goal, goal_clear, std::move(levels), task.seed);
   }
   if (best.check.clear() && best.reaches && search.margin() <= best.check.kept) {
     search.Reset();

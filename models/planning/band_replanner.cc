@@ -191,6 +191,8 @@ void BandReplanner::Forget(const BandSituation& now, BandMemory& memory) const {
   memory.search.Reset();
   memory.rest.resize(0);
   memory.block = BandBlock::kNone;
+  memory.block_link = memory.block_body = {};
+  memory.block_amount = 0.0;
 }
 
 VectorXd BandReplanner::EndFor(const BandSituation& now, const BandMemory& memory) const {
@@ -309,12 +311,18 @@ void BandReplanner::Plan(const BandSituation& now, double start,
   memory.kept = std::min(found.check.kept, found.goal_room);
   memory.goal_room = found.goal_room;
   memory.lack = found.lack;
-  memory.failures = memory.clear ? 0 : memory.failures + 1;
+  memory.failures = memory.clear && memory.reaches ? 0 : memory.failures + 1;
   memory.nearest = found.check.min_distance;
   memory.distance = found.check.distance;
   memory.link = found.check.link;
   memory.obstacle = found.check.body;
   memory.time = found.check.time;
+  const double hard = settings_.planner.band.hard_distance;
+  if (memory.clear && memory.lack != BandLack::kNone && memory.distance < hard) {
+    memory.tight = true;
+  } else if (memory.distance >= 2.0 * hard) {
+    memory.tight = false;
+  }
   memory.cost = found.cost;
   memory.evaluations = static_cast<std::uint64_t>(found.evaluations);
   GiveWay(now, found, memory);

@@ -23,6 +23,9 @@ constexpr double kInTheWay = 0.1;
 // What rounding may take a joint beyond its limits: rad or m, and shares of the others.
 constexpr double kTallyRounding = 1e-6;
 
+// Stands for what blocks a joint whose goal is beyond its limit.
+const models::Name kLimitName("limit");
+
 double MaxNorm(const Eigen::Ref<const Eigen::VectorXd>& values) {
   return values.size() == 0 ? 0.0 : values.cwiseAbs().maxCoeff();
 }
@@ -174,7 +177,7 @@ void MotionTally::AddStandstill(const MotionSample& sample) {
   const double stood = sample.time - still_since_;
   if (stood < kPatience * (1.0 - kTallyRounding) || stood <= stuck_time_) return;
   stuck_time_ = stood;
-  NoteWhatIsNearest(sample);
+  NoteWhatBlocks(sample);
 }
 
 /// Once the request is at its goal an arm that goes about and comes no nearer is as stuck as one
@@ -186,11 +189,12 @@ void MotionTally::AddProgress(const MotionSample& sample) {
     nearest_away_ = away;
     gained_at_ = sample.time;
   } else if (sample.time - gained_at_ > std::max(kPatience, stuck_time_)) {
-    NoteWhatIsNearest(sample);
+    NoteWhatBlocks(sample);
   }
 }
 
-void MotionTally::NoteWhatIsNearest(const MotionSample& sample) {
+void MotionTally::NoteWhatBlocks(const MotionSample& sample) {
+  if (NoteLimit(sample)) return;
   // What blocked may be gone by the time that the arm goes on.
   if (sample.proximities == nullptr || sample.proximities->proximities.empty()) return;
   const auto& near = sample.proximities->proximities;
@@ -202,6 +206,29 @@ void MotionTally::NoteWhatIsNearest(const MotionSample& sample) {
       [&](const Proximity& a, const Proximity& b) { return counted(a) < counted(b); });
   stuck_link_ = nearest->link;
   stuck_obstacle_ = nearest->obstacle;
+  stuck_amount_ = nearest->distance;
+}
+
+/// A joint that stands at a limit which its goal is beyond; of several the one that lacks most.
+bool MotionTally::NoteLimit(const MotionSample& sample) {
+  if (sample.model == nullptr) return false;
+  double most = kArrived;
+  Eigen::Index joint = -1;
+  for (Eigen::Index i = 0; i < sample.goal->size(); ++i) {
+    const double lower = sample.model->lower_limits()[i];
+    const double upper = sample.model->upper_limits()[i];
+    const double goal = (*sample.goal)[i];
+    const double limit = goal > upper ? upper : lower;
+    const double beyond = goal > upper ? goal - upper : lower - goal;
+    if (!(beyond > most) || std::fabs((*sample.position)[i] - limit) > kStill) continue;
+    most = beyond;
+    joint = i;
+  }
+  if (joint < 0) return false;
+  stuck_link_ = sample.model->position_names()[static_cast<std::size_t>(joint)];
+  stuck_obstacle_ = kLimitName;
+  stuck_amount_ = most;
+  return true;
 }
 
 MotionMetricsValue MotionTally::At(const MotionSample& now) const {
@@ -217,6 +244,7 @@ MotionMetricsValue MotionTally::At(const MotionSample& now) const {
     }
     value.stuck_link = stuck_link_;
     value.stuck_obstacle = stuck_obstacle_;
+    if (!stuck_link_.empty()) value.stuck_amount = stuck_amount_;
   }
   if (now.position && now.model != nullptr) value.limit_violations = limit_violations_;
   const double duration = now.time - first_time_;
@@ -268,6 +296,7 @@ bool MotionTally::finite() const {
                             max_acceleration_,
                             limit_violations_,
                             stuck_time_,
+                            stuck_amount_,
                             nearest_away_,
                             gained_at_,
                             min_distance_.value_or(0.0),

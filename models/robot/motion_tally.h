@@ -77,7 +77,8 @@ class MotionTally {
   void AddDelta(Positions delta);
   void AddStandstill(const MotionSample& sample);
   void AddProgress(const MotionSample& sample);
-  void NoteWhatIsNearest(const MotionSample& sample);
+  void NoteWhatBlocks(const MotionSample& sample);
+  bool NoteLimit(const MotionSample& sample);
 
   int samples_{0};
   int looks_{0};           // since the last sample
@@ -114,6 +115,7 @@ class MotionTally {
   double stuck_time_{0.0};
   models::Name stuck_link_;
   models::Name stuck_obstacle_;
+  double stuck_amount_{0.0};
   double nearest_away_{0.0};             // least distance from the goal since the request is there
   double gained_at_{0.0};                // s; when it last fell by more than kStill
   std::optional<double> goal_time_;      // when it came to the goal, if it is there

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 
+#include "oca/framework/dataflow/context.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/log.h"
 #include "oca/models/robot/robot_model.h"
 #include "oca/systems/basics/require.h"
 #include "oca/systems/basics/shared_params.h"
 #include "oca/systems/sensing/model_links.h"
-#include "oca/systems/signals/roles.h"
 
 namespace oca::systems {
 namespace {
@@ -181,6 +181,8 @@ ElasticBand::ElasticBand(const Params& params, const ModelSet& models)
                      .member = "nearest",
                      .how = "bent around what is near",
                      .period = params_.plan_period});
+  DeclareRole(
+      KnowsWhatBlocks{[this](const Context& context) { return WhatBlocks(plan.Eval(context)); }});
 }
 
 void ElasticBand::Start(VectorView measured, MutableVectorView position_out) const {
@@ -241,31 +243,43 @@ std::string BlockText(const BandMemory& memory, const char* unit) {
 
 }  // namespace
 
+std::optional<Obstruction> ElasticBand::WhatBlocks(const BandMemory& memory) const {
+  if (memory.block == planning::BandBlock::kNone) return std::nullopt;
+  const char* const unit = UnitOf(memory.block_link);
+  return Obstruction{.kind = planning::kBandBlockNames[static_cast<std::size_t>(memory.block)],
+                     .one = memory.block_link,
+                     .other = memory.block_body,
+                     .amount = memory.block_amount,
+                     .unit = unit,
+                     .text = "the goal cannot be reached: " + BlockText(memory, unit)};
+}
+
 void ElasticBand::Report(double time, const BandMemory& memory, const ReportedBefore& before,
                          Log& log) const {
   const auto warn = [&](const std::string& text) { log.Write(LogLevel::kWarning, time, text); };
-  if (memory.block != before.block && memory.block != planning::BandBlock::kNone) {
-    warn(
-        fmt::format("the goal cannot be reached: {}; the arm is to rest as near to it as was found",
-                    BlockText(memory, UnitOf(memory.block_link))));
+  const std::optional<Obstruction> block = WhatBlocks(memory);
+  if (memory.block != before.block && block) {
+    warn(block->text + "; the arm is to rest as near to it as was found");
   }
   if (memory.stuck && !before.stuck) {
     const std::string pair =
-        memory.block != planning::BandBlock::kNone ? BlockText(memory, UnitOf(memory.block_link))
+        block ? block->text
         : memory.link.empty()
             ? "nothing near"
             : fmt::format("{}, {:.3f} m", PairText(memory.link, memory.obstacle), memory.distance);
     warn(fmt::format("the arm is stuck: no progress to its goal for {} s; what blocks: {}",
                      params_.stuck_time, pair));
   }
-  const bool tight = memory.clear && memory.lack != planning::BandLack::kNone &&
-                     memory.distance < params_.hard_distance;
-  if (tight && !before.tight) {
-    warn(fmt::format(
-        "{} leaves {} {:.3g} m apart, less than hard_distance, {} m: its own distance "
-        "is kept there",
-        memory.lack == planning::BandLack::kGoal ? "the goal" : "where the arm is",
-        PairText(memory.link, memory.obstacle), memory.distance, params_.hard_distance));
+  if (memory.tight && !before.tight) {
+    const std::string pair =
+        memory.distance < 0.0
+            ? fmt::format("{} {:.3g} m deep in {}", memory.link.text(), -memory.distance,
+                          memory.obstacle.text())
+            : fmt::format("{} {:.3g} m apart", PairText(memory.link, memory.obstacle),
+                          memory.distance);
+    warn(fmt::format("{} leaves {}, less than hard_distance, {} m: its own distance is kept there",
+                     memory.lack == planning::BandLack::kGoal ? "the goal" : "where the arm is",
+                     pair, params_.hard_distance));
   }
 }
 
@@ -287,9 +301,7 @@ void ElasticBand::Plan(double time, Log& log, const RequestAhead& request, const
   const planning::BandSituation now{
       time,     request.trajectory, set.obstacles,
       measured, set.estimates,      left_out == nullptr ? nullptr : &left_out->pairs};
-  const ReportedBefore before{memory.block, memory.stuck,
-                              memory.clear && memory.lack != planning::BandLack::kNone &&
-                                  memory.distance < params_.hard_distance};
+  const ReportedBefore before{memory.block, memory.stuck, memory.tight};
   replanner_.Follow(now, memory);
   replanner_.Plan(now, params_.plan_period.TickAfter(time), rate, memory);
   Report(time, memory, before, log);

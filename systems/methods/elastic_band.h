@@ -12,6 +12,7 @@
 #include "oca/systems/signals/ignored_pairs.h"
 #include "oca/systems/signals/model_set.h"
 #include "oca/systems/signals/request_ahead.h"
+#include "oca/systems/signals/roles.h"
 #include "oca/systems/signals/signals.h"
 
 namespace oca::systems {
@@ -126,6 +127,7 @@ class ElasticBand final : public System {
   };
   void Report(double time, const BandMemory& memory, const ReportedBefore& before, Log& log) const;
   const char* UnitOf(models::Name joint) const;
+  std::optional<Obstruction> WhatBlocks(const BandMemory& memory) const;
   void Plan(double time, Log& log, const RequestAhead& request, const ObstacleSet& set,
             VectorView measured, std::optional<VectorView> rate, const IgnoredPairs* left_out,
             BandMemory& memory) const;

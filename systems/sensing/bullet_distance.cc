@@ -104,7 +104,8 @@ BulletDistance::BulletDistance(const Params& params, const ModelSet& models)
       near_(DeclareCached<&BulletDistance::CalcNear>(links, scene_)),
       asked_(DeclareCached<&BulletDistance::CalcAsked>(ahead)),
       proximities(DeclareProximities(link_forces_ ? moving_others_ : 0)),
-      ignored(DeclareOutput<IgnoredPairs, &BulletDistance::CalcIgnored>("ignored", {})) {
+      ignored(DeclareOutput<IgnoredPairs, &BulletDistance::CalcIgnored>("ignored", {})),
+      around(DeclareAround(link_forces_ ? moving_others_ : 0)) {
   DeclareRoles(params, models);
 }
 
@@ -163,6 +164,25 @@ Output<ProximitySet> BulletDistance::DeclareProximities(std::size_t moving) {
         "proximities", {}, links, obstacles, scene_, near_, asked_, links_of_others[I]...);
   }
   (std::make_index_sequence<kMoving>());
+}
+
+template <std::size_t kMoving>
+Output<ObstacleSet> BulletDistance::DeclareAround(std::size_t moving) {
+  if constexpr (kMoving < kMostMoving) {
+    if (moving > kMoving) return DeclareAround<kMoving + 1>(moving);
+  }
+  return [this]<std::size_t... I>(std::index_sequence<I...>) {
+    return DeclareOutput<ObstacleSet, &BulletDistance::CalcAround<PosesOfOne<I>...>>(
+        "around", {}, obstacles, links_of_others[I]...);
+  }
+  (std::make_index_sequence<kMoving>());
+}
+
+template <class... Poses>
+void BulletDistance::CalcAround(const ObstacleSet& set, const Poses&... others,
+                                ObstacleSet& result) const {
+  const std::array<const LinkPoses*, sizeof...(Poses)> poses_of_others{&others...};
+  FindAround(set, poses_of_others, result);
 }
 
 void BulletDistance::CalcAsked(const RequestAhead* request, Asked& result) const {
@@ -307,28 +327,6 @@ bool BulletDistance::Ignored(models::Name link, models::Name obstacle) const {
   return std::any_of(ignored_.begin(), ignored_.end(), [&](const auto& pair) {
     return pair.first == link && pair.second == obstacle;
   });
-}
-
-void BulletDistance::CheckNames(const LinkPoses& poses) const {
-  const auto& own = model_->links();
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    if (i < own.size() && own[i].name == poses.links[i]) continue;
-    const bool known = std::any_of(own.begin(), own.end(), [&](const robot::Link& link) {
-      return link.name == poses.links[i];
-    });
-    if (known) continue;
-    throw ConfigError(fmt::format("links: got '{}'; expected a link of model '{}'",
-                                  poses.links[i].text(), name_));
-  }
-}
-
-// Who takes a moving arm for one at rest learns too late that it comes nearer.
-void BulletDistance::CheckVelocities(const Other& other, const LinkPoses& poses) const {
-  if (poses.velocities.size() == poses.size()) return;
-  throw ConfigError(fmt::format(
-      "{}: got poses without velocities; expected both: connect the input `velocity` of the "
-      "RobotKinematics of '{}'",
-      LinksInput(other.local_name), other.name));
 }
 
 }  // namespace oca::systems

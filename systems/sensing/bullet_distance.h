@@ -60,7 +60,10 @@ namespace oca::systems {
 ///                                  by the name that the file has for it, or else the nearest file
 ///                                  around it
 /// out   proximities   ProximitySet
-///       ignored       IgnoredPairs  the pairs of `ignore`, for who measures on his own
+///       ignored       IgnoredPairs  the pairs that are left out, of `ignore` and the lowest ones,
+///                                   for who measures on his own
+///       around        ObstacleSet   the obstacles, then, with calculate_link_forces, the links of
+///                                   `others`, for the same
 /// state -
 /// throws ConfigError if a model or a link of `ignore` does not exist, no movable link of the model
 ///        has a collision shape, a pair is no pair, max_distance is not positive,
@@ -101,6 +104,7 @@ class BulletDistance final : public System {
     std::string local_name;  ///< what its input is named by
     std::shared_ptr<const robot::RobotModel> model;
     std::vector<Neighbour> links;
+    std::vector<std::shared_ptr<const ObstacleBody>> solids;  ///< of each, in its frame
   };
   /// `others: ["*"]`
   static bool LooksAtAll(const Params& params);
@@ -108,6 +112,8 @@ class BulletDistance final : public System {
   static std::string FullLinkName(const ModelSet& models, const std::string& name);
   static std::vector<Neighbour> MakeNeighbours(const std::string& name,
                                                const robot::RobotModel& model);
+  static std::vector<std::shared_ptr<const ObstacleBody>> MakeSolids(
+      const robot::RobotModel& model, const std::vector<Neighbour>& links);
   static std::vector<Other> MakeOthers(const Params& params, const ModelSet& models);
   /// What there is to be told of robots that `*` leaves out; empty if there are none.
   static std::string OutOfSight(const Params& params, const ModelSet& models);
@@ -117,6 +123,8 @@ class BulletDistance final : public System {
   std::vector<Input<LinkPoses>> DeclareOtherLinks();
   template <std::size_t kMoving = 0>
   Output<ProximitySet> DeclareProximities(std::size_t moving);
+  template <std::size_t kMoving = 0>
+  Output<ObstacleSet> DeclareAround(std::size_t moving);
   void DeclareRoles(const Params& params, const ModelSet& models);
 
   /// What is asked of own links, and by which request.
@@ -125,7 +133,11 @@ class BulletDistance final : public System {
     robot::OwnRanges ranges{};
     bool known{false};
   };
-  void CalcIgnored(IgnoredPairs& result) const { result.pairs = ignored_; }
+  void CalcIgnored(IgnoredPairs& result) const;
+  template <class... Poses>
+  void CalcAround(const ObstacleSet& set, const Poses&... others, ObstacleSet& result) const;
+  void FindAround(const ObstacleSet& set, std::span<const LinkPoses* const> others,
+                  ObstacleSet& result) const;
   void CalcAsked(const RequestAhead* request, Asked& result) const;
   void CalcScene(const ObstacleSet& set, ObstacleScene& result) const { result.Follow(set); }
   void CalcNear(const LinkPoses& poses, const ObstacleScene& of, NearObstacles& result) const;
@@ -179,6 +191,7 @@ class BulletDistance final : public System {
  public:
   const Output<ProximitySet> proximities;
   const Output<IgnoredPairs> ignored;
+  const Output<ObstacleSet> around;
 };
 
 }  // namespace oca::systems

@@ -78,7 +78,9 @@ std::vector<BulletDistance::Other> BulletDistance::MakeOthers(const Params& para
   std::vector<Other> others;
   const auto add = [&](const std::string& name, const std::string& local_name) {
     const auto& model = models.all().at(name);
-    others.push_back({name, local_name, model, MakeNeighbours(name, *model)});
+    std::vector<Neighbour> links = MakeNeighbours(name, *model);
+    auto solids = MakeSolids(*model, links);
+    others.push_back({name, local_name, model, std::move(links), std::move(solids)});
   };
   if (LooksAtAll(params)) {
     for (const auto& [name, local_name] : all) add(name, local_name);
@@ -198,6 +200,28 @@ bool BulletDistance::Compares(const LinkPoses& poses, const ObstacleSet& set) co
              return !Ignored(link.link, obstacle.body->id);
            });
   });
+}
+
+void BulletDistance::CheckNames(const LinkPoses& poses) const {
+  const auto& own = model_->links();
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (i < own.size() && own[i].name == poses.links[i]) continue;
+    const bool known = std::any_of(own.begin(), own.end(), [&](const robot::Link& link) {
+      return link.name == poses.links[i];
+    });
+    if (known) continue;
+    throw ConfigError(fmt::format("links: got '{}'; expected a link of model '{}'",
+                                  poses.links[i].text(), name_));
+  }
+}
+
+// Who takes a moving arm for one at rest learns too late that it comes nearer.
+void BulletDistance::CheckVelocities(const Other& other, const LinkPoses& poses) const {
+  if (poses.velocities.size() == poses.size()) return;
+  throw ConfigError(fmt::format(
+      "{}: got poses without velocities; expected both: connect the input `velocity` of the "
+      "RobotKinematics of '{}'",
+      LinksInput(other.local_name), other.name));
 }
 
 }  // namespace oca::systems

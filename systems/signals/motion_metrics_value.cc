@@ -39,7 +39,8 @@ constexpr std::array kNumbers{
     NumberField{"final_speed", &MotionMetricsValue::final_speed},
     NumberField{"max_joint_acceleration", &MotionMetricsValue::max_joint_acceleration},
     NumberField{"limit_violations", &MotionMetricsValue::limit_violations},
-    NumberField{"stuck_time", &MotionMetricsValue::stuck_time}};
+    NumberField{"stuck_time", &MotionMetricsValue::stuck_time},
+    NumberField{"stuck_amount", &MotionMetricsValue::stuck_amount}};
 
 constexpr const char* kPair = "min_distance_pair";
 constexpr const char* kStuckPair = "stuck_pair";
@@ -115,10 +116,10 @@ MotionMetricsValue WorstOf(const MotionMetricsValue& one, const MotionMetricsVal
   worst.min_distance_link = nearest.min_distance_link;
   worst.min_distance_obstacle = nearest.min_distance_obstacle;
   worst.min_distance_time = nearest.min_distance_time;
-  if (worst.stuck_time != one.stuck_time) {
-    worst.stuck_link = other.stuck_link;
-    worst.stuck_obstacle = other.stuck_obstacle;
-  }
+  const MotionMetricsValue& stuck = worst.stuck_time != one.stuck_time ? other : one;
+  worst.stuck_amount = stuck.stuck_amount;
+  worst.stuck_link = stuck.stuck_link;
+  worst.stuck_obstacle = stuck.stuck_obstacle;
   const auto least_of_both = [](const std::optional<double>& a, const std::optional<double>& b) {
     return a && b ? std::optional(std::min(*a, *b)) : std::nullopt;
   };

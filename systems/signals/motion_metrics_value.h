@@ -14,7 +14,7 @@
 namespace oca::systems {
 
 /// JSON: an object with every metric, null where there is no value; min_distance_pair and
-/// stuck_pair are [link, obstacle].
+/// stuck_pair are [link, obstacle], the latter perhaps [joint, "limit"].
 using robot::MotionMetricsValue;
 
 /// A metric by its name: a number, a pair [link, obstacle], or nothing.

@@ -52,6 +52,9 @@ std::vector<std::string> DescribeRoles(const System& system) {
     return "measures distances: " + PortText(role.proximities);
   });
   each(+[](const BlindSpots&) { return std::string("knows what is not seen"); });
+  each(+[](const KnowsWhatBlocks&) {
+    return std::string("knows what keeps its robot from its goal");
+  });
   each(+[](const Repels& role) { return fmt::format("pushes links up to {} m away", role.range); });
   each(+[](const Plots& role) {
     return fmt::format("plots {} ({})", PortText(role.signal), role.title);

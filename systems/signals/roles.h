@@ -11,10 +11,12 @@
 #include "oca/framework/dataflow/period.h"
 #include "oca/framework/dataflow/port.h"
 #include "oca/framework/dataflow/system.h"
+#include "oca/models/name.h"
 
 namespace oca {
+class Context;
 class Diagram;
-}
+}  // namespace oca
 
 namespace oca::systems {
 
@@ -119,6 +121,22 @@ struct BlindSpots {
   /// `own_name`: of the block in its diagram; `one_robot`: the only one there is need not be named.
   std::function<std::vector<std::string>(const std::string& own_name, bool one_robot)> spots{};
   InputHandle behind{};  ///< what drives it has blind spots of its own that count too
+};
+
+/// What keeps a robot from its goal.
+struct Obstruction {
+  std::string kind;    ///< limit, contact or way
+  models::Name one;    ///< a link, or the joint whose limit it is
+  models::Name other;  ///< a body or another link; empty: of a limit
+  double amount;       ///< how deep or how far apart, or how far beyond the limit
+  std::string unit;    ///< m or rad
+  std::string text;    ///< all of it, for people
+};
+
+/// It knows what keeps its robot from its goal.
+struct KnowsWhatBlocks {
+  /// Nothing while nothing does.
+  std::function<std::optional<Obstruction>(const Context& context)> what{};
 };
 
 /// It pushes links away from what is nearer than its range, m.

@@ -229,7 +229,7 @@ TEST_F(CommandLineTest, JsonIsOneObjectWithTheAgreedKeys) {
   EXPECT_EQ(ran.err, "");
   const json result = json::parse(ran.out);
   for (const char* key : {"name", "seed", "duration", "steps", "wall_seconds", "realtime_factor",
-                          "metrics", "expectations"}) {
+                          "metrics", "expectations", "blocked"}) {
     EXPECT_TRUE(result.contains(key)) << key;
   }
   EXPECT_EQ(result["name"], "static_test");

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "oca/diagrams/runs/blind_spots.h"
+#include "oca/models/robot/robot_model.h"
 #include "tools/simulator/terminal.h"
 
 namespace oca::tools {
@@ -71,24 +72,51 @@ std::string NotSeenLine(const loading::LoadedDiagram& loaded) {
   return spots.empty() ? "" : Line("not seen", fmt::format("{}", fmt::join(spots, "; ")));
 }
 
-/// Where the arm stood for long, if it did: at the goal it need not have ended.
-std::string Standstill(const MotionMetricsValue& metrics, bool reached) {
-  if (metrics.stuck_time.value_or(0.0) == 0.0) return "";
-  const std::string nearest = metrics.stuck_link.empty()
-                                  ? "nothing within reach"
-                                  : fmt::format("nearest {} to {}", metrics.stuck_link.text(),
-                                                metrics.stuck_obstacle.text());
-  return fmt::format("; {} for {:.3g} s, {}", reached ? "held up" : "STUCK", *metrics.stuck_time,
-                     nearest);
+/// Of a joint of one of the robots.
+const char* UnitOfJoint(const loading::LoadedDiagram& loaded, models::Name joint) {
+  for (const auto& named : loaded.models.all()) {
+    for (const robot::Joint& each : named.second->joints()) {
+      if (each.name != joint) continue;
+      return each.type == robot::JointType::kPrismatic ? "m" : "rad";
+    }
+  }
+  return "rad";
 }
 
-std::string GoalLine(const MotionMetricsValue& metrics, bool colour) {
+/// What the arm stood at.
+std::string StuckAt(const MotionMetricsValue& metrics, const loading::LoadedDiagram& loaded) {
+  if (metrics.stuck_link.empty()) return "nothing within reach";
+  const double amount = metrics.stuck_amount.value_or(0.0);
+  if (metrics.stuck_obstacle.text() == "limit") {
+    return fmt::format("{} at its limit, the goal {:.3g} {} beyond it", metrics.stuck_link.text(),
+                       amount, UnitOfJoint(loaded, metrics.stuck_link));
+  }
+  return fmt::format("nearest {} to {}, {:.3g} m", metrics.stuck_link.text(),
+                     metrics.stuck_obstacle.text(), amount);
+}
+
+/// Where the arm did not get on for long, if so: at the goal it need not have ended.
+std::string Standstill(const MotionMetricsValue& metrics, const loading::LoadedDiagram& loaded,
+                       bool reached) {
+  if (metrics.stuck_time.value_or(0.0) == 0.0) return "";
+  return fmt::format("; {} for {:.3g} s, {}", reached ? "held up" : "STUCK", *metrics.stuck_time,
+                     StuckAt(metrics, loaded));
+}
+
+std::string BlockedLines(const runs::RunResult& result) {
+  std::string lines;
+  for (const auto& [system, by] : result.blocked) lines += Line("blocked", system + ": " + by.text);
+  return lines;
+}
+
+std::string GoalLine(const MotionMetricsValue& metrics, const loading::LoadedDiagram& loaded,
+                     bool colour) {
   if (!metrics.final_error) return "";
   const double off = *metrics.final_error;
   const std::string arrival =
       off < kAtGoal ? Good("reached", colour) + fmt::format(": {:.2g} rad off", off)
                     : Bad("NOT REACHED", colour) + fmt::format(": {:.3g} rad off", off);
-  return Line("goal", arrival + Standstill(metrics, off < kAtGoal));
+  return Line("goal", arrival + Standstill(metrics, loaded, off < kAtGoal));
 }
 
 std::string MotionLine(const MotionMetricsValue& metrics) {
@@ -138,7 +166,8 @@ std::string RunSummary(const loading::LoadedDiagram& loaded, const runs::RunResu
   const bool judged = result.metrics && runs::JudgesDistances(loaded);
   const MotionMetricsValue metrics = result.metrics.value_or(MotionMetricsValue());
   text += ClearanceLine(metrics, result.duration, judged, colour) + NotSeenLine(loaded) +
-          GoalLine(metrics, colour) + MotionLine(metrics) + ExpectationLines(result, colour);
+          GoalLine(metrics, loaded, colour) + BlockedLines(result) + MotionLine(metrics) +
+          ExpectationLines(result, colour);
   text += Line("time", fmt::format("{:g} s in {:.3g} s, {:.0f} times real time; {} steps",
                                    result.duration, result.wall_seconds,
                                    result.duration / result.wall_seconds, result.statistics.steps));

@@ -104,5 +104,21 @@ TEST_F(RequestCheckFile, ContactAtTheStartAndAtTheEndIsNamed) {
               ElementsAre(HasSubstr("systems.spline: the request ends in contact: upper is")));
 }
 
+TEST_F(RequestCheckFile, AWallThatNoWayPassesIsToldAndAPostIsNot) {
+  // From near the foot to beyond the reach, between start and goal.
+  const std::string wall =
+      "systems.obstacles.obstacles=[{id: wall, shape: {type: box, size: [LENGTH, 0.04, 0.4]}, "
+      "pose: {xyz: [0.614, 0.336, 0], rpy: [0, 0, 0.5]}}]";
+  const auto told = [&](const std::string& length) {
+    std::string text = wall;
+    return Told({text.replace(text.find("LENGTH"), 6, length)});
+  };
+  EXPECT_THAT(told("1.2"),
+              ElementsAre(AllOf(HasSubstr("systems.spline: no way to the end of the request was "
+                                          "found among what stands"),
+                                HasSubstr("(2-norm of the joints); there "), HasSubstr("wall"))));
+  EXPECT_THAT(told("0.1"), IsEmpty()) << "the arm folds and passes within";
+}
+
 }  // namespace request_check_test
 }  // namespace oca::runs

@@ -198,6 +198,27 @@ TEST(SimulatorTest, TheLogReachesPublishEvents) {
   EXPECT_EQ(notebook.lines.size(), 2u);
 }
 
+/// Tells of each update of a state that is no Vector, which Initialize tries once for its size.
+class LabelTeller final : public System {
+ public:
+  LabelTeller() : state_(DeclareDiscreteState("label", Label{})) {
+    DeclareUpdate<&LabelTeller::Tell>(Every{Period(1, 2)}, Writes(state_), kTime, kLog);
+  }
+
+ private:
+  void Tell(double t, Log& log, Label&) const { log.Write(LogLevel::kInfo, t, "update"); }
+  const DiscreteState<Label> state_;
+};
+
+TEST(SimulatorTest, TheLogHearsOfAnUpdateOnceAndNotOfItsTrial) {
+  const auto diagram = MakeDiagramOf(std::make_unique<LabelTeller>());
+  Notebook notebook;
+  Simulator simulator(*diagram);
+  simulator.SetLog(&notebook);
+  simulator.AdvanceTo(0.75);
+  EXPECT_THAT(notebook.lines, ElementsAre("0.000000 update", "0.500000 update"));
+}
+
 TEST(SimulatorTest, TheLogStaysWithTheSimulatorWhenContextsComeAndGo) {
   const auto diagram = MakeDiagramOf(std::make_unique<Teller>());
   Context saved = diagram->MakeContext();

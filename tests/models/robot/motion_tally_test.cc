@@ -125,5 +125,39 @@ TEST_F(MotionTallyTest, CountsTheJointsBeyondALimitAtEachSample) {
   EXPECT_EQ(violations({0.0, 0.0, 0.0201}), 1.0);
 }
 
+TEST_F(MotionTallyTest, NamesTheLimitThatTheGoalOfAStandingJointIsBeyond) {
+  const RobotModel model = LoadUrdf(OCA_SOURCE_DIR "/models/robots/lwr4/lwr4.urdf");
+  const double upper = model.upper_limits()[0];
+  near_.proximities.assign(1, Proximity{});
+  near_.proximities[0].link = models::Name("hand");
+  near_.proximities[0].obstacle = models::Name("box");
+  near_.proximities[0].distance = 0.04;
+  near_.compared = true;
+  // Joint 1 stands `off` its limit for 3 s, asked for what is `beyond` that.
+  const auto standing = [&](double off, double beyond) {
+    Eigen::VectorXd q = Eigen::VectorXd::Zero(7), goal = q;
+    q[0] = upper - off;
+    goal[0] = upper + beyond;
+    MotionTally tally;
+    MotionSample sample{.proximities = &near_, .model = &model};
+    sample.position.emplace(q.data(), q.size());
+    sample.goal.emplace(goal.data(), goal.size());
+    for (int k = 0; k <= 30; ++k) {
+      sample.time = 0.1 * k;
+      tally.Add(sample);
+    }
+    return tally.At(sample);
+  };
+  const MotionMetricsValue limit = standing(0.019, 0.25);
+  EXPECT_EQ(limit.stuck_link, model.position_names()[0]);
+  EXPECT_EQ(limit.stuck_obstacle, models::Name("limit"));
+  EXPECT_NEAR(limit.stuck_amount.value(), 0.25, 1e-12);
+  for (const MotionMetricsValue& box : {standing(0.021, 0.25), standing(0.019, 0.009)}) {
+    EXPECT_EQ(box.stuck_link, models::Name("hand"));
+    EXPECT_EQ(box.stuck_obstacle, models::Name("box"));
+    EXPECT_EQ(box.stuck_amount, 0.04);
+  }
+}
+
 }  // namespace motion_tally_test
 }  // namespace oca::robot

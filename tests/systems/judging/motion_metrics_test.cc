@@ -108,7 +108,7 @@ TEST(MotionMetricsTest, HasNoValueWithoutASource) {
       R"("final_error":null,"time_to_goal":null,"delta_sign_changes_per_second":null,)"
       R"("total_variation_ratio":null,"path_length":null,"max_joint_speed":null,"final_speed":null,)"
       R"("max_joint_acceleration":null,"limit_violations":null,)"
-      R"("stuck_time":null,"stuck_pair":null})");
+      R"("stuck_time":null,"stuck_amount":null,"stuck_pair":null})");
 }
 
 TEST(MotionMetricsTest, FindsTheLeastDistanceItsPairAndItsTime) {
@@ -274,11 +274,13 @@ TEST(MotionMetricsTest, TellsHowLongTheArmWasStuckAndAtWhat) {
   Bench bench(StandsUntil(4.0));
   EXPECT_EQ(bench.At(2.9).stuck_time, 0.0);
   EXPECT_TRUE(bench.At(2.9).stuck_link.empty());
+  EXPECT_FALSE(bench.At(2.9).stuck_amount.has_value());
   EXPECT_NEAR(bench.At(3.0).stuck_time.value(), 2.0, 1e-9);
   const MotionMetricsValue value = bench.At(5.0);
   EXPECT_NEAR(value.stuck_time.value(), 2.9, 1e-9);
   EXPECT_EQ(value.stuck_link, models::Name("hand"));
   EXPECT_EQ(value.stuck_obstacle, models::Name("box"));
+  EXPECT_EQ(value.stuck_amount, 0.03);
   std::string text;
   Signal<MotionMetricsValue>::WriteJson(value, text);
   EXPECT_NE(text.find(R"("stuck_pair":["hand","box"])"), std::string::npos) << text;
@@ -342,7 +344,8 @@ TEST(MotionMetricsTest, WritesEveryMetricWithNullWhereThereIsNone) {
       R"({"min_distance":-0.5,"min_distance_pair":["hand","box"],"min_distance_time":0.0,)"))
       << text;
   EXPECT_NE(text.find(R"("max_abs_delta":0.5,"final_error":null,)"), std::string::npos) << text;
-  EXPECT_TRUE(text.ends_with(R"("stuck_time":null,"stuck_pair":null})")) << text;
+  EXPECT_TRUE(text.ends_with(R"("stuck_time":null,"stuck_amount":null,"stuck_pair":null})"))
+      << text;
 }
 
 TEST(MotionMetricsTest, RefusesSignalsOfUnequalUnits) {

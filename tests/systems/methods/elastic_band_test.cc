@@ -278,6 +278,50 @@ TEST(ElasticBandTest, RestsBeforeAGoalInContactSaysSoAndGoesOnOnceItIsFree) {
   EXPECT_EQ(bench.Plan().block, planning::BandBlock::kNone);
 }
 
+TEST(ElasticBandTest, FollowsAGoalThatMovesThroughContactAndOutOfIt) {
+  Bench bench(BoxAt({0.0, 0.8, 0.0}, 0.4));
+  int k = 0;
+  WayOf(bench, k, 800);
+  ASSERT_EQ(bench.Plan().block, planning::BandBlock::kContact);
+  // A new request every half a second, each 0.1 rad farther.
+  VectorXd goal = Vector3d(1.57, 0, 0);
+  double largest_step = 0.0;
+  for (int i = 0; i < 12; ++i) {
+    const VectorXd next = goal + Vector3d(0.1, 0, 0);
+    bench->ahead.Fix(
+        bench.context(),
+        RequestAhead{std::make_shared<const motion::Trajectory>(motion::Trajectory::CubicHermite(
+            {{.time = 0.01 * k, .position = goal}, {.time = 0.01 * k + 0.5, .position = next}}))});
+    goal = next;
+    for (int tick = 0; tick < 50; ++tick, ++k) {
+      const VectorXd before = bench.Position();
+      bench.Tick(k);
+      largest_step = std::max(largest_step, (bench.Position() - before).cwiseAbs().maxCoeff());
+    }
+  }
+  WayOf(bench, k, 1200);  // the way round the box takes its time
+  EXPECT_TRUE(bench.Position().isApprox(goal, 1e-6)) << bench.Position().transpose();
+  EXPECT_FALSE(bench.Plan().stuck);
+  EXPECT_EQ(bench.Plan().block, planning::BandBlock::kNone);
+  EXPECT_LT(largest_step, 0.02 + 1e-9) << "2 rad/s is the limit: no jump";
+}
+
+TEST(ElasticBandTest, SaysWhatBlocksToWhoAsksByItsRole) {
+  Bench bench(BoxAt({0.0, 0.8, 0.0}, 0.4));
+  const auto* const knows = bench->role<KnowsWhatBlocks>();
+  ASSERT_NE(knows, nullptr);
+  EXPECT_FALSE(knows->what(bench.context()).has_value());
+  int k = 0;
+  WayOf(bench, k, 300);
+  const auto what = knows->what(bench.context());
+  ASSERT_TRUE(what.has_value());
+  EXPECT_EQ(what->kind, "contact");
+  EXPECT_EQ(what->other, models::Name("post"));
+  EXPECT_EQ(what->unit, "m");
+  EXPECT_EQ(what->amount, bench.Plan().block_amount);
+  EXPECT_THAT(what->text, HasSubstr("m deep in post"));
+}
+
 TEST(ElasticBandTest, RestsAtTheLimitThatAGoalIsBeyond) {
   Bench bench(BoxAt({5.0, 5.0, 0.0}));
   const double limit = Planar().Get("arm")->upper_limits()[1];

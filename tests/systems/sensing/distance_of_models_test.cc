@@ -76,6 +76,45 @@ TEST_F(TwoArmsTest, CarriesTheVelocityOfAnotherArmAtItsPoint) {
   EXPECT_EQ(moving, 3);
 }
 
+TEST_F(TwoArmsTest, TellsWhoMeasuresOnHisOwnAllThatIsAroundAndWhatDoesNotCount) {
+  for (const bool link_forces : {true, false}) {
+    SystemBench<BulletDistance> bench(Params{.model = "left",
+                                             .ignore = {{"planar2_link_2", "ball"}},
+                                             .calculate_link_forces = link_forces,
+                                             .others = {"right", "table_frame"}},
+                                      models_);
+    bench->obstacles.Fix(bench.context(), ObstacleSet{{Ball("ball", Vector3d(0.7, 0.4, 0.0))}});
+    bench->links.Fix(bench.context(), LinksAt(*models_.Get("left"), Eigen::Vector2d::Zero()));
+    bench->links_of_others[0].Fix(bench.context(), RightArm(-2.0));
+    const std::vector<Obstacle>& around = bench->around.Eval(bench.context()).obstacles;
+    ASSERT_FALSE(around.empty());
+    EXPECT_EQ(around.front().body->id, models::Name("ball"));
+    const auto& ignored = bench->ignored.Eval(bench.context()).pairs;
+    EXPECT_EQ(ignored.front(), std::pair(models::Name("planar2_link_2"), models::Name("ball")));
+    const bool lowest = std::find(ignored.begin(), ignored.end(),
+                                  std::pair(models::Name("planar2_link_1"),
+                                            models::Name("right/planar2_link_1"))) != ignored.end();
+    EXPECT_EQ(lowest, link_forces);
+    if (!link_forces) {
+      EXPECT_EQ(around.size(), 1u);
+      continue;
+    }
+    EXPECT_TRUE(Signal<ObstacleSet>::Check(bench->around.Eval(bench.context()), Look::kWhole).ok());
+    int moving = 0, tables = 0;
+    for (const Obstacle& one : around) {
+      tables += one.body->id.text().starts_with("table_frame/") ? 1 : 0;
+      if (one.body->id != models::Name("right/planar2_link_2")) continue;
+      ++moving;
+      // It begins 0.5 m along x from the foot about which it turns; see SeesTheOtherArm.
+      EXPECT_NEAR((one.X_WO.translation() - Vector3d(0.5, 0.3, 0.0)).norm(), 0.0, 1e-12);
+      EXPECT_NEAR((one.linear - Vector3d(0.0, -1.0, 0.0)).norm(), 0.0, 1e-12);
+      EXPECT_NEAR((one.angular - Vector3d(0.0, 0.0, -2.0)).norm(), 0.0, 1e-12);
+    }
+    EXPECT_EQ(moving, 1);
+    EXPECT_GT(tables, 0);
+  }
+}
+
 TEST_F(TwoArmsTest, RefusesAMovingArmWhoseVelocitiesAreNotKnown) {
   SystemBench<BulletDistance> bench(
       Params{.model = "left", .calculate_link_forces = true, .others = {"right"}}, models_);

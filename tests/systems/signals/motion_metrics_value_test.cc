@@ -19,6 +19,7 @@ MotionMetricsValue Left() {
   left.max_abs_delta = 0.5;
   left.time_to_goal = 4.0;
   left.stuck_time = 2.0;
+  left.stuck_amount = 0.01;
   left.stuck_link = Name("left_arm");
   left.stuck_obstacle = Name("box");
   return left;
@@ -35,6 +36,7 @@ TEST(WorstOfTest, TakesTheNearestApproachWithItsPairAndTimeAndTheLargestOfTheRes
   right.max_abs_delta = 0.4;
   right.time_to_goal = 5.0;
   right.stuck_time = 1.0;
+  right.stuck_amount = 0.3;
   right.stuck_link = Name("right_arm");
   for (const MotionMetricsValue& worst : {WorstOf(Left(), right), WorstOf(right, Left())}) {
     EXPECT_EQ(worst.min_distance, -0.1);
@@ -47,6 +49,7 @@ TEST(WorstOfTest, TakesTheNearestApproachWithItsPairAndTimeAndTheLargestOfTheRes
     EXPECT_EQ(worst.time_to_goal, 5.0);
     EXPECT_EQ(worst.stuck_time, 2.0);
     EXPECT_EQ(worst.stuck_link.text(), "left_arm");
+    EXPECT_EQ(worst.stuck_amount, 0.01) << "of the pair, not the largest";
     EXPECT_EQ(worst.certified_min_distance, std::nullopt) << "known of one only";
   }
 }
@@ -66,7 +69,7 @@ TEST(WorstOfTest, TakesTheEarliestContactAndTheLeastCertificateOfBoth) {
 
 TEST(MetricsInTest, AreThoseOfTheJsonInItsOrderAndCanBeSetAgain) {
   const std::vector<Metric> metrics = MetricsIn(Left());
-  ASSERT_EQ(metrics.size(), 18u);
+  ASSERT_EQ(metrics.size(), 19u);
   EXPECT_EQ(metrics[0].name, "min_distance");
   EXPECT_EQ(metrics[0].number(), 0.2);
   EXPECT_EQ(metrics[1].name, "min_distance_pair");
