@@ -68,7 +68,7 @@ TEST(MotionRequestTest, OfAPoseHasLinkPointAndRotation) {
   const MotionRequest request = Read(kPose);
   ASSERT_TRUE(request.pose.has_value());
   EXPECT_EQ(request.pose->link.text, "hand");
-  EXPECT_EQ(request.pose->frame, "base");
+  EXPECT_EQ(request.pose->frame.text, "base");
   EXPECT_EQ(request.pose->position, Eigen::Vector3d(0.4, 0.1, 0.5));
   EXPECT_EQ(request.pose->offset.z(), 0.1);
   EXPECT_EQ(request.pose->rotation->x(), 1.0);
