@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 
 #include "oca/diagrams/record/foxglove.h"
@@ -20,6 +19,7 @@
 #include "oca/models/robot/joint_limits.h"
 #include "oca/models/robot/kinematics.h"
 #include "oca/models/robot/unseen_links.h"
+#include "oca/systems/sensing/geometry_params.h"
 
 namespace oca::record {
 namespace {
@@ -92,24 +92,13 @@ std::vector<LinkWarning> WarningsAtLinks(const RobotModel& model, const RobotSou
 }
 
 std::string SolidName(const geometry::Shape& shape) {
-  return std::visit(
-      [](const auto& solid) -> std::string {
-        using Solid = std::decay_t<decltype(solid)>;
-        if constexpr (std::is_same_v<Solid, geometry::Sphere>) return "sphere";
-        if constexpr (std::is_same_v<Solid, geometry::Box>) return "box";
-        if constexpr (std::is_same_v<Solid, geometry::Cylinder>) return "cylinder";
-        if constexpr (std::is_same_v<Solid, geometry::Capsule>) return "capsule";
-        if constexpr (std::is_same_v<Solid, geometry::Cone>) return "cone";
-        if constexpr (std::is_same_v<Solid, geometry::Ellipsoid>) return "ellipsoid";
-        if constexpr (std::is_same_v<Solid, geometry::HalfSpace>) return "half-space";
-        if constexpr (std::is_same_v<Solid, geometry::ConvexMesh>) {
-          return fmt::format("hull of {} corners", solid.hull->vertices.size());
-        }
-        if constexpr (std::is_same_v<Solid, geometry::Compound>) {
-          return fmt::format("{} convex parts", solid.parts.size());
-        }
-      },
-      shape);
+  if (const auto* const mesh = std::get_if<geometry::ConvexMesh>(&shape)) {
+    return fmt::format("hull of {} corners", mesh->hull->vertices.size());
+  }
+  if (const auto* const compound = std::get_if<geometry::Compound>(&shape)) {
+    return fmt::format("{} convex parts", compound->parts.size());
+  }
+  return std::string(systems::NameOf(shape));
 }
 
 ordered_json ToJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }

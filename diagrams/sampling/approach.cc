@@ -168,31 +168,10 @@ Value Approach::MotionOf(const Course& course, models::Random& random, const Tre
   const Vector3d velocity = -course.speed * course.from;
   const Value start = tree.Number(course.start);
   switch (params_.manner) {
-    case Manner::kTurning: {
-      const double bend = bend_.Draw(random);
-      const Vector3d w = bend * DrawSideways(random, course.from);
-      // From the aim backwards: the way there is the way back with the turn reversed.
-      const Eigen::AngleAxisd back(-bend * course.span, w.normalized());
-      const double angle = bend * course.span;
-      const Vector3d way = std::sin(angle) / bend * velocity -
-                           (1.0 - std::cos(angle)) / (bend * bend) * w.cross(velocity);
-      coming.p_WO = course.aim - way;
-      return tree.Map({{"type", tree.Text("turning")},
-                       {"velocity", tree.List(back * velocity)},
-                       {"angular_velocity", tree.List(w)},
-                       {"start", start}});
-    }
-    case Manner::kCircling: {
-      const Vector3d axis = DrawSideways(random, course.from);
-      const double rate = course.speed / course.distance;
-      const Vector3d centre = course.aim + course.distance * course.from;
-      coming.p_WO =
-          centre + Eigen::AngleAxisd(-rate * course.arrival(), axis) * (course.aim - centre);
-      return tree.Map({{"type", tree.Text("circular")},
-                       {"center", tree.List(centre)},
-                       {"axis", tree.List(axis)},
-                       {"angular_velocity", tree.Number(rate)}});
-    }
+    case Manner::kTurning:
+      return Turning(course, random, tree, coming);
+    case Manner::kCircling:
+      return Circling(course, random, tree, coming);
     case Manner::kAccelerating:
     case Manner::kFalling: {
       const bool falls = params_.manner == Manner::kFalling;
@@ -202,17 +181,8 @@ Value Approach::MotionOf(const Course& course, models::Random& random, const Tre
                        {"start", start},
                        {"stop", tree.Number(course.arrival() + kBeyond)}});
     }
-    case Manner::kOscillating: {
-      const double frequency = course.speed / (2.0 * std::numbers::pi * course.distance);
-      const double phase =
-          std::remainder(std::numbers::pi - 2.0 * std::numbers::pi * frequency * course.arrival(),
-                         2.0 * std::numbers::pi);
-      coming.p_WO = course.aim;
-      return tree.Map({{"type", tree.Text("sinusoidal")},
-                       {"amplitude", tree.List(course.distance * course.from)},
-                       {"frequency", tree.Number(frequency)},
-                       {"phase", tree.Number(phase)}});
-    }
+    case Manner::kOscillating:
+      return Oscillating(course, tree, coming);
     case Manner::kFeint:
       coming.p_WO.setZero();  // the waypoints say where it is
       return Feint(course, random, tree);
@@ -230,6 +200,47 @@ Value Approach::MotionOf(const Course& course, models::Random& random, const Tre
                    {"velocity", tree.List(velocity)},
                    {"start", start},
                    {"stop", tree.Number(course.arrival())}});
+}
+
+Value Approach::Turning(const Course& course, models::Random& random, const Tree& tree,
+                        Coming& coming) const {
+  const Vector3d velocity = -course.speed * course.from;
+  const double bend = bend_.Draw(random);
+  const Vector3d w = bend * DrawSideways(random, course.from);
+  // From the aim backwards: the way there is the way back with the turn reversed.
+  const Eigen::AngleAxisd back(-bend * course.span, w.normalized());
+  const double angle = bend * course.span;
+  const Vector3d way = std::sin(angle) / bend * velocity -
+                       (1.0 - std::cos(angle)) / (bend * bend) * w.cross(velocity);
+  coming.p_WO = course.aim - way;
+  return tree.Map({{"type", tree.Text("turning")},
+                   {"velocity", tree.List(back * velocity)},
+                   {"angular_velocity", tree.List(w)},
+                   {"start", tree.Number(course.start)}});
+}
+
+Value Approach::Circling(const Course& course, models::Random& random, const Tree& tree,
+                         Coming& coming) const {
+  const Vector3d axis = DrawSideways(random, course.from);
+  const double rate = course.speed / course.distance;
+  const Vector3d centre = course.aim + course.distance * course.from;
+  coming.p_WO = centre + Eigen::AngleAxisd(-rate * course.arrival(), axis) * (course.aim - centre);
+  return tree.Map({{"type", tree.Text("circular")},
+                   {"center", tree.List(centre)},
+                   {"axis", tree.List(axis)},
+                   {"angular_velocity", tree.Number(rate)}});
+}
+
+Value Approach::Oscillating(const Course& course, const Tree& tree, Coming& coming) const {
+  const double frequency = course.speed / (2.0 * std::numbers::pi * course.distance);
+  const double phase =
+      std::remainder(std::numbers::pi - 2.0 * std::numbers::pi * frequency * course.arrival(),
+                     2.0 * std::numbers::pi);
+  coming.p_WO = course.aim;
+  return tree.Map({{"type", tree.Text("sinusoidal")},
+                   {"amplitude", tree.List(course.distance * course.from)},
+                   {"frequency", tree.Number(frequency)},
+                   {"phase", tree.Number(phase)}});
 }
 
 /// To the aim and back, a pause, and once more.

@@ -94,6 +94,11 @@ class Approach {
   double SpanOf(const Course& course) const;
   Value MotionOf(const Course& course, models::Random& random, const Tree& tree,
                  Coming& coming) const;
+  Value Turning(const Course& course, models::Random& random, const Tree& tree,
+                Coming& coming) const;
+  Value Circling(const Course& course, models::Random& random, const Tree& tree,
+                 Coming& coming) const;
+  Value Oscillating(const Course& course, const Tree& tree, Coming& coming) const;
   Value Reaches(const Course& course, const Tree& tree) const;
   Value Feint(const Course& course, models::Random& random, const Tree& tree) const;
 

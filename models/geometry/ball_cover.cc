@@ -3,60 +3,20 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <utility>
-#include <variant>
 
 #include "oca/models/error.h"
 #include "oca/models/geometry/convex_hull.h"
+#include "oca/models/geometry/core_forms.h"
 
 namespace oca::geometry {
 namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
-
-/// A regular polygon about the axis z that contains a circle.
-void AddPolygon(double radius, double z, Points& points) {
-  constexpr int kCorners = 12;
-  const double outer = radius / std::cos(std::numbers::pi / kCorners);
-  for (int i = 0; i < kCorners; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / kCorners;
-    points.emplace_back(outer * std::cos(angle), outer * std::sin(angle), z);
-  }
-}
-
-void AddBox(const Eigen::Vector3d& half, Points& points) {
-  for (int corner = 0; corner < 8; ++corner) {
-    points.emplace_back(corner & 1 ? half.x() : -half.x(), corner & 2 ? half.y() : -half.y(),
-                        corner & 4 ? half.z() : -half.z());
-  }
-}
-
-/// Corners whose hull contains the core of a solid that is neither round nor endless.
-Points CornersOf(const Collider& solid) {
-  Points points;
-  const Shape& shape = solid.shape();
-  if (const auto* const box = std::get_if<Box>(&shape)) AddBox(0.5 * box->size, points);
-  if (const auto* const ellipsoid = std::get_if<Ellipsoid>(&shape)) {
-    AddBox(ellipsoid->radii, points);
-  }
-  if (const auto* const cylinder = std::get_if<Cylinder>(&shape)) {
-    for (const double side : {-0.5, 0.5}) {
-      AddPolygon(cylinder->radius, side * cylinder->length, points);
-    }
-  }
-  if (const auto* const cone = std::get_if<Cone>(&shape)) {
-    AddPolygon(cone->radius, -0.5 * cone->length, points);
-    points.emplace_back(0.0, 0.0, 0.5 * cone->length);
-  }
-  if (solid.hull() != nullptr) points = solid.hull()->vertices;
-  return points;
-}
 
 /// A part of a polyhedron, with the ball around it.
 struct Piece {
@@ -167,31 +127,8 @@ Ball EnclosingBall(const std::vector<Eigen::Vector3d>& points) {
 }
 
 double InnerRadius(const Collider& solid, const Eigen::Vector3d& point) {
-  const Eigen::Vector3d to_side = solid.half() - point.cwiseAbs();
-  double room = 0.0;  // within the core
-  switch (solid.core()) {
-    case Core::kPoint:
-      return std::max(solid.radius() - point.norm(), 0.0);
-    case Core::kSegment: {
-      const double beyond = std::max(-to_side.z(), 0.0);
-      return std::max(solid.radius() - std::hypot(point.x(), point.y(), beyond), 0.0);
-    }
-    case Core::kBox:
-      room = to_side.minCoeff();
-      break;
-    case Core::kCylinder:
-      room = std::min(solid.half().x() - std::hypot(point.x(), point.y()), to_side.z());
-      break;
-    case Core::kHull:
-      room = std::numeric_limits<double>::infinity();
-      for (const ConvexHull::Plane& plane : solid.hull()->planes) {
-        room = std::min(room, plane.offset - plane.normal.dot(point));
-      }
-      break;
-    default:
-      return 0.0;
-  }
-  return room > 0.0 ? room + solid.radius() : 0.0;
+  if (solid.core() == Core::kCompound) return 0.0;
+  return std::max(solid.radius() - internal::OutsideOf(solid, point).distance, 0.0);
 }
 
 std::vector<Ball> CoverWithBalls(const Collider& solid, int most, double slack) {
@@ -214,7 +151,7 @@ std::vector<Ball> CoverWithBalls(const Collider& solid, int most, double slack) 
       break;
   }
   try {
-    balls = CoverPolyhedron(MakeConvexHull(CornersOf(solid), "cover"), most, slack);
+    balls = CoverPolyhedron(MakeConvexHull(internal::CornersAround(solid), "cover"), most, slack);
     for (Ball& ball : balls) ball.radius += solid.radius();
   } catch (const models::ModelError&) {  // thinner than a polyhedron may be
     balls = {{solid.centre(), solid.bounding_radius()}};

@@ -19,7 +19,7 @@ namespace oca::geometry {
 std::vector<Ball> CoverWithBalls(const Collider& solid, int most, double slack);
 
 /// Radius of a ball about `point` (the solid's frame) that the solid contains, m, as large as there
-/// is; 0 where there is none, and of cones, ellipsoids, half-spaces and compounds.
+/// is; 0 where there is none, and of compounds.
 double InnerRadius(const Collider& solid, const Eigen::Vector3d& point);
 
 /// A ball that contains all of `points`, nearly the smallest.

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <vector>
 
 #include "oca/models/geometry/collider.h"
 #include "oca/models/geometry/hull_support.h"
@@ -231,6 +233,38 @@ inline Outside OutsideOf(const Collider& core, const Eigen::Vector3d& p) {
       return {p.z(), {p.x(), p.y(), 0.0}, Eigen::Vector3d::UnitZ()};
     default:
       return OutsideOfHull(*core.hull(), p);
+  }
+}
+
+/// Corners whose hull contains a core that is neither round all over nor endless; of a hull its own.
+inline std::vector<Eigen::Vector3d> CornersAround(const Collider& core) {
+  std::vector<Eigen::Vector3d> corners;
+  const Eigen::Vector3d& half = core.half();
+  const auto add_polygon = [&](double z) {  // it contains a circle about the axis z
+    constexpr int kCorners = 12;
+    const double outer = half.x() / std::cos(std::numbers::pi / kCorners);
+    for (int i = 0; i < kCorners; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / kCorners;
+      corners.emplace_back(outer * std::cos(angle), outer * std::sin(angle), z);
+    }
+  };
+  switch (core.core()) {
+    case Core::kCylinder:
+      add_polygon(-half.z());
+      add_polygon(half.z());
+      return corners;
+    case Core::kCone:
+      add_polygon(-half.z());
+      corners.emplace_back(0.0, 0.0, half.z());
+      return corners;
+    case Core::kHull:
+      return core.hull()->vertices;
+    default:
+      for (int corner = 0; corner < 8; ++corner) {
+        corners.emplace_back(corner & 1 ? half.x() : -half.x(), corner & 2 ? half.y() : -half.y(),
+                             corner & 4 ? half.z() : -half.z());
+      }
+      return corners;
   }
 }
 

@@ -78,8 +78,7 @@ GjkStatus Gjk(const CorePair& pair, double max_distance, bool separated, PairCac
   double lower = 0.0;
   Vector3d across = Vector3d::Zero();
   bool outside = separated, refined = !pair.IsRound();
-  int idle = 0;
-  for (int step = 0; step < kMaxSteps; ++step) {
+  for (int step = 0, idle = 0; step < kMaxSteps; ++step) {
     if (length <= kTouch * size) break;
     const CorePair::Difference support = pair.Support(-simplex.v());
     const double bound = simplex.v().dot(support.w) / length;

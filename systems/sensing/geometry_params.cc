@@ -227,6 +227,10 @@ SolidParams SolidParamsOf(const geometry::Shape& shape) {
 
 }  // namespace
 
+std::string_view NameOf(const geometry::Shape& shape) {
+  return kShapeTypeNames[static_cast<std::size_t>(SolidParamsOf(shape).type)];
+}
+
 void PoseParams::Describe(Fields<PoseParams>& fields) {
   constexpr double kFarthestOrigin =
       1e6;                             // m; from there on a double no longer tells 1e-10 m apart

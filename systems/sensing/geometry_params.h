@@ -48,6 +48,9 @@ inline constexpr std::array kShapeTypeNames{"sphere",   "box",   "cylinder",  "c
                                             "compound", "cloud", "heightmap", "octree"};
 inline std::span<const char* const> EnumNames(ShapeType) { return kShapeTypeNames; }
 
+/// What files call it.
+std::string_view NameOf(const geometry::Shape& shape);
+
 /// What a mesh counts as: its convex hull, or convex parts that keep its hollows.
 enum class CollisionMeshes { kHull, kDecomposition };
 inline std::span<const char* const> EnumNames(CollisionMeshes) {

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # How many C++ functions have more lines than allowed, bodies of tests included; names them on standard error.
-# Usage: long_functions.sh LINES
+# Usage: long_functions.sh LINES. What is named Describe is a list of parameters, and may be long.
 set -euo pipefail
 git ls-files '*.cc' '*.h' |
   ctags -L - --languages=C++ --langmap=C++:.cc.h --kinds-C++=f --fields=+ne -o - |
@@ -14,6 +14,6 @@ git ls-files '*.cc' '*.h' |
         if ($i ~ /^end:/) last = substr($i, 5)
       }
       ++functions
-      if (last - first + 1 > most) { print last - first + 1, $2, $1 > "/dev/stderr"; ++count }
+      if (last - first + 1 > most && $1 != "Describe") { print last - first + 1, $2, $1 > "/dev/stderr"; ++count }
     }
     END { if (functions < 100) exit 1; print count + 0 }'

@@ -4,98 +4,19 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <limits>
 
 #include "oca/framework/dataflow/error.h"
-#include "tests/systems/system_bench.h"
+#include "tests/systems/judging/motion_bench.h"
 #include "tests/systems/test_models.h"
 
 namespace oca::systems {
 namespace motion_metrics_test {
 
 using Eigen::Vector2d;
-using VectorScript = std::function<Vector2d(double)>;
-using DistanceScript = std::function<double(double)>;
-
-/// A vector by script.
-class Script final : public System {
- public:
-  explicit Script(VectorScript script)
-      : script_(std::move(script)),
-        value(DeclareOutput<Vector, &Script::Calc>("value", {2, "rad"}, kTime)) {}
-
- private:
-  const VectorScript script_;
-  void Calc(double time, MutableVectorView out) const { out = script_(time); }
-
- public:
-  const Output<Vector> value;
-};
-
-/// One proximity by script; none where the script says infinity, nothing to compare where NaN.
-class DistanceSource final : public System {
- public:
-  explicit DistanceSource(DistanceScript script)
-      : script_(std::move(script)),
-        proximities(DeclareOutput<ProximitySet, &DistanceSource::Calc>("proximities", {}, kTime)) {}
-
- private:
-  const DistanceScript script_;
-  void Calc(double time, ProximitySet& set) const {
-    set.proximities.clear();
-    set.compared = !std::isnan(script_(time));
-    if (!std::isfinite(script_(time))) return;
-    Proximity proximity;
-    proximity.link = models::Name("hand");
-    proximity.obstacle = models::Name("box");
-    proximity.distance = script_(time);
-    set.proximities.push_back(proximity);
-  }
-
- public:
-  const Output<ProximitySet> proximities;
-};
-
-struct Scripts {
-  VectorScript position{}, request{}, goal{}, delta{};
-  DistanceScript distance{};
-};
-
-/// Metrics at 10 Hz over scripted signals.
-class Bench {
- public:
-  explicit Bench(const Scripts& scripts, int looks = 1) {
-    DiagramBuilder builder;
-    metrics_ = &builder.Add<MotionMetrics>(
-        "metrics", MotionMetrics::Params{.period = Period(1, 10), .looks = looks});
-    const auto connect = [&](const char* name, const VectorScript& script,
-                             const OptionalInput<Vector>& input) {
-      if (script) builder.Connect(builder.Add<Script>(name, script).value, input);
-    };
-    connect("position", scripts.position, metrics_->position);
-    connect("request", scripts.request, metrics_->request);
-    connect("goal", scripts.goal, metrics_->goal);
-    connect("delta", scripts.delta, metrics_->delta);
-    if (scripts.distance) {
-      builder.Connect(builder.Add<DistanceSource>("distance", scripts.distance).proximities,
-                      metrics_->proximities);
-    }
-    diagram_ = builder.Build();
-    simulator_ = std::make_unique<Simulator>(*diagram_);
-  }
-  const MotionMetricsValue& At(double time) {
-    simulator_->AdvanceTo(time);
-    return metrics_->metrics.Eval(simulator_->context());
-  }
-
- private:
-  const MotionMetrics* metrics_;
-  std::unique_ptr<Diagram> diagram_;
-  std::unique_ptr<Simulator> simulator_;
-};
-
-int Tick(double time) { return static_cast<int>(std::lround(10.0 * time)); }
+using motion_bench::Bench;
+using motion_bench::Scripts;
+using motion_bench::Tick;
 
 TEST(MotionMetricsTest, HasNoValueWithoutASource) {
   Bench bench({});
@@ -241,87 +162,6 @@ TEST(MotionMetricsTest, MeasuresTheErrorAgainstTheGoalAndElseTheRequest) {
   EXPECT_NEAR(Bench({.position = position, .request = request}).At(0.25).final_error.value(), 0.5,
               1e-15);
   EXPECT_FALSE(Bench({.position = position}).At(0.25).final_error.has_value());
-}
-
-TEST(MotionMetricsTest, TellsWhenTheGoalWasReachedForGood) {
-  // Near the goal from 0.2 s, away at 0.5 s, near again from 0.6 s to 0.9 s.
-  const VectorScript position = [](double t) {
-    const bool away = Tick(t) < 2 || Tick(t) == 5 || Tick(t) == 10;
-    return Vector2d(1.0, away ? 0.9899 : 0.9901);
-  };
-  const VectorScript goal = [](double) { return Vector2d(1.0, 1.0); };
-  Bench bench({.position = position, .goal = goal});
-  EXPECT_FALSE(bench.At(0.1).time_to_goal.has_value());
-  EXPECT_NEAR(bench.At(0.4).time_to_goal.value(), 0.2, 1e-12);
-  EXPECT_FALSE(bench.At(0.5).time_to_goal.has_value());
-  EXPECT_NEAR(bench.At(0.9).time_to_goal.value(), 0.6, 1e-12);
-  EXPECT_FALSE(bench.At(1.0).time_to_goal.has_value());
-  EXPECT_FALSE(Bench({.position = position, .request = goal}).At(0.9).time_to_goal.has_value());
-}
-
-// Before the goal, off the request, from 1 s to `end`; a joint creeps by less than counts.
-Scripts StandsUntil(double end) {
-  const auto position = [end](double t) {
-    return Vector2d(t > 0.95 && t < end - 0.05 ? 0.4 + 0.004 * (t - 1.0) : 0.4 * t, 0.0);
-  };
-  return {.position = position,
-          .request = [](double t) { return Vector2d(0.5 * t, 0.0); },
-          .goal = [](double) { return Vector2d(10.0, 0.0); },
-          .distance = [](double) { return 0.03; }};
-}
-
-TEST(MotionMetricsTest, TellsHowLongTheArmWasStuckAndAtWhat) {
-  Bench bench(StandsUntil(4.0));
-  EXPECT_EQ(bench.At(2.9).stuck_time, 0.0);
-  EXPECT_TRUE(bench.At(2.9).stuck_link.empty());
-  EXPECT_FALSE(bench.At(2.9).stuck_amount.has_value());
-  EXPECT_NEAR(bench.At(3.0).stuck_time.value(), 2.0, 1e-9);
-  const MotionMetricsValue value = bench.At(5.0);
-  EXPECT_NEAR(value.stuck_time.value(), 2.9, 1e-9);
-  EXPECT_EQ(value.stuck_link, models::Name("hand"));
-  EXPECT_EQ(value.stuck_obstacle, models::Name("box"));
-  EXPECT_EQ(value.stuck_amount, 0.03);
-  std::string text;
-  Signal<MotionMetricsValue>::WriteJson(value, text);
-  EXPECT_NE(text.find(R"("stuck_pair":["hand","box"])"), std::string::npos) << text;
-}
-
-TEST(MotionMetricsTest, IsNotStuckWhereItStandsAsRequestedOrForAShortTime) {
-  EXPECT_EQ(Bench(StandsUntil(2.9)).At(5.0).stuck_time, 0.0);
-  Scripts waits = StandsUntil(4.0);
-  waits.request = waits.position;
-  EXPECT_EQ(Bench(waits).At(5.0).stuck_time, 0.0);
-  Scripts arrived = StandsUntil(4.0);
-  arrived.goal = arrived.position;
-  EXPECT_EQ(Bench(arrived).At(5.0).stuck_time, 0.0);
-  Scripts alone = StandsUntil(4.0);
-  alone.distance = {};
-  EXPECT_TRUE(Bench(alone).At(3.5).stuck_link.empty());
-  EXPECT_GT(Bench(alone).At(3.5).stuck_time.value(), 2.0);
-}
-
-TEST(MotionMetricsTest, IsStuckWhereItGoesAboutAndComesNoNearer) {
-  const VectorScript goal = [](double) { return Vector2d(1.0, 0.0); };
-  const auto about = [&](double gain) {
-    Bench bench({.position =
-                     [gain](double t) {
-                       return Vector2d(gain * t, std::sin(5.0 * t));  // within 1 of its goal
-                     },
-                 .request = goal,
-                 .goal = goal,
-                 .distance = [](double) { return 0.03; }});
-    return bench.At(6.0);
-  };
-  // Every 0.1 s off by more than 0.02, so it never stands; the largest distance stays 1 or so.
-  const MotionMetricsValue stuck = about(0.0);
-  EXPECT_GT(stuck.stuck_time.value(), 4.0);
-  EXPECT_EQ(stuck.stuck_obstacle, models::Name("box"));
-  // A request that still goes on asks for no gain.
-  Bench asked({.position = [](double t) { return Vector2d(0.0, std::sin(5.0 * t)); },
-               .request = [](double t) { return Vector2d(0.1 * t, 0.0); },
-               .goal = goal,
-               .distance = [](double) { return 0.03; }});
-  EXPECT_EQ(asked.At(6.0).stuck_time, 0.0);
 }
 
 TEST(MotionMetricsTest, FindsTheFastestAndTheHardestTick) {

@@ -18,7 +18,7 @@ function box({ size }: Cube): Support {
   return (d) => d.set((sign(d.x) * size.x) / 2, (sign(d.y) * size.y) / 2, (sign(d.z) * size.z) / 2);
 }
 
-function ellipsoid({ size }: Cube): Support {
+function scaledSphere({ size }: Cube): Support {
   const [a, b, c] = [size.x / 2, size.y / 2, size.z / 2];
   return (d) => {
     const norm = Math.hypot(a * d.x, b * d.y, c * d.z) || 1;
@@ -68,7 +68,7 @@ function solidsOf(entity: SceneEntity): Solid[] {
   const reach = ({ size }: Cube): number => Math.hypot(size.x, size.y, size.z) / 2;
   return [
     ...(entity.cubes ?? []).map((one) => solid(one.pose, box(one), reach(one))),
-    ...(entity.spheres ?? []).map((one) => solid(one.pose, ellipsoid(one), Math.max(one.size.x, one.size.y, one.size.z) / 2)),
+    ...(entity.spheres ?? []).map((one) => solid(one.pose, scaledSphere(one), Math.max(one.size.x, one.size.y, one.size.z) / 2)),
     ...(entity.cylinders ?? []).map((one) => solid(one.pose, cylinder(one), Math.hypot(one.size.x, one.size.z) / 2)),
     ...(entity.models ?? []).map((one) => {
       const corners = cornersOf(one), { center, radius } = new THREE.Box3().setFromPoints(corners).getBoundingSphere(new THREE.Sphere());
