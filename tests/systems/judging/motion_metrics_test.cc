@@ -15,8 +15,10 @@ namespace motion_metrics_test {
 
 using Eigen::Vector2d;
 using motion_bench::Bench;
+using motion_bench::Script;
 using motion_bench::Scripts;
 using motion_bench::Tick;
+using motion_bench::VectorScript;
 
 TEST(MotionMetricsTest, HasNoValueWithoutASource) {
   Bench bench({});
