@@ -26,6 +26,7 @@ constexpr double kSameState = 1e-9;     // of a last band and a task's start
 constexpr double kNotCertified = 1e-6;  // m s; what a band lacks that is not proved
 constexpr double kEvadeAhead = 1.5;     // s; before what stands a band begins to bend
 constexpr double kAtRest = 1e-9;
+constexpr double kTurnTime = 0.35;  // s; for which what flies away may come back as fast
 
 }  // namespace
 
@@ -273,10 +274,21 @@ BandPlan BandPlanner::PlanAnew(const BandTask& task, const BandCurve* last) {
   return best;
 }
 
+bool BandPlanner::MayReturn(const BandTask& task, const BandCheck& trouble) {
+  if (!moving_) return true;
+  if (!trouble.near.empty()) return false;
+  VectorXd q(zero_.size()), x(zero_.size());
+  for (const double later : {0.0, 0.5 * kTurnTime, kTurnTime}) {
+    task.request(task.start + later, 0, q);
+    zero_.Evaluate(task.start + later, 0, x);
+    q += x;
+    if (band_.DistanceToMoving(q, task.start, kTurnTime) < settings_.band.margin) return false;
+  }
+  return true;
+}
+
 BandPlan BandPlanner::Bend(const BandTask& task, const BandCheck& trouble, const BandCurve* last) {
-  // Where something moves, who is back early has evaded it once more for nothing: unless the way
-  // straight back, and the request as far as is foreseen, keep the margin.
-  if (!moving_ || trouble.near.empty()) band_.ReturnBetween(trouble.near, kEvadeAhead);
+  if (MayReturn(task, trouble)) band_.ReturnBetween(trouble.near, kEvadeAhead);
   BandCurve warm = zero_;
   if (last != nullptr && !last->empty()) {
     VectorXd x(zero_.size());
