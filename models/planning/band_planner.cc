@@ -261,16 +261,27 @@ BandPlan BandPlanner::Plan(const BandTask& task, const BandCurve* last) {
   return best;
 }
 
+bool BandPlanner::HasArrived(const BandTask& task) const {
+  if (moving_ || !end_fixed_ || task.start < task.request_end) return false;
+  const VectorXd off = task.deviation[0] - zero_.controls().rightCols(1);
+  const double rates =
+      std::max(task.deviation[1].cwiseAbs().maxCoeff(), task.deviation[2].cwiseAbs().maxCoeff());
+  return std::max(off.cwiseAbs().maxCoeff(), rates) < kSameState;
+}
+
 BandPlan BandPlanner::PlanAnew(const BandTask& task, const BandCurve* last) {
   Prepare(task, GridOf(task, last, Moves(task.bodies)));
   const bool at_rest = task.deviation[0].cwiseAbs().maxCoeff() < kAtRest &&
                        task.deviation[1].cwiseAbs().maxCoeff() < kAtRest;
   BandPlan best{.curve = zero_, .start = BandStart::kRequest};
+  const bool arrived = HasArrived(task);
+  if (arrived) best.curve.controls().colwise() = task.deviation[0];
   Judge(best);
   const bool nothing_near = best.check.min_distance >= settings_.band.margin;
   const bool enough = nothing_near || (last == nullptr && best.check.wide());
-  if (at_rest && enough) Certify(task, best);
-  if (!at_rest || !enough || !best.check.clear()) best = Bend(task, best.check, last);
+  const bool stays = (at_rest && enough) || arrived;
+  if (stays) Certify(task, best);
+  if (!stays || !best.check.clear()) best = Bend(task, best.check, last);
   return best;
 }
 
