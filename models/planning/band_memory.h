@@ -80,6 +80,11 @@ struct BandMemory {
   double cost{0.0};
   std::uint64_t evaluations{0};  ///< configurations that the last plan looked at
 
+  void Unblock() {
+    block = BandBlock::kNone;
+    block_link = block_body = {};
+    block_amount = 0.0;
+  }
   /// The band at a time; before the first plan empty.
   const BandCurve& At(double t) const { return !next.empty() && t >= change ? next : held; }
 };

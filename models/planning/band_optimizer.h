@@ -154,6 +154,10 @@ class BandOptimizer {
   };
   Room RoomAt(const Eigen::VectorXd& q, double time);
 
+  /// The least distance of a configuration to what moves, each less `ahead` (s) times its speed
+  /// then, m; up to the margin. After Prepare.
+  double DistanceToMoving(const Eigen::VectorXd& q, double time, double ahead);
+
   /// How the nearest distance changes with the joints there, into `row`; false if nothing is near.
   bool DistanceGradient(const Eigen::VectorXd& q, double time, Eigen::VectorXd& row);
 

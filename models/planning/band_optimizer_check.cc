@@ -12,6 +12,7 @@ constexpr double kExcessTolerance = 1e-3;  // that still counts as within the li
 constexpr double kExcessPrice = 0.05;      // m; an excess of 1 counts as so much missing distance
 constexpr double kNearPause = 1.0;         // s
 constexpr double kYieldRounding = 1e-6;    // m
+constexpr double kSpeedSpan = 0.01;        // s; along which the speed of a body is taken
 constexpr double kOutWithin = 1.0;         // s; a start nearer than hard_distance must be left
 
 }  // namespace
@@ -145,6 +146,25 @@ BandOptimizer::Room BandOptimizer::RoomAt(const Eigen::VectorXd& q, double time)
     }
   }
   return room;
+}
+
+double BandOptimizer::DistanceToMoving(const Eigen::VectorXd& q, double time, double ahead) {
+  std::vector<double> speeds(bodies_.size(), 0.0);
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (bodies_[b].stands) continue;
+    const Eigen::Vector3d way =
+        bodies_[b].pose(time + kSpeedSpan).translation() - bodies_[b].pose(time).translation();
+    speeds[b] = way.norm() / kSpeedSpan;
+  }
+  double least = settings_.margin;
+  const double fastest = speeds.empty() ? 0.0 : *std::max_element(speeds.begin(), speeds.end());
+  PlaceAt(q, time);
+  clearance_.Collect(settings_.margin + ahead * fastest, pairs_);
+  for (const robot::NearPair& pair : pairs_) {
+    if (!Flies(pair)) continue;
+    least = std::min(least, pair.distance - ahead * speeds[static_cast<std::size_t>(pair.body)]);
+  }
+  return least;
 }
 
 }  // namespace oca::planning

@@ -26,6 +26,7 @@ constexpr double kSameState = 1e-9;     // of a last band and a task's start
 constexpr double kNotCertified = 1e-6;  // m s; what a band lacks that is not proved
 constexpr double kEvadeAhead = 1.5;     // s; before what stands a band begins to bend
 constexpr double kAtRest = 1e-9;
+constexpr double kTurnTime = 0.35;  // s; for which what flies away may come back as fast
 
 }  // namespace
 
@@ -260,23 +261,45 @@ BandPlan BandPlanner::Plan(const BandTask& task, const BandCurve* last) {
   return best;
 }
 
+bool BandPlanner::HasArrived(const BandTask& task) const {
+  if (moving_ || !end_fixed_ || task.start < task.request_end) return false;
+  const VectorXd off = task.deviation[0] - zero_.controls().rightCols(1);
+  const double rates =
+      std::max(task.deviation[1].cwiseAbs().maxCoeff(), task.deviation[2].cwiseAbs().maxCoeff());
+  return std::max(off.cwiseAbs().maxCoeff(), rates) < kSameState;
+}
+
 BandPlan BandPlanner::PlanAnew(const BandTask& task, const BandCurve* last) {
   Prepare(task, GridOf(task, last, Moves(task.bodies)));
   const bool at_rest = task.deviation[0].cwiseAbs().maxCoeff() < kAtRest &&
                        task.deviation[1].cwiseAbs().maxCoeff() < kAtRest;
   BandPlan best{.curve = zero_, .start = BandStart::kRequest};
+  const bool arrived = HasArrived(task);
+  if (arrived) best.curve.controls().colwise() = task.deviation[0];
   Judge(best);
   const bool nothing_near = best.check.min_distance >= settings_.band.margin;
   const bool enough = nothing_near || (last == nullptr && best.check.wide());
-  if (at_rest && enough) Certify(task, best);
-  if (!at_rest || !enough || !best.check.clear()) best = Bend(task, best.check, last);
+  const bool stays = (at_rest && enough) || arrived;
+  if (stays) Certify(task, best);
+  if (!stays || !best.check.clear()) best = Bend(task, best.check, last);
   return best;
 }
 
+bool BandPlanner::MayReturn(const BandTask& task, const BandCheck& trouble) {
+  if (!moving_) return true;
+  if (!trouble.near.empty()) return false;
+  VectorXd q(zero_.size()), x(zero_.size());
+  for (const double later : {0.0, 0.5 * kTurnTime, kTurnTime}) {
+    task.request(task.start + later, 0, q);
+    zero_.Evaluate(task.start + later, 0, x);
+    q += x;
+    if (band_.DistanceToMoving(q, task.start, kTurnTime) < settings_.band.margin) return false;
+  }
+  return true;
+}
+
 BandPlan BandPlanner::Bend(const BandTask& task, const BandCheck& trouble, const BandCurve* last) {
-  // Where something moves, who is back early has evaded it once more for nothing: unless the way
-  // straight back, and the request as far as is foreseen, keep the margin.
-  if (!moving_ || trouble.near.empty()) band_.ReturnBetween(trouble.near, kEvadeAhead);
+  if (MayReturn(task, trouble)) band_.ReturnBetween(trouble.near, kEvadeAhead);
   BandCurve warm = zero_;
   if (last != nullptr && !last->empty()) {
     VectorXd x(zero_.size());

@@ -141,7 +141,14 @@ class BandPlanner {
   BandCurve Shaped(const BandTask& task, const std::function<Eigen::VectorXd(double)>& shape) const;
   BandPlan Finish(BandStart kind, BandCurve curve, int iterations);
   void Judge(BandPlan& plan);
+  /// Whether the arm stands where it is to end, the request rests and nothing moves.
+  bool HasArrived(const BandTask& task) const;
   BandPlan PlanAnew(const BandTask& task, const BandCurve* last);
+  /// Whether the band is to go back to the request at once, where nothing is near that. Where
+  /// something moves, who is back early has evaded it once more for nothing: only if the way
+  /// straight back, and the request as far as is foreseen, keep the margin, and would if what moves
+  /// turned round for a third of a second.
+  bool MayReturn(const BandTask& task, const BandCheck& trouble);
   BandPlan Bend(const BandTask& task, const BandCheck& trouble, const BandCurve* last);
   void Explore(const BandTask& task, const BandCheck& trouble, const BandCurve& troubled,
                BandPlan& best);

@@ -20,7 +20,8 @@ constexpr int kBoundedShortcuts = 50;
 constexpr int kShortcuts = 150;         // of what a PathSearch found
 constexpr std::uint64_t kPathTurn = 3;  // one of so many plans looks for paths, if anything moves
 constexpr double kPathRoom = 1.3;       // times what a band keeps, so that it may bend
-constexpr double kEndShare = 0.9;       // of what the ends of a path leave, that it keeps
+constexpr double kEndRoom = 1.02;       // times what must be kept: as much is left at an end
+constexpr double kEndShare = 0.9;       // of what the ends of a path leave, if that is less
 constexpr double kPathSpeed = 0.9;      // rad/s, in the 2-norm
 
 }  // namespace
@@ -76,8 +77,8 @@ SearchLevels BandPlanner::LevelsFor(const VectorXd& here, const VectorXd& goal) 
   const double goal_room = room(goal);
   const double left = std::min(room(here), goal_room > 0.0 ? goal_room : robot::kUnlimited);
   // So that the first step from either end need not be tiny, but not less than must be kept.
-  const double most =
-      std::max(0.5 * left, std::min(settings_.band.hard_distance, kEndShare * left));
+  const double hard = settings_.band.hard_distance;
+  const double most = std::max(0.5 * left, left > kEndRoom * hard ? hard : kEndShare * left);
   SearchLevels levels;
   const auto add = [&](double margin) {
     margin = std::min(margin, most);

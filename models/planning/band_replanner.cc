@@ -18,47 +18,13 @@ constexpr std::uint64_t kFreshPlans = 8;  // that look for a better way though t
 constexpr int kMostPause = 20;            // plans between two searches that fail
 constexpr double kOnTightPlan = 0.001;    // rad, m; where it passes nearer than kTight
 constexpr double kTight = 0.01;           // m
-constexpr double kStillPlace = 1e-4;      // m, of an obstacle that stands
 constexpr double kOffFor = 0.3;           // s; off its band, after which an arm has left it
-
-bool SamePlace(const geometry::Obstacle& a, const geometry::Obstacle& b) {
-  return a.body == b.body && Stands(a) && Stands(b) &&
-         (a.X_WO.matrix() - b.X_WO.matrix()).cwiseAbs().maxCoeff() < kStillPlace;
-}
-
-/// Whether the same bodies stand at the same places, whatever moves besides.
-bool SameRest(const std::vector<geometry::Obstacle>& seen,
-              const std::vector<geometry::Obstacle>& now) {
-  auto other = now.begin();
-  for (const geometry::Obstacle& body : seen) {
-    if (!Stands(body)) continue;
-    while (other != now.end() && !Stands(*other)) ++other;
-    if (other == now.end() || !SamePlace(body, *other++)) return false;
-  }
-  return std::none_of(other, now.end(), Stands);
-}
-
-/// Names of those that stand where they stood, into `names`.
-void FindStill(const std::vector<geometry::Obstacle>& seen,
-               const std::vector<geometry::Obstacle>& now, std::vector<models::Name>& names) {
-  names.clear();
-  names.reserve(now.size());
-  for (const geometry::Obstacle& body : now) {
-    // Mostly they come in the same order.
-    const auto at = static_cast<std::size_t>(&body - now.data());
-    const bool still = (at < seen.size() && SamePlace(seen[at], body)) ||
-                       std::any_of(seen.begin(), seen.end(), [&](const geometry::Obstacle& other) {
-                         return SamePlace(other, body);
-                       });
-    if (still) names.push_back(body.body->id);
-  }
-}
 
 }  // namespace
 
 BandReplanner::BandReplanner(std::shared_ptr<const robot::RobotModel> model,
                              const ReplanSettings& settings)
-    : model_(std::move(model)), settings_(settings) {}
+    : model_(std::move(model)), settings_(settings), reach_(ReachOf(*model_)) {}
 
 double BandReplanner::Since(double time, const BandMemory& memory) const {
   return std::clamp(time - memory.seen_at, 0.0, settings_.prediction);
@@ -185,14 +151,17 @@ void BandReplanner::Follow(const BandSituation& now, BandMemory& memory) const {
 }
 
 void BandReplanner::Forget(const BandSituation& now, BandMemory& memory) const {
-  if (memory.plans > 0 && now.request == memory.request && SameRest(memory.seen, now.obstacles)) {
-    return;
+  if (memory.plans > 0 && now.request == memory.request) {
+    // What comes opens no way to a goal that the arm rests before.
+    const bool rests = memory.rest.size() > 0;
+    if (rests ? AllStay(memory.seen, now.obstacles, reach_)
+              : SameRest(memory.seen, now.obstacles, reach_)) {
+      return;
+    }
   }
   memory.search.Reset();
   memory.rest.resize(0);
-  memory.block = BandBlock::kNone;
-  memory.block_link = memory.block_body = {};
-  memory.block_amount = 0.0;
+  memory.Unblock();
 }
 
 VectorXd BandReplanner::EndFor(const BandSituation& now, const BandMemory& memory) const {
@@ -211,8 +180,14 @@ void BandReplanner::GiveWay(const BandSituation& now, const BandPlan& found,
   Eigen::Index joint = 0;
   const double beyond =
       (goal - model_->upper_limits()).cwiseMax(model_->lower_limits() - goal).maxCoeff(&joint);
-  if (memory.rest.size() == 0 && memory.search.state() == PathSearch::State::kExhausted &&
-      !(found.check.clear() && found.reaches)) {
+  const bool leads = found.check.clear() && found.reaches;
+  const bool failed = memory.search.state() == PathSearch::State::kExhausted && !leads;
+  if (failed && memory.rest.size() > 0) {  // even to there the way is lost: look again
+    memory.search.Reset();
+    memory.rest.resize(0);
+  } else if (leads && memory.rest.size() == 0) {
+    memory.Unblock();
+  } else if (failed) {
     memory.rest = memory.search.nearest();
     const bool contact = found.goal_room <= 0.0;
     memory.block = contact ? BandBlock::kContact : BandBlock::kWay;

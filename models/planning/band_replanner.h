@@ -14,6 +14,7 @@
 #include "oca/models/motion/trajectory.h"
 #include "oca/models/planning/band_memory.h"
 #include "oca/models/planning/band_planner.h"
+#include "oca/models/planning/standing_changes.h"
 #include "oca/models/robot/clear_motion.h"
 
 namespace oca::planning {
@@ -96,6 +97,7 @@ class BandReplanner {
 
   const std::shared_ptr<const robot::RobotModel> model_;
   const ReplanSettings settings_;
+  const RobotReach reach_;
 };
 
 }  // namespace oca::planning

@@ -27,7 +27,7 @@ struct MotionMetricsValue {
   std::optional<double> max_joint_acceleration;  ///< rad/s^2, m/s^2
   std::optional<double> limit_violations;        ///< joints beyond a limit, summed over samples
   std::optional<double> stuck_time;              ///< longest standstill off the goal, s; 0: none
-  /// m, how far apart stuck_link and stuck_obstacle were; rad, m, how far the goal is beyond a limit
+  /// m, how far apart stuck_link and stuck_obstacle were; or how far the goal is beyond a limit
   std::optional<double> stuck_amount;
   models::Name stuck_link;      ///< nearest then, or a joint; empty if nothing was near
   models::Name stuck_obstacle;  ///< "limit" of the joint

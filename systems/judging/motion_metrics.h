@@ -54,11 +54,11 @@ namespace oca::systems {
 /// - limit_violations: joints of `model` beyond a limit of their position, speed or acceleration,
 ///   by more than rounding, summed over the samples; null without a model
 /// - stuck_time: the longest time, from 2 s on and else 0, that the arm stood, no joint moving by
-///   more than 0.02, while it was off the goal and off the request by more than 0.01; or, if longer,
-///   the time since which the request is at the goal and no joint distance to it of the arm, which
-///   is not there, was less by more than 0.02
-/// - stuck_pair: what was nearest then, null if nothing was within reach; or, where a joint stood at
-///   a limit that the goal is beyond, [joint, "limit"]. stuck_amount is how far apart the pair was,
+///   more than 0.02, while it was off the goal and off the request by more than 0.01; or, if
+///   longer, the time since which the request is at the goal and no joint distance to it of the
+///   arm, which is not there, was less by more than 0.02
+/// - stuck_pair: what was nearest then, null if nothing was within reach; or, where a joint stood
+///   at a limit that the goal is beyond, [joint, "limit"]. stuck_amount is how far apart the pair was,
 ///   or how far the goal is beyond the limit. All three are null without a goal
 ///
 /// The output at a sampling instant whose update is pending has its sample in it, so the end of a

@@ -61,7 +61,7 @@ namespace oca::systems {
 /// Plans allocate; control samples do not, nor does a tick at which a plan is kept.
 ///
 /// in    ahead              RequestAhead  the requested motion; without one the arm is to rest
-///       obstacles          ObstacleSet
+///       obstacles          ObstacleSet   all that it plans around: BulletDistance::around
 ///       measured_position  n  u
 ///       measured_velocity  n  u/s        optional; absent counts as 0
 ///       ignored            IgnoredPairs  optional; pairs whose distance does not count

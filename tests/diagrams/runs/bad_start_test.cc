@@ -96,11 +96,12 @@ class Runner {
 struct Wanted {
   bool arrives;
   double contact_time, near_time;  ///< s; at most
+  int seeds{5};
 };
 
 void ExpectOut(const std::string& file, const Wanted& wanted) {
   for (const char* arm : {"lwr4", "ur5e"}) {
-    for (int seed = 0; seed < 5; ++seed) {
+    for (int seed = 0; seed < wanted.seeds; ++seed) {
       SCOPED_TRACE(fmt::format("{} {} {}", file, arm, seed));
       const Course course = Runner(file, arm, seed).Run();
       fmt::print(
@@ -134,7 +135,7 @@ TEST(BadStartTest, FromUnderWhatAppearsOnItAnArmGoesOutAndRests) {
 }
 
 TEST(BadStartTest, AnArmThatIsEnclosedRests) {
-  ExpectOut("enclosed", {.arrives = false, .contact_time = 0.0, .near_time = 0.0});
+  ExpectOut("enclosed", {.arrives = false, .contact_time = 0.0, .near_time = 0.0, .seeds = 2});
 }
 
 }  // namespace bad_start_test

@@ -53,6 +53,19 @@ TEST(RecommendedDiagramTest, ClearsScenariosOfEveryFamilyAndArrives) {
   }
 }
 
+TEST(RecommendedDiagramTest, IsNotBackTooEarlyForAFeintThatComesAgain) {
+  const auto metrics = MetricsOf("scenarios/random_feint", {{"simulator.seed", "16"}});
+  EXPECT_GT(Number(metrics, "certified_min_distance"), 0.0);
+  EXPECT_LT(Number(metrics, "final_error"), 0.01);
+}
+
+TEST(RecommendedDiagramTest, TwoArmsPlanWithEachOther) {
+  const auto metrics = MetricsOf("dual_arm", {});
+  EXPECT_GT(Number(metrics, "certified_min_distance"), 0.1) << "0.028 by the filter alone";
+  EXPECT_LT(Number(metrics, "final_error"), 1e-6);
+  EXPECT_LT(Number(metrics, "delta_sign_changes_per_second"), 0.5);
+}
+
 TEST(RecommendedDiagramTest, RunsToTheSameBitsTwice) {
   EXPECT_EQ(MetricsOf("dynamic_test", {}), MetricsOf("dynamic_test", {}));
 }

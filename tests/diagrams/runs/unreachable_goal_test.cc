@@ -130,6 +130,19 @@ TEST(UnreachableGoalTest, AGoalThatBecomesFreeIsReached) {
   EXPECT_LT(rest.path_after, 0.01);
 }
 
+TEST(UnreachableGoalTest, WhatComesAndGoesOutOfReachMovesNoArmThatRests) {
+  const std::string box = "size: [0.25, 0.25, 0.25]}, pose: {xyz: ";
+  MethodRun run(
+      "scenarios/goal_in_contact", "recommended",
+      {{"systems.obstacles.obstacles",
+        "[{id: box, shape: {type: box, " + box + "[0.65, -0.24, 0.3]}}, " +
+            "{id: far, shape: {type: box, " + box + "[3, 3, 0]}, appear: 10, disappear: 14}]"}});
+  const Rest rest = RestOf(run, 6.5);
+  EXPECT_GT(rest.begins, 0.0);
+  EXPECT_LT(rest.begins, 9.0);
+  EXPECT_LT(rest.path_after, 0.001);
+}
+
 /// What a run and its check say.
 struct Told {
   nlohmann::json json;

@@ -6,61 +6,20 @@
 #include <cmath>
 
 #include "oca/framework/dataflow/error.h"
-#include "oca/models/geometry/collider.h"
-#include "oca/models/robot/urdf.h"
 #include "oca/systems/commands/key_points.h"
 #include "tests/allocation_count.h"
-#include "tests/systems/system_bench.h"
+#include "tests/systems/methods/band_bench.h"
 
 namespace oca::systems {
 namespace elastic_band_test {
 
+using band_bench::Bench;
+using band_bench::BoxAt;
+using band_bench::Planar;
+using band_bench::Turn;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 using testing::HasSubstr;
-
-ModelSet Planar() {
-  ModelSet models;
-  models.Add("arm", std::make_shared<const robot::RobotModel>(
-                        robot::LoadUrdf(OCA_SOURCE_DIR "/models/robots/planar3/planar3.urdf")));
-  return models;
-}
-
-/// Joint 1 turns by 90 degrees between 0.5 and 4.5 s.
-RequestAhead Turn() {
-  return {std::make_shared<const motion::Trajectory>(
-      motion::Trajectory::CubicHermite({{.time = 0.5, .position = Vector3d(0, 0, 0)},
-                                        {.time = 4.5, .position = Vector3d(1.57, 0, 0)}}))};
-}
-
-ObstacleSet BoxAt(const Vector3d& place, double size = 0.1) {
-  auto body = std::make_shared<ObstacleBody>();
-  body->id = models::Name("post");
-  body->collider = geometry::MakeCollider(geometry::Box{Vector3d(size, size, 0.4)}, "post");
-  Obstacle obstacle;
-  obstacle.body = body;
-  obstacle.X_WO.translation() = place;
-  return {{obstacle}};
-}
-
-class Bench : public SystemBench<ElasticBand> {
- public:
-  explicit Bench(const ObstacleSet& obstacles,
-                 const ElasticBand::Params& params = ElasticBand::Example())
-      : SystemBench(params, Planar()) {
-    (*this)->ahead.Fix(context(), Turn());
-    (*this)->obstacles.Fix(context(), obstacles);
-    Measure(Vector3d::Zero());
-  }
-  void Measure(const VectorXd& q) { (*this)->measured_position.Fix(context(), q); }
-  VectorXd Position() { return (*this)->position.Eval(context()); }
-  const BandMemory& Plan() { return (*this)->plan.Eval(context()); }
-  /// To the tick at k periods, that included; the arm follows.
-  void Tick(int k) {
-    AdvanceTo((k + 0.5) * 0.01);
-    Measure(Position());
-  }
-};
 
 std::string RefusalOf(const ElasticBand::Params& params) {
   try {
@@ -231,112 +190,6 @@ TEST(ElasticBandTest, NamesWhatBlocksAnArmThatDoesNotGetOn) {
   EXPECT_TRUE(bench.Plan().stuck);
   EXPECT_EQ(bench.Plan().obstacle, models::Name("post"));
   EXPECT_FALSE(bench.Plan().link.empty());
-}
-
-/// Ticks from k on, the arm following; how far it went in the last two seconds, summed.
-double WayOf(Bench& bench, int& k, int ticks) {
-  double way = 0.0;
-  VectorXd last = bench.Position();
-  for (const int end = k + ticks; k < end; ++k) {
-    bench.Tick(k);
-    if (k >= end - 200) way += (bench.Position() - last).norm();
-    last = bench.Position();
-  }
-  return way;
-}
-
-TEST(ElasticBandTest, ArrivesAtAGoalNearerToAThingThanWhatItPrefersToKeep) {
-  // At the goal the arm, 0.05 m thick, lies along y, 8 mm from the box behind it.
-  Bench bench(BoxAt({-0.108, 0.5, 0.0}));
-  int k = 0;
-  EXPECT_LT(WayOf(bench, k, 900), 1e-9);
-  EXPECT_TRUE(bench.Position().isApprox(Vector3d(1.57, 0, 0), 1e-9));
-  EXPECT_TRUE(bench.Plan().clear);
-  EXPECT_TRUE(bench.Plan().reaches);
-  EXPECT_FALSE(bench.Plan().stuck);
-  EXPECT_EQ(bench.Plan().lack, planning::BandLack::kGoal);
-  EXPECT_LT(bench.Plan().distance, 0.02);
-  EXPECT_GT(bench.Plan().distance, 0.002);
-  EXPECT_EQ(bench->clear.Eval(bench.context()).clear_for, 30.0) << "the filter lets it stand there";
-}
-
-TEST(ElasticBandTest, RestsBeforeAGoalInContactSaysSoAndGoesOnOnceItIsFree) {
-  Bench bench(BoxAt({0.0, 0.8, 0.0}, 0.4));
-  int k = 0;
-  EXPECT_LT(WayOf(bench, k, 1200), 0.01);
-  const BandMemory& plan = bench.Plan();
-  EXPECT_TRUE(plan.stuck);
-  EXPECT_TRUE(plan.clear);
-  EXPECT_EQ(plan.block, planning::BandBlock::kContact);
-  EXPECT_EQ(plan.block_body, models::Name("post"));
-  EXPECT_GT(plan.block_amount, 0.1);
-  EXPECT_LT((bench.Position() - Vector3d(1.57, 0, 0)).norm(), 1.57) << "it came nearer";
-  bench->obstacles.Fix(bench.context(), BoxAt({5.0, 5.0, 0.0}));
-  EXPECT_LT(WayOf(bench, k, 800), 1e-9);
-  EXPECT_TRUE(bench.Position().isApprox(Vector3d(1.57, 0, 0), 1e-9));
-  EXPECT_FALSE(bench.Plan().stuck);
-  EXPECT_EQ(bench.Plan().block, planning::BandBlock::kNone);
-}
-
-TEST(ElasticBandTest, FollowsAGoalThatMovesThroughContactAndOutOfIt) {
-  Bench bench(BoxAt({0.0, 0.8, 0.0}, 0.4));
-  int k = 0;
-  WayOf(bench, k, 800);
-  ASSERT_EQ(bench.Plan().block, planning::BandBlock::kContact);
-  // A new request every half a second, each 0.1 rad farther.
-  VectorXd goal = Vector3d(1.57, 0, 0);
-  double largest_step = 0.0;
-  for (int i = 0; i < 12; ++i) {
-    const VectorXd next = goal + Vector3d(0.1, 0, 0);
-    bench->ahead.Fix(
-        bench.context(),
-        RequestAhead{std::make_shared<const motion::Trajectory>(motion::Trajectory::CubicHermite(
-            {{.time = 0.01 * k, .position = goal}, {.time = 0.01 * k + 0.5, .position = next}}))});
-    goal = next;
-    for (int tick = 0; tick < 50; ++tick, ++k) {
-      const VectorXd before = bench.Position();
-      bench.Tick(k);
-      largest_step = std::max(largest_step, (bench.Position() - before).cwiseAbs().maxCoeff());
-    }
-  }
-  WayOf(bench, k, 1200);  // the way round the box takes its time
-  EXPECT_TRUE(bench.Position().isApprox(goal, 1e-6)) << bench.Position().transpose();
-  EXPECT_FALSE(bench.Plan().stuck);
-  EXPECT_EQ(bench.Plan().block, planning::BandBlock::kNone);
-  EXPECT_LT(largest_step, 0.02 + 1e-9) << "2 rad/s is the limit: no jump";
-}
-
-TEST(ElasticBandTest, SaysWhatBlocksToWhoAsksByItsRole) {
-  Bench bench(BoxAt({0.0, 0.8, 0.0}, 0.4));
-  const auto* const knows = bench->role<KnowsWhatBlocks>();
-  ASSERT_NE(knows, nullptr);
-  EXPECT_FALSE(knows->what(bench.context()).has_value());
-  int k = 0;
-  WayOf(bench, k, 300);
-  const auto what = knows->what(bench.context());
-  ASSERT_TRUE(what.has_value());
-  EXPECT_EQ(what->kind, "contact");
-  EXPECT_EQ(what->other, models::Name("post"));
-  EXPECT_EQ(what->unit, "m");
-  EXPECT_EQ(what->amount, bench.Plan().block_amount);
-  EXPECT_THAT(what->text, HasSubstr("m deep in post"));
-}
-
-TEST(ElasticBandTest, RestsAtTheLimitThatAGoalIsBeyond) {
-  Bench bench(BoxAt({5.0, 5.0, 0.0}));
-  const double limit = Planar().Get("arm")->upper_limits()[1];
-  bench->ahead.Fix(
-      bench.context(),
-      RequestAhead{std::make_shared<const motion::Trajectory>(motion::Trajectory::CubicHermite(
-          {{.time = 0.5, .position = Vector3d(0, 0, 0)},
-           {.time = 4.5, .position = Vector3d(0, limit + 0.2, 0)}}))});
-  int k = 0;
-  EXPECT_LT(WayOf(bench, k, 900), 0.01);
-  EXPECT_NEAR(bench.Position()[1], limit, 1e-3);
-  EXPECT_EQ(bench.Plan().block, planning::BandBlock::kLimit);
-  EXPECT_NEAR(bench.Plan().block_amount, 0.2, 1e-9);
-  EXPECT_EQ(bench.Plan().block_link, Planar().Get("arm")->position_names()[1]);
-  EXPECT_TRUE(bench.Plan().stuck);
 }
 
 TEST(ElasticBandTest, KnowsWhatStandsWhileSomethingElseDoesWhatNobodyForesaw) {
