@@ -50,10 +50,11 @@ bool CertifiedMotion::Clear(const Eigen::Ref<const Eigen::VectorXd>& q) {
 }
 
 bool CertifiedMotion::Clear(const Eigen::Ref<const Eigen::VectorXd>& q_0,
-                            const Eigen::Ref<const Eigen::VectorXd>& q_1) {
+                            const Eigen::Ref<const Eigen::VectorXd>& q_1, double room) {
   const int samples = CountOf((q_1 - q_0).norm(), kFirstPiece, kMostSamples);
   evaluations_ += (samples + kLanes - 1) / kLanes;
-  return batch().SamplesClear(q_0, q_1, samples, margin_) && ProvedShare(q_0, q_1, true) == 1.0;
+  return batch().SamplesClear(q_0, q_1, samples, margin_ + room) &&
+         ProvedShare(q_0, q_1, true) == 1.0;
 }
 
 double CertifiedMotion::ClearShare(const Eigen::Ref<const Eigen::VectorXd>& q_0,

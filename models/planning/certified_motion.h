@@ -27,8 +27,9 @@ class CertifiedMotion {
   /// Whether the position itself is clear.
   bool Clear(const Eigen::Ref<const Eigen::VectorXd>& q);
   /// Whether the motion from q_0 to q_1 is proved clear; samples, which say no at little cost, first.
+  /// With `room` (m) it says no, too, where these do not keep so much more than the margin.
   bool Clear(const Eigen::Ref<const Eigen::VectorXd>& q_0,
-             const Eigen::Ref<const Eigen::VectorXd>& q_1);
+             const Eigen::Ref<const Eigen::VectorXd>& q_1, double room = 0.0);
   /// The share of the motion from q_0 to q_1, from its start, that is proved clear; 0 to 1.
   double ClearShare(const Eigen::Ref<const Eigen::VectorXd>& q_0,
                     const Eigen::Ref<const Eigen::VectorXd>& q_1);

@@ -37,6 +37,9 @@ std::optional<Path> RrtConnect(robot::Clearance& clearance, const Eigen::VectorX
 
 long Shorten(robot::Clearance& clearance, const RrtOptions& options, Path& path) {
   CertifiedMotion motion(clearance, options.margin);
+  if (path.size() <= 2) return 0;
+  // Whatever is nearer takes long to prove.
+  const double room = motion.RoomOf(path.front(), path.back(), kSampleRoom);
   models::Random random(models::Random::Seed(options.seed, "shorten"));
   for (int i = 0; i < options.shortcuts && path.size() > 2; ++i) {
     // Two points on different edges, anywhere on them.
@@ -46,7 +49,7 @@ long Shorten(robot::Clearance& clearance, const RrtOptions& options, Path& path)
     if (a > b) std::swap(a, b);
     const Eigen::VectorXd from = path[a] + random.Unit() * (path[a + 1] - path[a]);
     const Eigen::VectorXd to = path[b] + random.Unit() * (path[b + 1] - path[b]);
-    if (!motion.Clear(from, to)) continue;
+    if (!motion.Clear(from, to, room)) continue;
     Path shorter(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(a) + 1);
     shorter.push_back(from);
     shorter.push_back(to);
