@@ -78,7 +78,11 @@ struct BandMemory {
   models::Name obstacle{};
   double time{0.0};  ///< s; of the nearest
   double cost{0.0};
-  std::uint64_t evaluations{0};  ///< configurations that the last plan looked at
+  PlanWork work{};            ///< of the last plan, whether it was late or not
+  double charged{0.0};        ///< s; what that counts as
+  std::uint64_t overruns{0};  ///< plans that took longer than they had
+  double lead{0.0};           ///< s; that the next plan has at least, after one that was late
+  double busy_until{0.0};     ///< s; before then no other plan is begun
 
   void Unblock() {
     block = BandBlock::kNone;

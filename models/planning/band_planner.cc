@@ -51,9 +51,23 @@ double BandPlanner::HorizonOf(const BandTask& task, bool moving) const {
   return std::min(horizon, settings_.most_horizon);
 }
 
+PlanWork BandPlanner::Work() const {
+  return {1, band_.evaluations() - begun_, certified_looks_, path_looks_};
+}
+
+long BandPlanner::LooksLeft(double price, long most) const {
+  const double left = most_time_ - settings_.prices.Of(Work());
+  if (left >= price * static_cast<double>(most)) return most;
+  return std::max(static_cast<long>(left / price), 0L);
+}
+
 int BandPlanner::StepsLeft(int wanted) const {
-  if (settings_.most_evaluations == 0) return wanted;
-  const long left = settings_.most_evaluations - (band_.evaluations() - begun_) - certified_looks_;
+  constexpr long kUnbounded = 1'000'000'000;
+  const PlanWork work = Work();
+  const long left =
+      LooksLeft(settings_.prices.band, settings_.most_evaluations == 0
+                                           ? kUnbounded
+                                           : settings_.most_evaluations - work.band - work.exact);
   // A start costs its look at the finer grid of Check too.
   return static_cast<int>(std::clamp<long>(left / band_.num_samples() - 3, 0, wanted));
 }
@@ -248,6 +262,7 @@ std::optional<BandPlan> BandPlanner::KeepLast(const BandTask& task, const BandCu
 BandPlan BandPlanner::Plan(const BandTask& task, const BandCurve* last) {
   begun_ = band_.evaluations();
   begin_ = task.start;
+  most_time_ = task.most_time;
   moving_ = Moves(task.bodies);
   certified_looks_ = path_looks_ = 0;
   PrepareStanding(task);
@@ -257,7 +272,7 @@ BandPlan BandPlanner::Plan(const BandTask& task, const BandCurve* last) {
   if (task.paths != nullptr && best.check.clear() && best.reaches && best.level == 0) {
     task.paths->Reset();
   }
-  best.evaluations = band_.evaluations() - begun_ + certified_looks_ + path_looks_;
+  best.work = Work();
   return best;
 }
 

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -11,6 +12,7 @@
 
 #include "oca/models/planning/band_optimizer.h"
 #include "oca/models/planning/path_search.h"
+#include "oca/models/planning/plan_work.h"
 
 namespace oca::planning {
 
@@ -28,8 +30,9 @@ struct BandPlannerSettings {
   int random_starts{24};        ///< beside those of single joints
   int paths{2};                 ///< of RrtConnect, where the work is not bounded
   int path_nodes{2000};         ///< each
-  long path_evaluations{1000};  ///< of a PathSearch, besides most_evaluations
+  long path_evaluations{300};   ///< looks of a PathSearch, besides most_evaluations
   long most_evaluations{0};     ///< of configurations, about, that a plan may cost; 0: no bound
+  PlanPrices prices{};          ///< of its work, beside BandTask::most_time
   double least_horizon{2.0};    ///< s
   double moving_horizon{3.0};   ///< s; at most, while something moves
   double most_horizon{30.0};    ///< s
@@ -43,7 +46,9 @@ inline constexpr std::array kBandLackNames{"none", "start", "goal", "passage", "
 
 /// What a band is planned for.
 struct BandTask {
-  double start{0.0};             ///< s
+  double start{0.0};  ///< s
+  /// s; that the plan may cost, about: what can be left out is when its work has cost so much
+  double most_time{std::numeric_limits<double>::infinity()};
   Eigen::VectorXd deviation[3];  /// at the start: position, velocity, acceleration
   BandRequest request{};
   double request_end{0.0};  ///< s; from then on it rests
@@ -69,7 +74,7 @@ struct BandPlan {
   models::Name goal_link{}, goal_body{};  ///< the pair
   models::Name rest_link{}, rest_body{};  ///< of an exhausted search: what is near where it ended,
   double rest_room{0.0};                  ///< and how near, m
-  long evaluations{0};                    ///< configurations that were looked at
+  PlanWork work{};                        ///< that it took
 };
 
 /// Of wide bands there are several degrees, m: what stands is kept as far away as this all along,
@@ -167,6 +172,8 @@ class BandPlanner {
   /// Makes a band of a path, on a grid that is long and fine enough for it.
   void TryPath(const BandTask& task, const std::vector<Eigen::VectorXd>& path, BandPlan& best);
   BandCurve Along(const BandTask& task, const std::vector<Eigen::VectorXd>& path) const;
+  PlanWork Work() const;
+  long LooksLeft(double price, long most) const;
   int StepsLeft(int wanted) const;
   bool Better(const BandPlan& plan, const BandPlan& best) const;
   void Keep(const BandTask& task, BandPlan plan, BandPlan& best);
@@ -181,6 +188,7 @@ class BandPlanner {
   BandOptimizer::Room end_room_{};
   bool moving_{false};       ///< something does
   double begin_{0.0};        ///< s; of this plan
+  double most_time_{0.0};    ///< s; that it may cost
   long begun_{0};            ///< evaluations before this plan
   long certified_looks_{0};  ///< besides those of the band
   long path_looks_{0};       ///< of the search for paths, which has a bound of its own

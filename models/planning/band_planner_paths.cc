@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 // Of paths where the work of a plan is bounded.
 constexpr int kBoundedNodes = 150;
 constexpr int kBoundedShortcuts = 50;
-constexpr int kShortcuts = 150;         // of what a PathSearch found
+constexpr int kShortcuts = 60;          // of what a PathSearch found
 constexpr std::uint64_t kPathTurn = 3;  // one of so many plans looks for paths, if anything moves
 constexpr double kPathRoom = 1.3;       // times what a band keeps, so that it may bend
 constexpr double kEndRoom = 1.02;       // times what must be kept: as much is left at an end
@@ -123,7 +123,7 @@ void BandPlanner::GoOnSearching(const BandTask& task, BandPlan& best) {
   long looks = 0;
   standing_->KeepOwn(own_, search.margin());
   search.MoveStart(*standing_, here, looks);
-  search.Continue(*standing_, settings_.path_evaluations, looks);
+  search.Continue(*standing_, LooksLeft(settings_.prices.batch, settings_.path_evaluations), looks);
   path_looks_ += looks;
   if (search.state() == PathSearch::State::kFound) {
     std::vector<VectorXd> path = search.path();
@@ -131,7 +131,7 @@ void BandPlanner::GoOnSearching(const BandTask& task, BandPlan& best) {
     options.seed = task.seed;
     options.margin = search.margin();
     options.shortcuts = kShortcuts;
-    Shorten(*standing_, options, path);
+    path_looks_ += Shorten(*standing_, options, path);
     standing_->KeepOwn(own_, settings_.band.clear_distance);
     TryPath(task, path, best);
     search.Reset();

@@ -19,6 +19,8 @@ constexpr int kMostPause = 20;            // plans between two searches that fai
 constexpr double kOnTightPlan = 0.001;    // rad, m; where it passes nearer than kTight
 constexpr double kTight = 0.01;           // m
 constexpr double kOffFor = 0.3;           // s; off its band, after which an arm has left it
+constexpr double kMoreTime = 1.25;        // times what a plan took that was late, for the next
+constexpr double kSameTime = 1e-9;        // s
 
 }  // namespace
 
@@ -209,6 +211,7 @@ BandTask BandReplanner::MakeTask(const BandSituation& now, double start,
                                  BandMemory& memory) const {
   BandTask task;
   task.start = start;
+  task.most_time = start - now.time;
   task.request = [request = now.request.get()](double t, int derivative, Eigen::Ref<VectorXd> out) {
     request->Evaluate(t, derivative, out);
   };
@@ -223,7 +226,7 @@ BandTask BandReplanner::MakeTask(const BandSituation& now, double start,
   }
   if (Astray(now, memory)) {
     const VectorXd v = rate ? VectorXd(*rate) : VectorXd::Zero(now.measured.size());
-    task.deviation[0] = now.measured + settings_.period * v;
+    task.deviation[0] = now.measured + task.most_time * v;
     task.deviation[0] -= now.request->Evaluate(task.start, 0);
     task.deviation[1] = v - now.request->Evaluate(task.start, 1);
     task.deviation[2].setZero();
@@ -236,10 +239,32 @@ BandTask BandReplanner::MakeTask(const BandSituation& now, double start,
   return task;
 }
 
+double BandReplanner::TimeToPlan(const BandMemory& memory) const {
+  return std::max(settings_.plan_time, memory.lead);
+}
+
 void BandReplanner::Plan(const BandSituation& now, double start,
                          const std::optional<BandSituation::Positions>& rate,
                          BandMemory& memory) const {
-  if (Kept(now, memory)) return;
+  if (now.time < memory.busy_until - kSameTime || Kept(now, memory)) return;
+  BandMemory made = memory;
+  MakePlan(now, start, rate, made);
+  if (made.charged <= start - now.time + kSameTime) {
+    memory = std::move(made);
+    memory.lead = 0.0;
+    memory.busy_until = start;
+    return;
+  }
+  memory.work = made.work;
+  memory.charged = made.charged;
+  memory.busy_until = now.time + made.charged;
+  memory.lead = kMoreTime * std::max(made.charged, memory.lead);
+  ++memory.overruns;
+}
+
+void BandReplanner::MakePlan(const BandSituation& now, double start,
+                             const std::optional<BandSituation::Positions>& rate,
+                             BandMemory& memory) const {
   const bool foreseen = memory.plans > 0 && now.request == memory.request &&
                         AsForeseen({memory.seen, memory.seen_estimates},
                                    {now.obstacles, now.estimates}, Since(now.time, memory)) &&
@@ -299,7 +324,8 @@ void BandReplanner::Plan(const BandSituation& now, double start,
     memory.tight = false;
   }
   memory.cost = found.cost;
-  memory.evaluations = static_cast<std::uint64_t>(found.evaluations);
+  memory.work = found.work;
+  memory.charged = settings_.planner.prices.Of(found.work);
   GiveWay(now, found, memory);
 }
 

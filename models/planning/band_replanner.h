@@ -21,7 +21,7 @@ namespace oca::planning {
 
 struct ReplanSettings {
   BandPlannerSettings planner{};
-  double period{0.02};           ///< s; from plan to plan, and to make one
+  double plan_time{0.02};        ///< s; that there is to make a plan
   double prediction{2.0};        ///< s; how long obstacles are taken to go on as now
   double restart_distance{0.1};  ///< rad, m; of arm and band above which plans start from the arm
   double stuck_time{2.0};        ///< s; without progress, after which the arm is stuck
@@ -65,8 +65,17 @@ class BandReplanner {
   /// before, nor had a plan that leads there.
   void Follow(const BandSituation& now, BandMemory& memory) const;
 
-  /// Makes the plan that begins at `start` (s), unless the last one is kept. `rate` is the arm's
-  /// velocity, 0 if it is not known. Allocates if it plans.
+  /// For how long the next plan may be made before it begins, s: plan_time, or what one that was late
+  /// has taken.
+  double TimeToPlan(const BandMemory& memory) const;
+
+  /// Makes the plan that begins at `start` (s), unless the last one is kept, or one is still being
+  /// made. `rate` is the arm's velocity, 0 if it is not known. Allocates if it plans.
+  ///
+  /// The plan's work is counted and priced (PlanPrices). If it counts as more time than there is up
+  /// to `start` the plan is late: it is thrown away, the band before it goes on, for no band could
+  /// begin in a state that was not known when it was planned; nothing else is planned while it would
+  /// have been made, and the next one gets a quarter more time than it took, from the same memory.
   void Plan(const BandSituation& now, double start,
             const std::optional<BandSituation::Positions>& rate, BandMemory& memory) const;
 
@@ -90,6 +99,8 @@ class BandReplanner {
   void Forget(const BandSituation& now, BandMemory& memory) const;
   /// From the request's goal to where the arm is to end; empty if that is the goal.
   Eigen::VectorXd EndFor(const BandSituation& now, const BandMemory& memory) const;
+  void MakePlan(const BandSituation& now, double start,
+                const std::optional<BandSituation::Positions>& rate, BandMemory& memory) const;
   void GiveWay(const BandSituation& now, const BandPlan& found, BandMemory& memory) const;
   void IgnoreOwnLinks(const BandSituation& now, BandPlanner& planner) const;
   BandTask MakeTask(const BandSituation& now, double start, std::span<const BandBody> bodies,

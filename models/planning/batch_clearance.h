@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -11,16 +12,19 @@
 namespace oca::planning {
 namespace internal {
 struct BatchAnswer;
+struct BatchKernel;
 struct BatchScene;
+using LaneArray = std::array<float, 8>;
 }  // namespace internal
 
 /// Tells of many configurations which are clear, eight at once: first by balls that contain the
 /// links against bodies, or what contains these, in single precision; then exactly, where that
 /// cannot decide, the pairs in question alone.
 ///
-/// Balls that the links contain prove contact the same way. What it calls clear is clear. What the balls alone call clear is too: their thresholds are
-/// widened by what single precision may err, 2e-6 (n + 2) of the arm's reach and 2e-6 of how far a
-/// body's middle is from the base. All processors give the same bits.
+/// Balls that the links contain prove contact the same way. What it calls clear is clear. What the
+/// balls alone call clear is too: their thresholds are widened by what single precision may err,
+/// 2e-6 (n + 2) of the arm's reach and 2e-6 of how far a body's middle is from the base. All
+/// processors give the same bits.
 ///
 /// Bodies, own pairs and what is ignored are those of the Clearance when this was made (compare its
 /// version()); it must outlive this, and is left at some position. No heap once made.
@@ -38,6 +42,20 @@ class BatchClearance {
   unsigned Clear(const Eigen::Ref<const Eigen::MatrixXd>& q, int count, double margin);
   /// The same by the balls alone: a bit is 0 also where they cannot decide.
   unsigned SurelyClear(const Eigen::Ref<const Eigen::MatrixXd>& q, int count, double margin);
+
+  /// How many of the first columns are clear, up to the first of `count` that is not.
+  int CountClear(const Eigen::Ref<const Eigen::MatrixXd>& q, int count, double margin);
+
+  /// What is known of configurations, a bit each.
+  struct Around {
+    unsigned clear;    ///< nothing is nearer than the margin, wherever the joints go
+    unsigned contact;  ///< something is nearer at the configuration itself; not all such are found
+  };
+  /// The same of all that can be reached from the columns of q by motions of which no joint goes
+  /// farther, either way, than the column of `path` says (as q; >= 0, rad or m): with a
+  /// robot::TravelBound of the ball around each link.
+  Around ClearAround(const Eigen::Ref<const Eigen::MatrixXd>& q,
+                     const Eigen::Ref<const Eigen::MatrixXd>& path, int count, double margin);
 
   /// Whether all of `count` positions evenly spread on the straight motion from q_0 to q_1 are
   /// clear, q_1 included and q_0 not; the ends of halves are looked at first.
@@ -58,7 +76,16 @@ class BatchClearance {
   void AddSolid(int body, const geometry::Collider& solid, const Eigen::Isometry3d& X_OB,
                 double uncertain);
   internal::BatchAnswer Ask(const Eigen::Ref<const Eigen::MatrixXd>& q, int count, double margin);
-  bool ExactlyClear(const Eigen::Ref<const Eigen::VectorXd>& q, unsigned lane, double margin);
+  internal::BatchAnswer AskAround(const Eigen::Ref<const Eigen::MatrixXd>& q,
+                                  const Eigen::Ref<const Eigen::MatrixXd>& path, int count,
+                                  double margin);
+  void Load(const Eigen::Ref<const Eigen::MatrixXd>& q, int count);
+  internal::BatchAnswer AskKernel(const internal::LaneArray* paths, int count, double margin);
+  enum class Exactly { kClear, kNear, kContact };
+  /// Of the pairs that the last question left open; near: as far as the link may travel.
+  Exactly LookExactly(const Eigen::Ref<const Eigen::VectorXd>& q, int lane, double margin,
+                      bool travels);
+  double TravelOf(int link, int frame, int lane) const;
 
   robot::Clearance& clearance_;
   struct Mover {
@@ -66,14 +93,13 @@ class BatchClearance {
     int column;
     double multiplier, offset;
   };
-  struct Kernel;                         // what it works on
   std::vector<Mover> movers_;            // one a frame
   std::vector<int> frame_of_;            // of each link of the model
   std::vector<Eigen::Isometry3d> X_FL_;  // of each link in its frame
   std::vector<int> numbers_;             // in the model, of the scene's links
   double reach_{0.0};                    // of any point of the robot from the base, m
   double error_{0.0};                    // m
-  std::unique_ptr<Kernel> kernel_;
+  std::unique_ptr<internal::BatchKernel> kernel_;
   Eigen::MatrixXd samples_;  // n x kLanes
   std::int64_t looked_at_{0}, undecided_{0};
 };

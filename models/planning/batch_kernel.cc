@@ -2,108 +2,14 @@
 #include "oca/models/planning/batch_kernel.h"
 
 #include <algorithm>
-#include <bit>
+#include <atomic>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
-
-// All of it is inlined into CheckLanes and CheckLanesPortable, so no vector is ever passed.
-#pragma GCC diagnostic ignored "-Wpsabi"
-#define OCA_INLINED inline __attribute__((always_inline))
+#include "oca/models/planning/batch_lanes.h"
 
 namespace oca::planning::internal {
 namespace {
-
-using Lanes = float __attribute__((vector_size(32)));
-using Bits = std::int32_t __attribute__((vector_size(32)));
-
-OCA_INLINED Lanes Load(const LaneArray& from) {
-  Lanes lanes;
-  std::memcpy(&lanes, from.data(), sizeof lanes);
-  return lanes;
-}
-
-OCA_INLINED void Store(const Lanes& lanes, LaneArray& to) {
-  std::memcpy(to.data(), &lanes, sizeof lanes);
-}
-
-/// A bit a lane.
-OCA_INLINED unsigned MaskOf(const Bits& bits) {
-#if defined(__SSE2__)
-  __m128 half[2];
-  std::memcpy(half, &bits, sizeof half);
-  return static_cast<unsigned>(_mm_movemask_ps(half[0]) | (_mm_movemask_ps(half[1]) << 4));
-#else
-  unsigned mask = 0;
-  for (int lane = 0; lane < kLanes; ++lane) mask |= bits[lane] < 0 ? 1u << lane : 0u;
-  return mask;
-#endif
-}
-
-OCA_INLINED Lanes Abs(const Lanes& x) {
-  return std::bit_cast<Lanes>(std::bit_cast<Bits>(x) & 0x7fffffff);
-}
-
-/// The part above 0; of NaN, NaN.
-OCA_INLINED Lanes Positive(const Lanes& x) { return x < 0.0f ? Lanes{} : x; }
-
-struct Point {
-  Lanes x, y, z;
-};
-
-OCA_INLINED Lanes SquaredNorm(const Point& p) { return p.x * p.x + p.y * p.y + p.z * p.z; }
-
-/// For angles from -pi to pi, to 1e-7. source Cephes, sinf.c
-OCA_INLINED void SinCos(const Lanes& angle, Lanes& sine, Lanes& cosine) {
-  constexpr float kRound = 12582912.0f;  // 1.5 * 2^23: to add it rounds
-  const Lanes turns = (angle * 0.63661977f + kRound) - kRound;
-  const Bits quarter = __builtin_convertvector(turns, Bits);
-  const Lanes r = ((angle - turns * 1.5703125f) - turns * 4.837512969970703125e-4f) -
-                  turns * 7.549789948768648e-8f;
-  const Lanes z = r * r;
-  const Lanes s = r + r * z * (-1.6666654611e-1f + z * (8.3321608736e-3f + z * -1.9515295891e-4f));
-  const Lanes c =
-      1.0f - 0.5f * z +
-      z * z * (4.166664568298827e-2f + z * (-1.388731625493765e-3f + z * 2.443315711809948e-5f));
-  const Bits swapped = (quarter & 1) != 0;
-  const Lanes sine_part = swapped ? c : s;
-  const Lanes cosine_part = swapped ? s : c;
-  sine = (quarter & 2) != 0 ? -sine_part : sine_part;
-  cosine = ((quarter + 1) & 2) != 0 ? -cosine_part : cosine_part;
-}
-
-/// A pose in each lane: columns of the rotation, position.
-struct Pose {
-  Point u, v, w, p;
-};
-
-OCA_INLINED Point Combine(const Pose& X, float a, float b, float c) {
-  return {X.u.x * a + X.v.x * b + X.w.x * c, X.u.y * a + X.v.y * b + X.w.y * c,
-          X.u.z * a + X.v.z * b + X.w.z * c};
-}
-
-OCA_INLINED Point Transform(const Pose& X, const std::array<float, 3>& point) {
-  const Point turned = Combine(X, point[0], point[1], point[2]);
-  return {turned.x + X.p.x, turned.y + X.p.y, turned.z + X.p.z};
-}
-
-OCA_INLINED void StorePoint(const Point& point, LaneArray* to) {
-  Store(point.x, to[0]);
-  Store(point.y, to[1]);
-  Store(point.z, to[2]);
-}
-
-OCA_INLINED Point LoadPoint(const LaneArray* from) {
-  return {Load(from[0]), Load(from[1]), Load(from[2])};
-}
-
-OCA_INLINED Pose LoadPose(const LaneArray* from) {
-  return {LoadPoint(from), LoadPoint(from + 3), LoadPoint(from + 6), LoadPoint(from + 9)};
-}
 
 OCA_INLINED void PlaceFrames(const BatchScene& scene, const LaneArray* motion,
                              BatchWorkspace& work) {
@@ -132,11 +38,50 @@ OCA_INLINED void PlaceFrames(const BatchScene& scene, const LaneArray* motion,
   }
 }
 
+constexpr LaneArray kNowhere{};
+
+/// How far a link may travel relative to a frame that carries it.
+OCA_INLINED const LaneArray& TravelOf(const BatchScene& scene, const BatchQuestion& question,
+                                      const BatchWorkspace& work, int link, int frame) {
+  if (question.paths == nullptr) return kNowhere;
+  return work.travels[static_cast<std::size_t>(link) * (scene.frames.size() + 1) +
+                      static_cast<std::size_t>(frame)];
+}
+
+/// source robot::TravelBound
+OCA_INLINED void PlaceTravels(const BatchScene& scene, const BatchQuestion& question,
+                              BatchWorkspace& work) {
+  for (std::size_t i = static_cast<std::size_t>(scene.moving); i < scene.links.size(); ++i) {
+    const BatchLink& link = scene.links[i];
+    LaneArray* const travels = work.travels.data() + i * (scene.frames.size() + 1);
+    const Point centre = LoadPoint(work.centres.data() + 3 * i);
+    Lanes sum{};
+    Store(sum, travels[link.frame]);
+    for (int at = link.frame; at > 0;) {
+      const BatchFrame& frame = scene.frames[static_cast<std::size_t>(at) - 1];
+      const Lanes path = Load(question.paths[at - 1]);
+      if (frame.slides) {
+        sum = sum + path;
+      } else {
+        const Pose X = LoadPose(work.frames.data() + 12 * at);
+        const Point d{centre.x - X.p.x, centre.y - X.p.y, centre.z - X.p.z};
+        const Point side{X.w.y * d.z - X.w.z * d.y, X.w.z * d.x - X.w.x * d.z,
+                         X.w.x * d.y - X.w.y * d.x};
+        sum = sum +
+              path * (Sqrt(SquaredNorm(side)) + (link.around.radius + 2.0f * question.error) + sum);
+      }
+      at = frame.parent;
+      Store(sum, travels[at]);
+    }
+  }
+}
+
 constexpr float kNever = -std::numeric_limits<float>::infinity();
 
 /// A ball's margins: something may be nearer, or surely is.
 struct Reach {
-  float may, surely;
+  Lanes may;
+  float surely;
 };
 
 /// Where a ball about `at` is near a solid.
@@ -144,18 +89,16 @@ OCA_INLINED BatchAnswer NearSolid(const BatchSolid& solid, const Point& at, cons
   const Point d{at.x - solid.centre[0], at.y - solid.centre[1], at.z - solid.centre[2]};
   const std::array<float, 9>& R = solid.R;
   const Lanes z = R[2] * d.x + R[5] * d.y + R[8] * d.z;
-  const float may = reach.may + solid.radius;
+  const Lanes may = reach.may + solid.radius;
   const float surely = reach.surely + solid.inner;
   if (solid.core == BatchCore::kPlane) return {MaskOf(!(z > may)), MaskOf(z < surely)};
-  const float around = reach.may + solid.reach;
+  const Lanes around = reach.may + solid.reach;
   if (MaskOf(!(SquaredNorm(d) > around * around)) == 0) return {0, 0};
   Point out{R[0] * d.x + R[3] * d.y + R[6] * d.z, R[1] * d.x + R[4] * d.y + R[7] * d.z,
             Positive(Abs(z) - solid.half[2])};
   if (solid.core == BatchCore::kCylinder) {
     const Lanes square = out.x * out.x + out.y * out.y;
-    Lanes radial;
-    for (int lane = 0; lane < kLanes; ++lane) radial[lane] = std::sqrt(square[lane]);
-    out.x = Positive(radial - solid.half[0]);
+    out.x = Positive(Sqrt(square) - solid.half[0]);
     out.y = Lanes{};
   } else {
     out.x = Positive(Abs(out.x) - solid.half[0]);
@@ -197,8 +140,9 @@ OCA_INLINED bool IsIgnored(const BatchScene& scene, int link, int body) {
   return false;
 }
 
-OCA_INLINED Reach ReachOf(const BatchBall& ball, float margin, float error) {
-  return {margin + error + ball.radius, ball.inner > 0.0f ? margin - error + ball.inner : kNever};
+OCA_INLINED Reach ReachOf(const BatchBall& ball, const Lanes& travel, float margin, float error) {
+  return {travel + (margin + error + ball.radius),
+          ball.inner > 0.0f ? margin - error + ball.inner : kNever};
 }
 
 /// Leaves the lanes that are surely decided out of the rest.
@@ -207,7 +151,8 @@ OCA_INLINED void CheckSolids(const BatchScene& scene, const BatchQuestion& quest
   for (int i = scene.moving; i < static_cast<int>(scene.links.size()); ++i) {
     const BatchLink& link = scene.links[static_cast<std::size_t>(i)];
     const Point centre = LoadPoint(work.centres.data() + 3 * i);
-    const Reach around = ReachOf(link.around, question.margin, question.error);
+    const Lanes travel = Load(TravelOf(scene, question, work, i, 0));
+    const Reach around = ReachOf(link.around, travel, question.margin, question.error);
     for (const BatchSolid& solid : scene.solids) {
       const unsigned asked = question.lanes & ~answer.surely;
       const unsigned near = NearSolid(solid, centre, around).open & asked;
@@ -217,7 +162,7 @@ OCA_INLINED void CheckSolids(const BatchScene& scene, const BatchQuestion& quest
       for (int k = link.first; k < link.last && surely != near; ++k) {
         const BatchBall& ball = scene.balls[static_cast<std::size_t>(k)];
         const BatchAnswer one = NearSolid(solid, LoadPoint(work.balls.data() + 3 * k),
-                                          ReachOf(ball, question.margin, question.error));
+                                          ReachOf(ball, travel, question.margin, question.error));
         found |= one.open & near;
         surely |= one.surely & near;
       }
@@ -244,7 +189,10 @@ OCA_INLINED void CheckPairs(const BatchScene& scene, const BatchQuestion& questi
     const BatchLink& a = scene.links[static_cast<std::size_t>(pair.link)];
     const BatchLink& b = scene.links[static_cast<std::size_t>(pair.other)];
     const float margin = question.margin * pair.share;
-    const Reach around{margin + question.error + a.around.radius + b.around.radius, kNever};
+    const Lanes travel = Load(TravelOf(scene, question, work, pair.link, pair.frame)) +
+                         Load(TravelOf(scene, question, work, pair.other, pair.frame));
+    const Reach around{travel + (margin + question.error + a.around.radius + b.around.radius),
+                       kNever};
     const unsigned near = NearEachOther(LoadPoint(work.centres.data() + 3 * pair.link),
                                         LoadPoint(work.centres.data() + 3 * pair.other), around)
                               .open &
@@ -256,7 +204,7 @@ OCA_INLINED void CheckPairs(const BatchScene& scene, const BatchQuestion& questi
     for (int k = a.first; k < a.last && surely != near; ++k) {
       const BatchBall& ball = scene.balls[static_cast<std::size_t>(k)];
       const Point at = LoadPoint(work.balls.data() + 3 * k);
-      const Reach reach = ReachOf(ball, margin, question.error);
+      const Reach reach = ReachOf(ball, travel, margin, question.error);
       for (int m = b.first; m < b.last; ++m) {
         const BatchBall& other = scene.balls[static_cast<std::size_t>(m)];
         const bool known = reach.surely > 0.0f && other.inner > 0.0f;
@@ -285,6 +233,7 @@ OCA_INLINED BatchAnswer Check(const BatchScene& scene, const BatchQuestion& ques
     const Pose X = LoadPose(work.frames.data() + 12 * link.frame);
     StorePoint(Transform(X, link.around.centre), work.centres.data() + 3 * i);
   }
+  if (question.paths != nullptr) PlaceTravels(scene, question, work);
   BatchAnswer answer{0, 0};
   CheckSolids(scene, question, work, answer);
   CheckPairs(scene, question, work, answer);
@@ -302,16 +251,21 @@ __attribute__((target("avx2"))) BatchAnswer CheckLanesAvx2(const BatchScene& sce
 const bool kHasAvx2 = __builtin_cpu_supports("avx2");
 #endif
 
+std::atomic<bool> portable_alone{false};
+
 }  // namespace
 
 BatchWorkspace::BatchWorkspace(const BatchScene& scene)
     : frames(12 * (scene.frames.size() + 1), LaneArray{}),
       centres(3 * scene.links.size()),
       balls(3 * scene.balls.size()),
+      travels(scene.links.size() * (scene.frames.size() + 1), LaneArray{}),
       done(scene.links.size()) {
   for (const std::size_t one : {0, 4, 8}) frames[one].fill(1.0f);  // the base
   found.reserve(scene.links.size() * scene.solids.size() + scene.pairs.size());
 }
+
+void ForcePortable(bool portable) { portable_alone = portable; }
 
 BatchAnswer CheckLanesPortable(const BatchScene& scene, const BatchQuestion& question,
                                BatchWorkspace& work) {
@@ -321,7 +275,9 @@ BatchAnswer CheckLanesPortable(const BatchScene& scene, const BatchQuestion& que
 BatchAnswer CheckLanes(const BatchScene& scene, const BatchQuestion& question,
                        BatchWorkspace& work) {
 #if defined(__x86_64__)
-  if (kHasAvx2) return CheckLanesAvx2(scene, question, work);
+  if (kHasAvx2 && !portable_alone.load(std::memory_order_relaxed)) {
+    return CheckLanesAvx2(scene, question, work);
+  }
 #endif
   return CheckLanesPortable(scene, question, work);
 }

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace oca::planning::internal {
@@ -13,6 +15,11 @@ namespace oca::planning::internal {
 
 inline constexpr int kLanes = 8;
 using LaneArray = std::array<float, kLanes>;
+
+/// The next number above.
+inline float Above(double value) {
+  return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
+}
 
 /// A frame that a joint moves: X_PF = X, then the joint's turn about z, or slide along it. Frame 0
 /// is the base, which is not listed.
@@ -53,6 +60,7 @@ struct BatchSolid {
 
 struct BatchPair {
   int link, other;
+  int frame;    // the last that carries both
   float share;  // of the margin that this pair has to keep
 };
 
@@ -85,27 +93,41 @@ struct BatchWorkspace {
   std::vector<LaneArray> frames;    // 12 each: columns of the rotation, position
   std::vector<LaneArray> centres;   // 3 a link
   std::vector<LaneArray> balls;     // 3 a ball
+  std::vector<LaneArray> travels;   // of each link, m, relative to each frame that carries it
   std::vector<unsigned char> done;  // links whose balls are there
   std::vector<BatchCandidate> found;
 };
 
-/// What is nearer than `margin` (of an own pair, than its share of it) may be too near.
+/// What is nearer than `margin` (of an own pair, than its share of it) may be too near; with paths,
+/// what is nearer than that and as far as links may travel.
 struct BatchQuestion {
   const LaneArray* motion;  // of each frame's joint: angle from -pi to pi, or way
+  const LaneArray* paths;   // that each frame's joint may go from there, either way; null: none
   float margin;
   float error;     // m, that distances may be wrong by
   unsigned lanes;  // that are asked for
 };
 
-/// What is known of the lanes, a bit each: that something may be too near, and that it surely is.
+/// What is known of the lanes, a bit each: that something may be too near, and that it surely is,
+/// without any travel.
 struct BatchAnswer {
   unsigned open;  // lanes of `surely` included
   unsigned surely;
 };
 
-/// What may be too near is in `work.found`, of the lanes that are not surely decided.
+/// What a BatchClearance works on; a lane array a frame of motion and paths.
+struct BatchKernel {
+  BatchScene scene{};
+  std::vector<LaneArray> motion{}, paths{};
+  BatchWorkspace work{scene};
+};
+
+/// What may be too near is in `work.found`, of the lanes that are not surely decided; how far links
+/// travel, if that was asked for, in `work.travels` (robot::TravelBound of the ball around each).
 BatchAnswer CheckLanes(const BatchScene& scene, const BatchQuestion& question,
                        BatchWorkspace& work);
+/// Whether CheckLanes is to do without what only some processors have; for tests.
+void ForcePortable(bool portable);
 /// The same, by instructions that every processor has.
 BatchAnswer CheckLanesPortable(const BatchScene& scene, const BatchQuestion& question,
                                BatchWorkspace& work);

@@ -2,29 +2,46 @@
 #include "oca/models/planning/certified_motion.h"
 
 #include <algorithm>
-#include <bit>
+#include <array>
+#include <cassert>
+#include <cmath>
 
 namespace oca::planning {
 namespace {
 
-// Steps shorter than this share of the motion count as contact.
-constexpr double kLeastShare = 1e-3;
-// Of a shorter motion, rad and m, samples tell no more than the proof does.
-constexpr double kShort = 0.1;
+constexpr int kLanes = BatchClearance::kLanes;
+constexpr int kMostSamples = 1000;
+// Pieces and samples, 2-norm of the joints, rad and m.
+constexpr double kFirstPiece = 0.0625;
+constexpr double kLeastPiece = 1e-4;   // that is not halved any more
+constexpr double kLeastShare = 2e-5;   // the same of a motion
+constexpr int kMostFirst = 256;        // pieces of a motion
+constexpr std::size_t kUsually = 300;  // pieces at a time
+
+int CountOf(double length, double spacing, int most) {
+  if (!(length <= spacing * most)) return most;
+  return std::max(static_cast<int>(std::ceil(length / spacing)), 1);
+}
 
 }  // namespace
 
 CertifiedMotion::CertifiedMotion(robot::Clearance& clearance, double margin)
     : clearance_(clearance),
       margin_(margin),
-      bound_(clearance.model()),
-      q_(clearance.model().num_positions()),
-      path_(clearance.model().num_positions()),
-      samples_(clearance.model().num_positions(), BatchClearance::kLanes),
-      distances_(static_cast<std::size_t>(clearance.model().num_links())),
-      own_distances_(clearance.own_pairs().size()),
-      travel_(static_cast<std::size_t>(clearance.model().num_links())),
-      approach_(clearance.own_pairs().size()) {}
+      way_(clearance.model().num_positions()),
+      samples_(clearance.model().num_positions(), kLanes),
+      paths_(clearance.model().num_positions(), kLanes) {
+  assert(margin >= 0.0);
+  pieces_.reserve(kUsually);
+}
+
+BatchClearance& CertifiedMotion::batch() {
+  if (!batch_ || batch_version_ != clearance_.version()) {
+    batch_.emplace(clearance_);
+    batch_version_ = clearance_.version();
+  }
+  return *batch_;
+}
 
 bool CertifiedMotion::Clear(const Eigen::Ref<const Eigen::VectorXd>& q) {
   ++evaluations_;
@@ -33,78 +50,85 @@ bool CertifiedMotion::Clear(const Eigen::Ref<const Eigen::VectorXd>& q) {
 }
 
 bool CertifiedMotion::Clear(const Eigen::Ref<const Eigen::VectorXd>& q_0,
-                            const Eigen::Ref<const Eigen::VectorXd>& q_1) {
-  return Clear(q_1) && ClearShare(q_0, q_1) == 1.0;  // the end first: it says no at little cost
+                            const Eigen::Ref<const Eigen::VectorXd>& q_1, double room) {
+  const int samples = CountOf((q_1 - q_0).norm(), kFirstPiece, kMostSamples);
+  evaluations_ += (samples + kLanes - 1) / kLanes;
+  return batch().SamplesClear(q_0, q_1, samples, margin_ + room) &&
+         ProvedShare(q_0, q_1, true) == 1.0;
 }
 
 double CertifiedMotion::ClearShare(const Eigen::Ref<const Eigen::VectorXd>& q_0,
                                    const Eigen::Ref<const Eigen::VectorXd>& q_1) {
-  const double seen = SampledShare(q_0, q_1);
-  if (seen == 1.0) return ProvedShare(q_0, q_1);
-  return seen == 0.0 ? 0.0 : seen * ProvedShare(q_0, q_0 + seen * (q_1 - q_0));
+  return ProvedShare(q_0, q_1, false);
+}
+
+double CertifiedMotion::RoomOf(const Eigen::Ref<const Eigen::VectorXd>& q_0,
+                               const Eigen::Ref<const Eigen::VectorXd>& q_1, double most) {
+  double room = most;
+  for (const auto* q : {&q_0, &q_1}) {
+    ++evaluations_;
+    clearance_.MoveTo(*q);
+    const double distance = clearance_.Nearest(margin_ + 2.0 * room).distance;
+    room = std::clamp(0.5 * (distance - margin_), 0.0, room);
+  }
+  return room;
 }
 
 double CertifiedMotion::SampledShare(const Eigen::Ref<const Eigen::VectorXd>& q_0,
-                                     const Eigen::Ref<const Eigen::VectorXd>& q_1) {
-  constexpr int kSamples = BatchClearance::kLanes;
-  if ((q_1 - q_0).squaredNorm() < kShort * kShort) return 1.0;
-  if (!batch_ || batch_version_ != clearance_.version()) {
-    batch_.emplace(clearance_);
-    batch_version_ = clearance_.version();
+                                     const Eigen::Ref<const Eigen::VectorXd>& q_1, double spacing,
+                                     double room) {
+  way_ = q_1 - q_0;
+  const int count = CountOf(way_.norm(), spacing, kMostSamples);
+  for (int first = 0; first < count; first += kLanes) {
+    const int filled = std::min(kLanes, count - first);
+    for (int i = 0; i < filled; ++i) {
+      samples_.col(i) = q_0 + (first + i + 1.0) / count * way_;
+    }
+    ++evaluations_;
+    const int clear = batch().CountClear(samples_, filled, margin_ + room);
+    if (clear < filled) return static_cast<double>(first + clear) / count;
   }
-  for (int i = 0; i < kSamples; ++i) {
-    samples_.col(i) = q_0 + (i + 1.0) / kSamples * (q_1 - q_0);
-  }
-  ++evaluations_;
-  const int clear = std::countr_one(batch_->Clear(samples_, kSamples, std::max(margin_, 0.0)));
-  return static_cast<double>(std::min(clear, kSamples)) / kSamples;
+  return 1.0;
 }
 
 double CertifiedMotion::ProvedShare(const Eigen::Ref<const Eigen::VectorXd>& q_0,
-                                    const Eigen::Ref<const Eigen::VectorXd>& q_1) {
-  double share = 0.0;
-  while (share < 1.0) {
-    q_ = q_0 + share * (q_1 - q_0);
-    path_ = (1.0 - share) * (q_1 - q_0).cwiseAbs();
+                                    const Eigen::Ref<const Eigen::VectorXd>& q_1, bool all) {
+  way_ = q_1 - q_0;
+  const double length = way_.norm();
+  const double least = std::max(kLeastPiece / std::max(length, kLeastPiece), kLeastShare);
+  const int first = CountOf(length, kFirstPiece, kMostFirst);
+  pieces_.clear();
+  for (int i = first; i > 0; --i) pieces_.push_back({(i - 1.0) / first, 1.0 * i / first});
+  std::array<Piece, kLanes> looked{};
+  double proved = 1.0;
+  while (!pieces_.empty() && (proved == 1.0 || !all)) {
+    int count = 0;
+    while (count < kLanes && !pieces_.empty()) {
+      const Piece piece = pieces_.back();
+      pieces_.pop_back();
+      if (piece.from >= proved) continue;
+      samples_.col(count) = q_0 + 0.5 * (piece.from + piece.to) * way_;
+      paths_.col(count) = 0.5 * (piece.to - piece.from) * way_.cwiseAbs();
+      looked[static_cast<std::size_t>(count++)] = piece;
+    }
+    if (count == 0) break;
     ++evaluations_;
-    clearance_.MoveTo(q_);
-    const double step = FreeShare() * (1.0 - share);
-    if (step < std::min(kLeastShare, 1.0 - share)) return share;
-    share = std::min(share + step, 1.0);
-    if (1.0 - share < 1e-12) share = 1.0;
+    const BatchClearance::Around around = batch().ClearAround(samples_, paths_, count, margin_);
+    for (int i = count - 1; i >= 0; --i) {
+      if ((around.clear >> i & 1u) != 0) continue;
+      const Piece& piece = looked[static_cast<std::size_t>(i)];
+      const double middle = 0.5 * (piece.from + piece.to);
+      const bool contact = (around.contact >> i & 1u) != 0;
+      if (contact) proved = std::min(proved, middle);
+      if (piece.to - piece.from < 2.0 * least) {
+        proved = std::min(proved, piece.from);
+        continue;
+      }
+      if (!contact) pieces_.push_back({middle, piece.to});
+      pieces_.push_back({piece.from, middle});
+    }
   }
-  return share;
-}
-
-double CertifiedMotion::FreeShare() {
-  bound_.Calc(clearance_.X_WL(), path_, travel_);
-  for (std::size_t i = 0; i < approach_.size(); ++i) {
-    const auto& pair = clearance_.own_pairs()[i];
-    approach_[i] = bound_.Between(clearance_.X_WL(), path_, pair.first, pair.second);
-  }
-  // What is farther than the whole rest of the path can lead need not be known.
-  for (std::size_t link = 0; link < travel_.size(); ++link) {
-    distances_[link] = margin_ + travel_[link];
-  }
-  for (std::size_t i = 0; i < approach_.size(); ++i) {
-    own_distances_[i] = margin_ / clearance_.own_scales()[i] + approach_[i];
-  }
-  clearance_.LinkDistances(distances_);
-  clearance_.OwnDistances(own_distances_);
-  // A share of the path costs at most that share of its travel: the bound grows faster than the
-  // path.
-  double share = 1.0;
-  const auto limit = [&](double distance, double margin, double travel) {
-    if (travel == 0.0 || distance >= margin + travel) return;
-    share = std::min(share, std::max(distance - margin, 0.0) / travel);
-  };
-  for (std::size_t link = 0; link < travel_.size(); ++link) {
-    limit(distances_[link], margin_, travel_[link]);
-  }
-  for (std::size_t i = 0; i < own_distances_.size(); ++i) {
-    limit(own_distances_[i], margin_ / clearance_.own_scales()[i], approach_[i]);
-  }
-  return share;
+  return proved;
 }
 
 }  // namespace oca::planning

@@ -7,54 +7,63 @@
 
 #include "oca/models/planning/batch_clearance.h"
 #include "oca/models/robot/clearance.h"
-#include "oca/models/robot/travel_bound.h"
 
 namespace oca::planning {
 
-/// Proves that a robot stays clear of bodies at rest on a straight motion of its joints.
+/// Looks at straight motions of a robot's joints among bodies at rest: at samples, which prove
+/// nothing, and for a proof that it stays clear everywhere.
 ///
-/// From a position at which every pair is `d` apart the joints may go on until a bound of the
-/// links' travel has used up `d - clearance`; there the distances are taken anew. So what is found
-/// clear is clear everywhere, not at samples only.
-/// Of a motion that is not short, samples are looked at first, eight at once, and what lies behind
-/// one that is not clear needs no proof.
-/// source conservative advancement: Mirtich 1996; the bound: TravelBound
+/// For the proof a motion is cut into pieces, eight of which are looked at at once: one is clear if,
+/// from its middle, no link can travel as near to anything as the margin (BatchClearance), else it
+/// is halved.
+/// source Schwarzer, Saha, Latombe, Adaptive Dynamic Collision Checking for Single and Multiple
+///        Articulated Robots in Complex Environments, 2005; the bound: robot::TravelBound
 class CertifiedMotion {
  public:
-  /// Every pair has to stay more than `margin` (m) apart, as the clearance counts it. The clearance
-  /// must outlive this.
+  /// Every pair has to stay at least `margin` (m, >= 0) apart, as the clearance counts it. The
+  /// clearance must outlive this.
   CertifiedMotion(robot::Clearance& clearance, double margin);
 
   /// Whether the position itself is clear.
   bool Clear(const Eigen::Ref<const Eigen::VectorXd>& q);
-  /// Whether the motion from q_0 to q_1 is.
+  /// Whether the motion from q_0 to q_1 is proved clear; samples, which say no at little cost, first.
+  /// With `room` (m) it says no, too, where these do not keep so much more than the margin.
   bool Clear(const Eigen::Ref<const Eigen::VectorXd>& q_0,
-             const Eigen::Ref<const Eigen::VectorXd>& q_1);
+             const Eigen::Ref<const Eigen::VectorXd>& q_1, double room = 0.0);
   /// The share of the motion from q_0 to q_1, from its start, that is proved clear; 0 to 1.
   double ClearShare(const Eigen::Ref<const Eigen::VectorXd>& q_0,
                     const Eigen::Ref<const Eigen::VectorXd>& q_1);
+  /// How much more than the margin, m, samples may keep, that a proof may succeed between them: up to
+  /// `most`, as far as both positions leave twice that.
+  double RoomOf(const Eigen::Ref<const Eigen::VectorXd>& q_0,
+                const Eigen::Ref<const Eigen::VectorXd>& q_1, double most);
+  /// The share before the first sample that is nearer to anything than margin and `room`: these are at most `spacing` (2-norm of the
+  /// joints) apart, q_1 included and q_0 not, but no more than 1000.
+  double SampledShare(const Eigen::Ref<const Eigen::VectorXd>& q_0,
+                      const Eigen::Ref<const Eigen::VectorXd>& q_1, double spacing, double room);
 
-  /// At how many configurations distances were looked at so far.
+  /// How often something was looked at so far: eight configurations at once, or fewer.
   long evaluations() const { return evaluations_; }
+  /// What looks at samples and pieces; made anew after the clearance has changed.
+  BatchClearance& batch();
 
  private:
-  /// The share of the motion before the first sample that is not clear.
-  double SampledShare(const Eigen::Ref<const Eigen::VectorXd>& q_0,
-                      const Eigen::Ref<const Eigen::VectorXd>& q_1);
+  /// Of a motion, shares of it.
+  struct Piece {
+    double from, to;
+  };
+  /// Ends early, with some share below 1, if it is to be all or nothing.
   double ProvedShare(const Eigen::Ref<const Eigen::VectorXd>& q_0,
-                     const Eigen::Ref<const Eigen::VectorXd>& q_1);
-  /// How far the joints may go on along `path` (one entry a position), as a share of it.
-  double FreeShare();
+                     const Eigen::Ref<const Eigen::VectorXd>& q_1, bool all);
 
   robot::Clearance& clearance_;
   const double margin_;
   long evaluations_{0};
-  const robot::TravelBound bound_;
-  Eigen::VectorXd q_, path_;
   std::optional<BatchClearance> batch_;
   long batch_version_{0};
-  Eigen::MatrixXd samples_;  // n x lanes
-  std::vector<double> distances_, own_distances_, travel_, approach_;
+  Eigen::VectorXd way_;
+  Eigen::MatrixXd samples_, paths_;  // n x lanes
+  std::vector<Piece> pieces_;        // the first on top
 };
 
 }  // namespace oca::planning

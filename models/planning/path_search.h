@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "oca/models/planning/search_tree.h"
+#include "oca/models/planning/tree_pair.h"
 #include "oca/models/robot/clearance.h"
 
 namespace oca::planning {
@@ -29,8 +29,9 @@ struct SearchLevels {
 /// the nearest one the way down the distance to the goal along what is in the way (a projection
 /// within linearised distances). The nearest position reached is where an arm may rest.
 ///
-/// Every edge is proved clear at the level that it was found at. The same calls give the same
-/// answers. Allocates.
+/// Edges are looked at by samples; the path that was found is proved clear at its level, and, of an
+/// exhausted search, the one to the nearest position (TreePair, CertifiedMotion). The same calls give
+/// the same answers. Allocates.
 /// source Kuffner, LaValle, RRT-Connect, 2000; Gammell et al., Informed RRT*, IROS 2014 (the ball)
 class PathSearch {
  public:
@@ -54,27 +55,28 @@ class PathSearch {
   /// The level that the search is at, m.
   double margin() const { return levels_.margins[static_cast<std::size_t>(level_)]; }
   /// The reached position nearest to the goal (2-norm of the joints), and the path there.
-  Eigen::VectorXd nearest() const { return from_start_.q(nearest_); }
-  std::vector<Eigen::VectorXd> PathToNearest() const { return from_start_.PathTo(nearest_); }
+  Eigen::VectorXd nearest() const { return trees_.from_start.q(nearest_); }
+  std::vector<Eigen::VectorXd> PathToNearest() const { return trees_.from_start.PathTo(nearest_); }
   double nearest_distance() const { return nearest_distance_; }
   /// Rises whenever the nearest one is replaced.
   int improvements() const { return improvements_; }
 
  private:
   struct Tools;
+  void Draw(Tools& tools);
   void Connect(Tools& tools);
   void Approach(Tools& tools);
   void Descend(Tools& tools, int from);
   void Note(int node, double least_gain);
   bool TryStraight(Tools& tools);
-  void Found(int start_node, int goal_node);
+  void FindNearest();
+  void ProveNearest(Tools& tools);
 
   State state_{State::kIdle};
   Eigen::VectorXd goal_{};
   bool goal_clear_{false};
   SearchLevels levels_{};
-  SearchTree from_start_, from_goal_;
-  bool start_grows_{true};
+  TreePair trees_;
   int level_{0};
   int level_nodes_{0};  ///< of both trees when the level began
   std::uint64_t seed_{0};

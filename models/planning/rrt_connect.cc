@@ -1,40 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oca/models/planning/rrt_connect.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "oca/models/planning/certified_motion.h"
-#include "oca/models/planning/search_tree.h"
+#include "oca/models/planning/tree_pair.h"
 #include "oca/models/random.h"
-#include "oca/models/robot/joint_limits.h"
 
 namespace oca::planning {
 namespace {
 
 using Path = std::vector<Eigen::VectorXd>;
-
-using Tree = SearchTree;
-
-struct Room {
-  Eigen::VectorXd lower, upper;
-
-  Room(const robot::RobotModel& model, const Eigen::VectorXd& start, const Eigen::VectorXd& goal)
-      : lower(model.lower_limits()), upper(model.upper_limits()) {
-    for (Eigen::Index i = 0; i < lower.size(); ++i) {
-      if (robot::HasOwnRange(model, i)) continue;
-      lower[i] = std::max(lower[i], std::min(start[i], goal[i]) - std::numbers::pi);
-      upper[i] = std::min(upper[i], std::max(start[i], goal[i]) + std::numbers::pi);
-    }
-  }
-  Eigen::VectorXd Draw(models::Random& random) const {
-    Eigen::VectorXd q(lower.size());
-    for (Eigen::Index i = 0; i < q.size(); ++i) q[i] = random.Uniform(lower[i], upper[i]);
-    return q;
-  }
-};
 
 }  // namespace
 
@@ -43,37 +19,27 @@ std::optional<Path> RrtConnect(robot::Clearance& clearance, const Eigen::VectorX
   CertifiedMotion motion(clearance, options.margin);
   if (!motion.Clear(start) || !motion.Clear(goal)) return std::nullopt;
   if (motion.Clear(start, goal)) return Path{start, goal};
-  Tree from_start(start);
-  Tree from_goal(goal);
-  const Room room(clearance.model(), start, goal);
+  TreePair trees(start, &goal);
+  trees.LeaveRoom(motion, start, goal);
+  const SearchRoom room(clearance.model(), start, goal);
   models::Random random(options.seed);
-  bool start_grows = true;
   // A draw that leads nowhere costs time as well.
   for (int draws = 0; draws < options.most_nodes; ++draws) {
-    if (from_start.size() + from_goal.size() >= options.most_nodes) break;
-    Tree& growing = start_grows ? from_start : from_goal;
-    Tree& other = start_grows ? from_goal : from_start;
-    const auto grow = [&](Tree& tree, const Eigen::VectorXd& towards) {
-      const int most = options.most_nodes - (&tree == &growing ? other : growing).size();
-      return tree.Grow(towards, options.step, most, motion);
-    };
-    if (grow(growing, room.Draw(random)).grew) {
-      const Eigen::VectorXd meeting = growing.q(growing.last());
-      if (grow(other, meeting).arrived) {
-        const int other_node = other.Nearest(meeting);
-        Path path = start_grows ? JoinPaths(from_start, growing.last(), from_goal, other_node)
-                                : JoinPaths(from_start, other_node, from_goal, growing.last());
-        Shorten(clearance, options, path);
-        return path;
-      }
+    if (trees.size() >= options.most_nodes) break;
+    if (!trees.Grow(room.Draw(random), options.step, options.most_nodes, motion)) continue;
+    if (auto path = trees.Prove(motion)) {
+      Shorten(clearance, options, *path);
+      return path;
     }
-    start_grows = from_start.size() <= from_goal.size();
   }
   return std::nullopt;
 }
 
-void Shorten(robot::Clearance& clearance, const RrtOptions& options, Path& path) {
+long Shorten(robot::Clearance& clearance, const RrtOptions& options, Path& path) {
   CertifiedMotion motion(clearance, options.margin);
+  if (path.size() <= 2) return 0;
+  // Whatever is nearer takes long to prove.
+  const double room = motion.RoomOf(path.front(), path.back(), kSampleRoom);
   models::Random random(models::Random::Seed(options.seed, "shorten"));
   for (int i = 0; i < options.shortcuts && path.size() > 2; ++i) {
     // Two points on different edges, anywhere on them.
@@ -83,13 +49,14 @@ void Shorten(robot::Clearance& clearance, const RrtOptions& options, Path& path)
     if (a > b) std::swap(a, b);
     const Eigen::VectorXd from = path[a] + random.Unit() * (path[a + 1] - path[a]);
     const Eigen::VectorXd to = path[b] + random.Unit() * (path[b + 1] - path[b]);
-    if (!motion.Clear(from, to)) continue;
+    if (!motion.Clear(from, to, room)) continue;
     Path shorter(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(a) + 1);
     shorter.push_back(from);
     shorter.push_back(to);
     shorter.insert(shorter.end(), path.begin() + static_cast<std::ptrdiff_t>(b) + 1, path.end());
     path = std::move(shorter);
   }
+  return motion.evaluations();
 }
 
 }  // namespace oca::planning

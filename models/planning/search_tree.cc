@@ -2,7 +2,7 @@
 #include "oca/models/planning/search_tree.h"
 
 #include <algorithm>
-#include <iterator>
+#include <limits>
 
 namespace oca::planning {
 namespace {
@@ -14,9 +14,11 @@ constexpr double kLeastProgress = 0.02;
 
 int SearchTree::Nearest(const Eigen::VectorXd& q) const {
   int nearest = 0;
-  double least = (this->q(0) - q).squaredNorm();
-  for (int i = 1; i < size(); ++i) {
-    const double distance = (this->q(i) - q).squaredNorm();
+  double least = std::numeric_limits<double>::infinity();
+  const double* at = positions_.data();
+  for (int i = 0; i < size(); ++i, at += size_of_q_) {
+    double distance = 0.0;
+    for (Eigen::Index j = 0; j < size_of_q_; ++j) distance += (at[j] - q[j]) * (at[j] - q[j]);
     if (distance >= least) continue;
     least = distance;
     nearest = i;
@@ -30,26 +32,61 @@ void SearchTree::Add(const Eigen::VectorXd& q, int parent) {
   parents_.push_back(parent);
 }
 
-SearchTree::Growth SearchTree::Grow(const Eigen::VectorXd& q, double step, int most,
+SearchTree::Growth SearchTree::Grow(const Eigen::VectorXd& q, const Steps& steps,
                                     CertifiedMotion& motion) {
   int from = Nearest(q);
   bool grew = false;
-  while (size() < most) {
+  while (size() < steps.most) {
     const Eigen::VectorXd here = this->q(from);
     const Eigen::VectorXd way = q - here;
     const double length = way.norm();
     if (length == 0.0) return {true, grew};
-    const double share = std::min(1.0, step / length);
+    const double share = std::min(1.0, steps.step / length);
     const Eigen::VectorXd next = share == 1.0 ? q : Eigen::VectorXd(here + share * way);
-    const double clear = motion.ClearShare(here, next);
-    const bool whole = clear == 1.0 && (share < 1.0 || motion.Clear(next));
-    if (!whole && 0.9 * clear * share * length < kLeastProgress) return {false, grew};
-    Add(whole ? next : Eigen::VectorXd(here + 0.9 * clear * share * way), from);
+    const double clear = motion.SampledShare(here, next, steps.spacing, steps.room);
+    if (clear < 1.0 && clear * share * length < kLeastProgress) return {false, grew};
+    Add(clear == 1.0 ? next : Eigen::VectorXd(here + clear * share * way), from);
     from = last();
     grew = true;
-    if (!whole || share == 1.0) return {whole, grew};
+    if (clear < 1.0 || share == 1.0) return {clear == 1.0, grew};
   }
   return {false, grew};
+}
+
+bool SearchTree::Prove(int node, CertifiedMotion& motion) {
+  std::vector<int> way;
+  for (; node > 0; node = parents_[static_cast<std::size_t>(node)]) way.push_back(node);
+  for (auto at = way.rbegin(); at != way.rend(); ++at) {
+    if (motion.ClearShare(q(parents_[static_cast<std::size_t>(*at)]), q(*at)) == 1.0) continue;
+    CutOff(*at);
+    return false;
+  }
+  return true;
+}
+
+void SearchTree::CutOff(int node) {
+  std::vector<int> place(parents_.size(), -1);  // of those that stay
+  std::vector<bool> stays(parents_.size());
+  for (int i = 0; i < size(); ++i) {
+    int at = i;
+    while (at > 0 && at != node) at = parents_[static_cast<std::size_t>(at)];
+    stays[static_cast<std::size_t>(i)] = at != node;
+  }
+  int count = 0;
+  for (std::size_t i = 0; i < stays.size(); ++i) {
+    if (stays[i]) place[i] = count++;
+  }
+  for (std::size_t i = 0; i < stays.size(); ++i) {
+    if (!stays[i]) continue;
+    const int to = place[i];
+    std::copy_n(positions_.begin() + static_cast<std::ptrdiff_t>(i) * size_of_q_, size_of_q_,
+                positions_.begin() + to * size_of_q_);
+    const int parent = parents_[i];
+    parents_[static_cast<std::size_t>(to)] =
+        parent < 0 ? -1 : place[static_cast<std::size_t>(parent)];
+  }
+  parents_.resize(static_cast<std::size_t>(count));
+  positions_.resize(static_cast<std::size_t>(count * size_of_q_));
 }
 
 void SearchTree::AddRoot(const Eigen::VectorXd& q, int child) {
@@ -78,14 +115,6 @@ std::vector<Eigen::VectorXd> SearchTree::PathTo(int node) const {
   std::vector<Eigen::VectorXd> path;
   for (; node >= 0; node = parents_[static_cast<std::size_t>(node)]) path.emplace_back(q(node));
   std::reverse(path.begin(), path.end());
-  return path;
-}
-
-std::vector<Eigen::VectorXd> JoinPaths(const SearchTree& from_start, int start_node,
-                                       const SearchTree& from_goal, int goal_node) {
-  std::vector<Eigen::VectorXd> path = from_start.PathTo(start_node);
-  const std::vector<Eigen::VectorXd> back = from_goal.PathTo(goal_node);
-  path.insert(path.end(), std::next(back.rbegin()), back.rend());  // the meeting point once
   return path;
 }
 

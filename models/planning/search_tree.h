@@ -8,8 +8,9 @@
 
 namespace oca::planning {
 
-/// A tree of configurations, each joined with its parent by a straight motion that was proved
-/// clear. Flat memory: copies of one size do not allocate.
+/// A tree of configurations, each joined with its parent by a straight motion that is clear at
+/// samples; what is to be used is proved, and what cannot be proved is cut off. Flat memory: copies
+/// of one size do not allocate.
 class SearchTree {
  public:
   using Positions = Eigen::Map<const Eigen::VectorXd>;
@@ -31,9 +32,17 @@ class SearchTree {
     bool arrived;
     bool grew;
   };
-  /// Grows from the nearest node towards q by edges of at most `step`, as far as it is clear and
-  /// the tree has fewer than `most` nodes.
-  Growth Grow(const Eigen::VectorXd& q, double step, int most, CertifiedMotion& motion);
+  /// How trees grow: edges are no longer than `step`, samples on them at most `spacing` apart and,
+  /// besides the margin, `room` (m) clear; a tree has at most `most` nodes.
+  struct Steps {
+    double step, spacing, room;
+    int most;
+  };
+  /// Grows from the nearest node towards q, as far as the samples are clear.
+  Growth Grow(const Eigen::VectorXd& q, const Steps& steps, CertifiedMotion& motion);
+  /// Whether the way from the root to a node is proved clear. If not, the first edge that is not is
+  /// cut off, with all that is behind it: nodes get other numbers, but for the root.
+  bool Prove(int node, CertifiedMotion& motion);
 
   /// Adds a root before the present one, joined with a node: the new root is number 0, what was
   /// number 0 is the last.
@@ -42,13 +51,11 @@ class SearchTree {
   std::vector<Eigen::VectorXd> PathTo(int node) const;
 
  private:
+  void CutOff(int node);
+
   Eigen::Index size_of_q_{0};
   std::vector<double> positions_;
   std::vector<int> parents_;
 };
-
-/// From the root of one tree to a node, and on from a node of another at the same place to its root.
-std::vector<Eigen::VectorXd> JoinPaths(const SearchTree& from_start, int start_node,
-                                       const SearchTree& from_goal, int goal_node);
 
 }  // namespace oca::planning

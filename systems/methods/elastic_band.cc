@@ -16,6 +16,7 @@
 namespace oca::systems {
 namespace {
 
+constexpr double kSameTick = 1e-9;         // s
 constexpr double kLongestHorizon = 600.0;  // s; a plan looks at 2.5 to 20 places a second
 
 ElasticBand::Params Checked(const ElasticBand::Params& params) {
@@ -49,11 +50,22 @@ void RequireSize(const motion::Trajectory& request, Eigen::Index size) {
 
 }  // namespace
 
+void ElasticBand::PlanCost::Describe(Fields<PlanCost>& fields) {
+  fields.Add("plan", &PlanCost::plan, "s", "a plan, besides").AtLeast(0.0);
+  fields.Add("band", &PlanCost::band, "s", "a look at a configuration of a band").Above(0.0);
+  fields.Add("exact", &PlanCost::exact, "s", "a look at another by exact distances").Above(0.0);
+  fields.Add("batch", &PlanCost::batch, "s", "a look at up to eight of a path at once").Above(0.0);
+}
+
 void ElasticBand::Params::Describe(Fields<Params>& fields) {
   AddModel(fields);
   AddControlPeriod(fields);
-  fields.Add("plan_period", &Params::plan_period, "s", "time between plans, and to make one")
-      .Above(0.0);
+  fields.Add("plan_period", &Params::plan_period, "s", "time between plans").Above(0.0);
+  fields
+      .Add("plan_time", &Params::plan_time, "s",
+           "time to make a plan, after which it begins; 0: plan_period")
+      .AtLeast(0.0);
+  fields.Add("plan_cost", &Params::plan_cost, "", "what the work of a plan counts as");
   fields.Add("margin", &Params::margin, "m", "distance up to which obstacles push the band")
       .Above(0.0);
   fields
@@ -137,7 +149,9 @@ planning::ReplanSettings ElasticBand::SettingsOf(const Params& params, const Mod
   planner.moving_horizon = params.moving_horizon;
   planner.least_horizon = params.least_horizon;
   planner.most_horizon = params.most_horizon;
-  settings.period = params.plan_period.seconds();
+  settings.plan_time = params.plan_time > 0.0 ? params.plan_time : params.plan_period.seconds();
+  const PlanCost& cost = params.plan_cost;
+  planner.prices = {cost.plan, cost.band, cost.exact, cost.batch};
   settings.prediction = params.prediction;
   settings.restart_distance = params.restart_distance;
   settings.stuck_time = params.stuck_time;
@@ -257,6 +271,12 @@ std::optional<Obstruction> ElasticBand::WhatBlocks(const BandMemory& memory) con
 void ElasticBand::Report(double time, const BandMemory& memory, const ReportedBefore& before,
                          Log& log) const {
   const auto warn = [&](const std::string& text) { log.Write(LogLevel::kWarning, time, text); };
+  if (memory.overruns > 0 && before.overruns == 0) {
+    warn(fmt::format(
+        "a plan counts as {:.3g} s of work, more than the time there is to make one: it is thrown "
+        "away, and the next one begins later (counted in plan.overruns from now on)",
+        memory.charged));
+  }
   const std::optional<Obstruction> block = WhatBlocks(memory);
   if (memory.block != before.block && block) {
     warn(block->text + "; the arm is to rest as near to it as was found");
@@ -293,6 +313,14 @@ const char* ElasticBand::UnitOf(models::Name joint) const {
   return slides ? "m" : "rad";
 }
 
+double ElasticBand::BeginOf(double time, const BandMemory& memory) const {
+  const double takes = replanner_.TimeToPlan(memory);
+  if (takes == params_.plan_period.seconds()) return params_.plan_period.TickAfter(time);
+  const double ready = time + takes;
+  const double tick = params_.period.seconds(params_.period.CountAt(ready));
+  return tick >= ready - kSameTick ? tick : params_.period.TickAfter(ready);
+}
+
 void ElasticBand::Plan(double time, Log& log, const RequestAhead& request, const ObstacleSet& set,
                        VectorView measured, std::optional<VectorView> rate,
                        const IgnoredPairs* left_out, BandMemory& memory) const {
@@ -301,9 +329,9 @@ void ElasticBand::Plan(double time, Log& log, const RequestAhead& request, const
   const planning::BandSituation now{
       time,     request.trajectory, set.obstacles,
       measured, set.estimates,      left_out == nullptr ? nullptr : &left_out->pairs};
-  const ReportedBefore before{memory.block, memory.stuck, memory.tight};
+  const ReportedBefore before{memory.block, memory.stuck, memory.tight, memory.overruns};
   replanner_.Follow(now, memory);
-  replanner_.Plan(now, params_.plan_period.TickAfter(time), rate, memory);
+  replanner_.Plan(now, BeginOf(time, memory), rate, memory);
   Report(time, memory, before, log);
 }
 

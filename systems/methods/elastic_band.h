@@ -27,9 +27,12 @@ namespace oca::systems {
 /// a tracker estimated it takes what it is likely to do (planning::LikelyAhead), and counts the
 /// distance less by what its place is uncertain. Of one whose velocity nobody knows it takes the place
 /// alone, and trusts no plan. It
-/// begins plan_period after the instant that it is made at, which is the time there is to compute
+/// begins plan_time after the instant that it is made at, which is the time there is to compute
 /// it, from the state that the band before it then has: position, velocity and acceleration are
-/// continuous. If the arm is farther than restart_distance from where the band says, the next band
+/// continuous. The simulated clock is charged: the work of a plan is counted and priced by plan_cost,
+/// the same on every machine; one that counts as more than plan_time is late, is thrown away, and
+/// while it would have been made nothing else is planned; the next one begins as much later as that
+/// one took and a quarter more. A warning is logged for the first, `plan.overruns` counts them. If the arm is farther than restart_distance from where the band says, the next band
 /// starts from the arm. The first eight plans look for shorter ways even if theirs is clear; after
 /// them a plan whose obstacles still stand where they stood is kept.
 ///
@@ -82,10 +85,20 @@ class ElasticBand final : public System {
       "position = request + x, x = argmin integral of clearance max(margin - distance, 0)^2 + "
       "nearness x^2 + calm x'^2 + smoothness x''^2 + limits excess^2",
       "Quinlan, Khatib 1993, Elastic bands"};
+  /// planning::PlanPrices as parameters.
+  struct PlanCost {
+    double plan{planning::PlanPrices{}.plan};
+    double band{planning::PlanPrices{}.band};
+    double exact{planning::PlanPrices{}.exact};
+    double batch{planning::PlanPrices{}.batch};
+    static void Describe(Fields<PlanCost>& fields);
+  };
   struct Params {
     std::string model{};
     Period period{};
     Period plan_period{1, 50};
+    double plan_time{0.0};
+    PlanCost plan_cost{};
     double margin{0.12};
     double clear_distance{0.045};
     double hard_distance{0.002};
@@ -124,10 +137,13 @@ class ElasticBand final : public System {
   struct ReportedBefore {
     planning::BandBlock block;
     bool stuck, tight;
+    std::uint64_t overruns;
   };
   void Report(double time, const BandMemory& memory, const ReportedBefore& before, Log& log) const;
   const char* UnitOf(models::Name joint) const;
   std::optional<Obstruction> WhatBlocks(const BandMemory& memory) const;
+  /// When a plan that is made at `time` begins: at the first tick after which it is there.
+  double BeginOf(double time, const BandMemory& memory) const;
   void Plan(double time, Log& log, const RequestAhead& request, const ObstacleSet& set,
             VectorView measured, std::optional<VectorView> rate, const IgnoredPairs* left_out,
             BandMemory& memory) const;

@@ -35,7 +35,9 @@ void Signal<BandMemory>::WriteJson(const BandMemory& value, std::string& out) {
            {"block_amount", value.block_amount},
            {"time", value.time},
            {"cost", value.cost},
-           {"evaluations", value.evaluations}});
+           {"evaluations", value.work.looks()},
+           {"charged", value.charged},
+           {"overruns", value.overruns}});
 }
 
 }  // namespace oca

@@ -94,7 +94,7 @@ TEST(BandPlannerTest, BoundsItsWorkAndGetsThereByMoreSearches) {
   for (const long bound : {2000L, 6000L}) {
     for (turn.task.search = 0; turn.task.search < 4; ++turn.task.search) {
       const BandPlan plan = turn.Plan({.paths = 0, .most_evaluations = bound});
-      EXPECT_LT(plan.evaluations, 1.25 * bound) << turn.task.search;
+      EXPECT_LT(plan.work.looks(), 1.25 * bound) << turn.task.search;
     }
   }
   turn.bodies.pop_back();

@@ -37,7 +37,9 @@ class BandReplannerTest : public testing::Test {
           motion::Trajectory::CubicHermite({{.time = 0.0, .position = Vector3d(0, 0, 0)},
                                             {.time = 2.0, .position = Vector3d(1, 0, 0)}}));
   std::vector<geometry::Obstacle> obstacles_;
-  const BandReplanner replanner_{test::Arm("planar3"), {}};
+  // What is planned costs nothing here, however long it is looked for.
+  const BandReplanner replanner_{test::Arm("planar3"),
+                                 {.planner = {.prices = {1e-9, 1e-9, 1e-9, 1e-9}}}};
   BandMemory memory_;
 };
 
@@ -89,6 +91,38 @@ TEST_F(BandReplannerTest, LeavesOutPairsThatWhoeverMeasuresLeavesOut) {
   replanner_.Plan(now, 0.02, std::nullopt, memory_);
   EXPECT_EQ(memory_.start, BandStart::kRequest);
   EXPECT_TRUE(memory_.link.empty());
+}
+
+TEST_F(BandReplannerTest, ThrowsAwayAPlanThatIsLateAndGivesTheNextOneTheTimeItTakes) {
+  obstacles_[0].X_WO.translation() = Vector3d(0.7, 0.4, 0.0);  // in the way
+  const auto replanner = [](double price) {
+    return BandReplanner(test::Arm("planar3"), {.planner = {.most_evaluations = 500,
+                                                            .prices = {price, 1e-9, 1e-9, 1e-9}}});
+  };
+  const VectorXd here = Requested(0.0);
+  const BandReplanner timely = replanner(0.019);
+  timely.Plan(At(0.0, here), timely.TimeToPlan(memory_), std::nullopt, memory_);
+  EXPECT_EQ(memory_.plans, 1u);
+  EXPECT_EQ(memory_.overruns, 0u);
+  EXPECT_NEAR(memory_.charged, 0.019, 1e-4);
+
+  memory_ = {};
+  const BandReplanner late = replanner(0.05);
+  EXPECT_EQ(late.TimeToPlan(memory_), 0.02);
+  late.Plan(At(0.0, here), 0.02, std::nullopt, memory_);
+  EXPECT_EQ(memory_.plans, 0u);
+  EXPECT_TRUE(memory_.next.empty());
+  EXPECT_EQ(memory_.overruns, 1u);
+  EXPECT_NEAR(memory_.charged, 0.05, 1e-4);
+  late.Plan(At(0.04, here), 0.5, std::nullopt, memory_);
+  EXPECT_EQ(memory_.plans, 0u) << "it would still be made";
+  EXPECT_NEAR(late.TimeToPlan(memory_), 1.25 * 0.05, 1e-4);
+  const double begin = 0.06 + late.TimeToPlan(memory_);
+  late.Plan(At(0.06, here), 0.06 + late.TimeToPlan(memory_), std::nullopt, memory_);
+  EXPECT_EQ(memory_.plans, 1u);
+  EXPECT_EQ(memory_.overruns, 1u);
+  EXPECT_EQ(memory_.change, begin);
+  EXPECT_EQ(late.TimeToPlan(memory_), 0.02);
 }
 
 TEST_F(BandReplannerTest, StartsFromAnArmThatIsFartherThanRestartDistance) {

@@ -67,7 +67,7 @@ class BatchClearanceTest : public testing::TestWithParam<const char*> {};
 
 TEST_P(BatchClearanceTest, NeverCallsClearWhatIsNotOn250000Configurations) {
   models::Random random(5);
-  std::int64_t clear_by_balls = 0, clear = 0;
+  std::int64_t clear_by_balls = 0, clear = 0, looked_at = 0, exactly = 0, needless = 0;
   for (int scene = 0; scene < 10; ++scene) {
     robot::Clearance clearance(Arm(GetParam()), true, Clutter(static_cast<unsigned>(scene)));
     BatchClearance batch(clearance);
@@ -77,7 +77,11 @@ TEST_P(BatchClearanceTest, NeverCallsClearWhatIsNotOn250000Configurations) {
       const unsigned sure = batch.SurelyClear(q, BatchClearance::kLanes, margin);
       const unsigned exact = ExactlyClear(clearance, q, margin);
       ASSERT_EQ(sure & ~exact, 0u) << "scene " << scene << ", batch " << i;
+      const std::int64_t before = batch.undecided();
       ASSERT_EQ(batch.Clear(q, BatchClearance::kLanes, margin), exact);
+      looked_at += BatchClearance::kLanes;
+      exactly += batch.undecided() - before;
+      needless += std::popcount(exact & ~sure);  // what is looked at exactly and turns out clear
       clear_by_balls += std::popcount(sure);
       clear += std::popcount(exact);
     }
@@ -85,8 +89,46 @@ TEST_P(BatchClearanceTest, NeverCallsClearWhatIsNotOn250000Configurations) {
   }
   // What the balls are good for: much of what is clear they call clear.
   EXPECT_GT(static_cast<double>(clear_by_balls), 0.4 * static_cast<double>(clear));
-  std::printf("%s: balls decide %.1f %% of what is clear\n", GetParam(),
-              100.0 * static_cast<double>(clear_by_balls) / static_cast<double>(clear));
+  const auto share = [](std::int64_t part, std::int64_t all) {
+    return 100.0 * static_cast<double>(part) / static_cast<double>(all);
+  };
+  std::printf(
+      "%s: balls decide %.1f %% of what is clear; of %ld configurations %.1f %% were looked at "
+      "exactly, %.1f %% needlessly\n",
+      GetParam(), share(clear_by_balls, clear), static_cast<long>(looked_at),
+      share(exactly, looked_at), share(needless, looked_at));
+}
+
+TEST_P(BatchClearanceTest, IsClearWhereverJointsGoAround) {
+  models::Random random(7);
+  int clear = 0, contact = 0;
+  for (int scene = 0; scene < 10; ++scene) {
+    robot::Clearance clearance(Arm(GetParam()), true, Clutter(static_cast<unsigned>(scene), 1.5));
+    BatchClearance batch(clearance);
+    for (int i = 0; i < kBatches / 200; ++i) {
+      const double margin = i % 3 == 0 ? 0.0 : random.Uniform(0.0, 0.05);
+      const double most = random.Uniform(0.0, i % 2 == 0 ? 0.01 : 0.1);
+      const Eigen::MatrixXd q = Draw(clearance.model(), random);
+      Eigen::MatrixXd path = q;
+      for (double& part : path.reshaped()) part = random.Uniform(0.0, most);
+      const BatchClearance::Around around =
+          batch.ClearAround(q, path, BatchClearance::kLanes, margin);
+      ASSERT_EQ(around.contact & ExactlyClear(clearance, q, margin), 0u);
+      for (int k = 0; k < 5; ++k) {
+        Eigen::MatrixXd moved = q;
+        for (Eigen::Index j = 0; j < q.size(); ++j) {
+          // Corners too, where all joints go as far as they may.
+          const double part = k == 0 ? 1.0 : k == 1 ? -1.0 : random.Uniform(-1.0, 1.0);
+          moved(j) += part * path(j);
+        }
+        ASSERT_EQ(around.clear & ~ExactlyClear(clearance, moved, margin), 0u) << scene << ", " << i;
+      }
+      clear += std::popcount(around.clear);
+      contact += std::popcount(around.contact);
+    }
+  }
+  EXPECT_GT(clear, 10);
+  EXPECT_GT(contact, 10);
 }
 
 TEST_P(BatchClearanceTest, AllProcessorsGiveTheSameBits) {
@@ -94,13 +136,17 @@ TEST_P(BatchClearanceTest, AllProcessorsGiveTheSameBits) {
   robot::Clearance clearance(Arm(GetParam()), true, Clutter(3));
   const internal::BatchScene scene = BatchClearance(clearance).scene();
   internal::BatchWorkspace here(scene), portable(scene);
-  std::vector<internal::LaneArray> motion(scene.frames.size());
+  std::vector<internal::LaneArray> motion(scene.frames.size()), paths(scene.frames.size());
   for (int i = 0; i < 3000; ++i) {
     for (auto& joint : motion) {
       for (float& lane : joint) lane = static_cast<float>(random.Uniform(-3.14, 3.14));
     }
     const float margin = static_cast<float>(random.Uniform(0.0, 0.1));
-    const internal::BatchQuestion question{motion.data(), margin, 1e-5f, 0xffu};
+    for (auto& joint : paths) {
+      for (float& lane : joint) lane = static_cast<float>(random.Uniform(0.0, 0.1));
+    }
+    const internal::BatchQuestion question{motion.data(), i % 2 == 0 ? nullptr : paths.data(),
+                                           margin, 1e-5f, 0xffu};
     const internal::BatchAnswer answer = CheckLanes(scene, question, here);
     const internal::BatchAnswer other = CheckLanesPortable(scene, question, portable);
     ASSERT_EQ(answer.open, other.open);
@@ -112,6 +158,7 @@ TEST_P(BatchClearanceTest, AllProcessorsGiveTheSameBits) {
     }
     ASSERT_EQ(here.frames, portable.frames);  // bit for bit, no number is a NaN
     ASSERT_EQ(here.centres, portable.centres);
+    ASSERT_EQ(here.travels, portable.travels);
   }
 }
 

@@ -41,11 +41,11 @@ TEST(PathSearchTest, FindsByManySmallLooksWhatOneDoesNot) {
   EXPECT_EQ(search.state(), State::kIdle);
   search.Begin(kStart, kGoal, true, Levels(), 3);
   long looks = 0;
-  search.Continue(clearance, 40, looks);
+  search.Continue(clearance, 8, looks);
   EXPECT_EQ(search.state(), State::kSearching) << looks;
   int calls = 1;
   for (; search.state() == State::kSearching && calls < 500; ++calls) {
-    search.Continue(clearance, 40, looks);
+    search.Continue(clearance, 8, looks);
   }
   ASSERT_EQ(search.state(), State::kFound);
   EXPECT_GT(calls, 2);
@@ -60,7 +60,7 @@ TEST(PathSearchTest, SaysTheSameForTheSameCalls) {
     PathSearch search;
     search.Begin(kStart, kGoal, true, Levels(), 3);
     long looks = 0;
-    for (int i = 0; i < 500; ++i) search.Continue(clearance, 40, looks);
+    for (int i = 0; i < 500; ++i) search.Continue(clearance, 8, looks);
     return search.path();
   };
   EXPECT_EQ(path(), path());
@@ -71,7 +71,7 @@ TEST(PathSearchTest, GoesOnFromAnotherStartWithWhatItFound) {
   PathSearch search;
   search.Begin(kStart, kGoal, true, Levels(), 3);
   long looks = 0;
-  search.Continue(clearance, 100, looks);
+  search.Continue(clearance, 8, looks);
   ASSERT_EQ(search.state(), State::kSearching);
   const VectorXd moved = Eigen::Vector2d(0.02, -0.03);
   search.MoveStart(clearance, moved, looks);

@@ -15,6 +15,7 @@ namespace motion_metrics_test {
 
 using Eigen::Vector2d;
 using motion_bench::Bench;
+using motion_bench::DistanceScript;
 using motion_bench::Script;
 using motion_bench::Scripts;
 using motion_bench::Tick;

@@ -86,6 +86,38 @@ TEST(ElasticBandTest, EveryPlanTakesEffectAtATickAndNotARoundingLater) {
   EXPECT_GT(bench.Plan().plans, 50u);
 }
 
+TEST(ElasticBandTest, IsChargedForWhatItsPlansCost) {
+  ElasticBand::Params params = ElasticBand::Example();
+  params.plan_cost.plan = 0.03;
+  ObstacleSet drifting = BoxAt({3.0, 3.0, 0.0});
+  drifting.obstacles[0].linear.x() = 0.01;
+  Bench bench(drifting, params);
+  bench.Tick(0);
+  EXPECT_EQ(bench.Plan().overruns, 1u);
+  EXPECT_EQ(bench.Plan().plans, 0u);
+  bench.Tick(3);
+  EXPECT_EQ(bench.Plan().plans, 0u) << "until 0.03 s the first one would still be made";
+  bench.Tick(4);
+  EXPECT_EQ(bench.Plan().plans, 1u);
+  const double charged = bench.Plan().charged;
+  EXPECT_GT(charged, 0.03);
+  EXPECT_LT(charged, 0.032);
+  EXPECT_EQ(bench.Plan().change, 0.08);  // 0.04 s and a quarter more than 0.03, at a tick
+  EXPECT_EQ(bench.Plan().overruns, 1u);
+}
+
+TEST(ElasticBandTest, PlansBeginAfterPlanTime) {
+  ElasticBand::Params params = ElasticBand::Example();
+  params.plan_time = 0.01;
+  ObstacleSet drifting = BoxAt({3.0, 3.0, 0.0});
+  drifting.obstacles[0].linear.x() = 0.01;
+  Bench bench(drifting, params);
+  bench.Tick(0);
+  EXPECT_EQ(bench.Plan().change, 0.01);
+  bench.Tick(2);
+  EXPECT_EQ(bench.Plan().change, 0.03);
+}
+
 TEST(ElasticBandTest, RefusesHorizonsWithoutEnd) {
   EXPECT_THAT(RefusalOf({.period = Period(1, 100), .most_horizon = 1e9}),
               HasSubstr("most_horizon: got 1000000000 s; expected in [0.5, 600]"));
@@ -109,6 +141,23 @@ TEST(ElasticBandTest, GoesRoundAPostAndArrivesWithoutAJump) {
   EXPECT_GT(farthest, 0.1);
   EXPECT_TRUE(last.isApprox(Vector3d(1.57, 0, 0), 1e-9)) << last.transpose();
   EXPECT_FALSE(bench.Plan().stuck);
+}
+
+TEST(ElasticBandTest, PlansThatAreLateMakeNoJump) {
+  ElasticBand::Params params = ElasticBand::Example();
+  params.plan_cost.band = 4e-5;
+  Bench bench(BoxAt({0.6, 0.6, 0.0}), params);
+  VectorXd last = VectorXd::Zero(3), speed = VectorXd::Zero(3);
+  for (int k = 0; k < 1000; ++k) {
+    bench.Tick(k);
+    const VectorXd v = (bench.Position() - last) / 0.01;
+    EXPECT_LT((v - speed).cwiseAbs().maxCoeff(), 0.5) << k;
+    last = bench.Position();
+    speed = v;
+  }
+  EXPECT_GT(bench.Plan().overruns, 0u);
+  EXPECT_TRUE(bench.Plan().clear);
+  EXPECT_LT((last - VectorXd(Vector3d(1.57, 0, 0))).norm(), 0.01);
 }
 
 TEST(ElasticBandTest, OnlyPlansAllocate) {

@@ -27,7 +27,7 @@ TEST(BandMemorySignalTest, WritesWhatThePlanCameTo) {
             R"({"plans":3,"start":"detour","clear":true,"reaches":true,"stuck":true,)"
             R"("nearest":0.0625,"link":"wrist","obstacle":"box","distance":0.0,"lack":"goal",)"
             R"("block":"contact","block_link":"wrist","block_body":"box","block_amount":0.25,)"
-            R"("time":0.0,"cost":0.0,"evaluations":0})");
+            R"("time":0.0,"cost":0.0,"evaluations":0,"charged":0.0,"overruns":0})");
 }
 
 TEST(BandMemorySignalTest, ABandThatIsNotFiniteIsNoSignal) {
