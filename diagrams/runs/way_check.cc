@@ -35,6 +35,8 @@ struct Standing {
       bodies.push_back(&body);
     }
     clearance.SetBodies(std::move(placed));
+    // Own links are asked for no more than their range.
+    clearance.KeepOwn(scene.Task().own, kWayMargin);
     for (const auto& [link, body] : scene.ignored()) {
       if (places[static_cast<std::size_t>(body)] >= 0) {
         clearance.Ignore(link, places[static_cast<std::size_t>(body)]);
@@ -57,7 +59,7 @@ struct Standing {
                                    : links[static_cast<std::size_t>(pair.other_link)].name;
     return fmt::format("; there {} and {} are {:.3g} m apart",
                        links[static_cast<std::size_t>(pair.link)].name.text(), other.text(),
-                       pair.distance);
+                       pair.distance / pair.scale);
   }
 };
 
