@@ -30,7 +30,7 @@ struct BandPlannerSettings {
   int random_starts{24};        ///< beside those of single joints
   int paths{2};                 ///< of RrtConnect, where the work is not bounded
   int path_nodes{2000};         ///< each
-  long path_evaluations{300};   ///< looks of a PathSearch, besides most_evaluations
+  long path_evaluations{1000};  ///< looks of a PathSearch, besides most_evaluations
   long most_evaluations{0};     ///< of configurations, about, that a plan may cost; 0: no bound
   PlanPrices prices{};          ///< of its work, beside BandTask::most_time
   double least_horizon{2.0};    ///< s

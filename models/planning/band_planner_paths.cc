@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 // Of paths where the work of a plan is bounded.
 constexpr int kBoundedNodes = 150;
 constexpr int kBoundedShortcuts = 50;
-constexpr int kShortcuts = 60;          // of what a PathSearch found
+constexpr int kShortcuts = 150;         // of what a PathSearch found
 constexpr std::uint64_t kPathTurn = 3;  // one of so many plans looks for paths, if anything moves
 constexpr double kPathRoom = 1.3;       // times what a band keeps, so that it may bend
 constexpr double kEndRoom = 1.02;       // times what must be kept: as much is left at an end

@@ -43,7 +43,13 @@ SearchTree::Growth SearchTree::Grow(const Eigen::VectorXd& q, const Steps& steps
     if (length == 0.0) return {true, grew};
     const double share = std::min(1.0, steps.step / length);
     const Eigen::VectorXd next = share == 1.0 ? q : Eigen::VectorXd(here + share * way);
-    const double clear = motion.SampledShare(here, next, steps.spacing, steps.room);
+    double clear = motion.SampledShare(here, next, steps.spacing, steps.room);
+    if (clear < 1.0) {  // how far from the last sample that is clear to the first that is not
+      const Eigen::VectorXd last_clear = here + clear * share * way;
+      const double rest = std::min(1.0 - clear, steps.spacing / (share * length));
+      const Eigen::VectorXd not_clear = last_clear + rest * share * way;
+      clear += rest * motion.SampledShare(last_clear, not_clear, steps.spacing / 8.0, steps.room);
+    }
     if (clear < 1.0 && clear * share * length < kLeastProgress) return {false, grew};
     Add(clear == 1.0 ? next : Eigen::VectorXd(here + clear * share * way), from);
     from = last();
