@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "oca/diagrams/files/expression.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/json_text.h"
 #include "oca/systems/signals/roles.h"
@@ -135,9 +136,11 @@ std::vector<std::pair<std::string, Standing>> StandingObstacles(const LoadedDiag
 
 std::vector<LiveParameter> LiveParametersOf(const LoadedDiagram& loaded) {
   std::vector<LiveParameter> parameters;
-  const Value* const section = loaded.document.Find("parameters");
-  if (section != nullptr && section->map() != nullptr) {
-    for (const Value::Entry& entry : *section->map()) {
+  const Value* const written = loaded.document.Find("parameters");
+  if (written != nullptr && written->map() != nullptr) {
+    Problems none;  // it was loaded
+    const Value section = files::Expressions(*written, none).Resolve(*written);
+    for (const Value::Entry& entry : *section.map()) {
       double number = 0.0;
       if (entry.value.boolean() != nullptr) {
         parameters.push_back({entry.key, *entry.value.boolean()});

@@ -98,7 +98,7 @@ TEST_F(DraftTest, OfASmallArmHasSmallDistances) {
   const Draft draft = Make(ArmWithGripper(0.3));
   EXPECT_TRUE(draft.attempt.contact());
   EXPECT_TRUE(draft.attempt.evaded());
-  EXPECT_THAT(Content(draft.diagram), HasSubstr("safe_distance: 0.01"));
+  EXPECT_THAT(Content(draft.diagram), HasSubstr("  scale: 0.4"));
 }
 
 TEST_F(DraftTest, FillsInLimitsThatAreMissing) {

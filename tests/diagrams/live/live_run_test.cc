@@ -57,7 +57,7 @@ TEST_F(LiveRunTest, OffersNumbersSwitchesAndObstaclesThatStand) {
                         [&](const LiveParameter& one) { return one.name == name; });
   };
   ASSERT_NE(find("max_distance"), parameters.end());
-  EXPECT_EQ(std::get<double>(find("max_distance")->value), 0.3);
+  EXPECT_EQ(std::get<double>(find("max_distance")->value), 0.3);  // "${0.3 * scale}"
   ASSERT_NE(find("avoid"), parameters.end());
   EXPECT_EQ(std::get<bool>(find("avoid")->value), true);
   ASSERT_NE(find("obstacles.box.position"), parameters.end());
