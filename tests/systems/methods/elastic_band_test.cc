@@ -226,7 +226,7 @@ TEST(ElasticBandTest, SaysForHowLongItsPlanIsClearWhileAllGoesAsForeseen) {
   EXPECT_EQ(ClearFor(bench), 0.0);
   // One that takes long to make begins later.
   for (int k = 41; k < 45 || (k < 60 && ClearFor(bench) == 0.0); ++k) bench.Tick(k);
-  EXPECT_EQ(bench.Plan().plans, plans + 1);
+  EXPECT_GT(bench.Plan().plans, plans);
   EXPECT_EQ(ClearFor(bench), 30.0);
 }
 
