@@ -103,7 +103,9 @@ void PathSearch::Continue(robot::Clearance& clearance, long most, long& evaluati
   while (state_ == State::kSearching && evaluations < until) {
     Tools tools(clearance, margin(), trees_.from_start.q(0), goal_);
     const VectorXd start = trees_.from_start.q(0);
-    trees_.LeaveRoom(tools.motion, start, goal_clear_ ? goal_ : start);
+    // Passages may leave no more than the last margin: half of the nodes are for these.
+    const bool narrow = AtLastLevel() && NodesOfLevel() > levels_.last_nodes / 2;
+    trees_.LeaveRoom(tools.motion, start, goal_clear_ ? goal_ : start, narrow ? 0.0 : kSampleRoom);
     while (state_ == State::kSearching && tools.margin == margin() && evaluations < until) {
       const long before = tools.motion.evaluations();
       Draw(tools);
@@ -116,8 +118,7 @@ void PathSearch::Continue(robot::Clearance& clearance, long most, long& evaluati
 
 void PathSearch::Draw(Tools& tools) {
   tools.random = models::Random(models::Random::Seed(seed_, draws_));
-  const bool last = level_ + 1 == static_cast<int>(levels_.margins.size());
-  const int nodes = trees_.size() - level_nodes_;
+  const bool last = AtLastLevel();
   if (draws_ == 0 && last) Descend(tools, 0);
   if (TryStraight(tools)) {
   } else if (!goal_clear_ || (last && draws_ % kApproachTurn == kApproachTurn - 1)) {
@@ -129,8 +130,7 @@ void PathSearch::Draw(Tools& tools) {
   if (state_ != State::kSearching) return;
   const int most_nodes = last ? levels_.last_nodes : levels_.nodes;
   // A draw that leads nowhere costs time as well.
-  const bool full = goal_clear_ ? std::max(nodes, static_cast<int>(draws_)) >= most_nodes
-                                : since_ > levels_.patience;
+  const bool full = goal_clear_ ? NodesOfLevel() >= most_nodes : since_ > levels_.patience;
   if (!full) return;
   if (last) {
     ProveNearest(tools);
@@ -141,6 +141,14 @@ void PathSearch::Draw(Tools& tools) {
     draws_ = 0;
     seed_ = models::Random::Seed(seed_, "level");
   }
+}
+
+bool PathSearch::AtLastLevel() const {
+  return level_ + 1 == static_cast<int>(levels_.margins.size());
+}
+
+int PathSearch::NodesOfLevel() const {
+  return std::max(trees_.size() - level_nodes_, static_cast<int>(draws_));
 }
 
 void PathSearch::ProveNearest(Tools& tools) {

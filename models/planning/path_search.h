@@ -67,6 +67,9 @@ class PathSearch {
   void Connect(Tools& tools);
   void Approach(Tools& tools);
   void Descend(Tools& tools, int from);
+  bool AtLastLevel() const;
+  /// Or draws, if these are more.
+  int NodesOfLevel() const;
   void Note(int node, double least_gain);
   bool TryStraight(Tools& tools);
   void FindNearest();

@@ -29,8 +29,8 @@ TreePair::TreePair(const Eigen::VectorXd& start, const Eigen::VectorXd* goal) : 
 }
 
 void TreePair::LeaveRoom(CertifiedMotion& motion, const Eigen::VectorXd& start,
-                         const Eigen::VectorXd& goal) {
-  room_ = motion.RoomOf(start, goal, kSampleRoom);
+                         const Eigen::VectorXd& goal, double most) {
+  room_ = motion.RoomOf(start, goal, most);
 }
 
 bool TreePair::Grow(const Eigen::VectorXd& q, double step, int most, CertifiedMotion& motion) {
