@@ -150,20 +150,6 @@ void BandPlanner::PrepareStanding(const BandTask& task) {
   standing_->KeepOwn(own_, settings_.band.clear_distance);
 }
 
-BandCurve BandPlanner::Shaped(const BandTask& task,
-                              const std::function<VectorXd(double)>& shape) const {
-  BandCurve curve = zero_;
-  VectorXd request(curve.size());
-  curve.Follow([&](double time) -> VectorXd {
-    task.request(time, 0, request);
-    const VectorXd q =
-        (request + shape(time)).cwiseMax(model().lower_limits()).cwiseMin(model().upper_limits());
-    return q - request;
-  });
-  if (end_fixed_) curve.controls().rightCols(3) = zero_.controls().rightCols(3);
-  return curve;
-}
-
 int BandPlanner::LevelOf(const BandCheck& check) const {
   if (check.wide()) return 0;
   int level = 1;

@@ -24,6 +24,20 @@ double Window(double time, double first, double last, double ramp) {
 
 }  // namespace
 
+BandCurve BandPlanner::Shaped(const BandTask& task,
+                              const std::function<VectorXd(double)>& shape) const {
+  BandCurve curve = zero_;
+  VectorXd request(curve.size());
+  curve.Follow([&](double time) -> VectorXd {
+    task.request(time, 0, request);
+    const VectorXd q =
+        (request + shape(time)).cwiseMax(model().lower_limits()).cwiseMin(model().upper_limits());
+    return q - request;
+  });
+  if (end_fixed_) curve.controls().rightCols(3) = zero_.controls().rightCols(3);
+  return curve;
+}
+
 void BandPlanner::Explore(const BandTask& task, const BandCheck& trouble, const BandCurve& troubled,
                           BandPlan& best) {
   std::vector<Start> starts;

@@ -262,6 +262,32 @@ void BandReplanner::Plan(const BandSituation& now, double start,
   ++memory.overruns;
 }
 
+void BandReplanner::Note(const BandPlan& found, BandMemory& memory) const {
+  memory.plans += 1;
+  memory.start = found.start;
+  memory.clear = found.check.clear();
+  memory.reaches = found.reaches;
+  memory.level = found.level;
+  memory.kept = std::min(found.check.kept, found.goal_room);
+  memory.goal_room = found.goal_room;
+  memory.lack = found.lack;
+  memory.failures = memory.clear && memory.reaches ? 0 : memory.failures + 1;
+  memory.nearest = found.check.min_distance;
+  memory.distance = found.check.distance;
+  memory.link = found.check.link;
+  memory.obstacle = found.check.body;
+  memory.time = found.check.time;
+  const double hard = settings_.planner.band.hard_distance;
+  if (memory.clear && memory.lack != BandLack::kNone && memory.distance < hard) {
+    memory.tight = true;
+  } else if (memory.distance >= 2.0 * hard) {
+    memory.tight = false;
+  }
+  memory.cost = found.cost;
+  memory.work = found.work;
+  memory.charged = settings_.planner.prices.Of(found.work);
+}
+
 void BandReplanner::MakePlan(const BandSituation& now, double start,
                              const std::optional<BandSituation::Positions>& rate,
                              BandMemory& memory) const {
@@ -303,29 +329,7 @@ void BandReplanner::MakePlan(const BandSituation& now, double start,
   memory.seen_at = now.time;
   memory.seen = now.obstacles;
   memory.seen_estimates = std::move(estimates);
-  memory.plans += 1;
-  memory.start = found.start;
-  memory.clear = found.check.clear();
-  memory.reaches = found.reaches;
-  memory.level = found.level;
-  memory.kept = std::min(found.check.kept, found.goal_room);
-  memory.goal_room = found.goal_room;
-  memory.lack = found.lack;
-  memory.failures = memory.clear && memory.reaches ? 0 : memory.failures + 1;
-  memory.nearest = found.check.min_distance;
-  memory.distance = found.check.distance;
-  memory.link = found.check.link;
-  memory.obstacle = found.check.body;
-  memory.time = found.check.time;
-  const double hard = settings_.planner.band.hard_distance;
-  if (memory.clear && memory.lack != BandLack::kNone && memory.distance < hard) {
-    memory.tight = true;
-  } else if (memory.distance >= 2.0 * hard) {
-    memory.tight = false;
-  }
-  memory.cost = found.cost;
-  memory.work = found.work;
-  memory.charged = settings_.planner.prices.Of(found.work);
+  Note(found, memory);
   GiveWay(now, found, memory);
 }
 

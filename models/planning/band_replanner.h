@@ -99,6 +99,8 @@ class BandReplanner {
   void Forget(const BandSituation& now, BandMemory& memory) const;
   /// From the request's goal to where the arm is to end; empty if that is the goal.
   Eigen::VectorXd EndFor(const BandSituation& now, const BandMemory& memory) const;
+  /// What a plan came to, but for its curve.
+  void Note(const BandPlan& found, BandMemory& memory) const;
   void MakePlan(const BandSituation& now, double start,
                 const std::optional<BandSituation::Positions>& rate, BandMemory& memory) const;
   void GiveWay(const BandSituation& now, const BandPlan& found, BandMemory& memory) const;
