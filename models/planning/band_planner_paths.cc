@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bands of BandPlanner that follow paths past what stands.
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -22,15 +23,46 @@ constexpr std::uint64_t kPathTurn = 3;  // one of so many plans looks for paths,
 constexpr double kPathRoom = 1.3;       // times what a band keeps, so that it may bend
 constexpr double kEndRoom = 1.02;       // times what must be kept: as much is left at an end
 constexpr double kEndShare = 0.9;       // of what the ends of a path leave, if that is less
-constexpr double kPathSpeed = 0.9;      // rad/s, in the 2-norm
+constexpr double kPathSpeed = 2.0;      // rad/s, in the 2-norm; more takes more points of a band
+// Of SmoothStep: its largest slope and curvature.
+constexpr double kStepSlope = 15.0 / 8.0;
+constexpr double kStepBend = 5.7735;
+
+/// The largest share of a limit; nothing moves where a limit is 0, which then is none.
+double MostOf(const VectorXd& values, const VectorXd& limits) {
+  double most = 0.0;
+  for (Eigen::Index j = 0; j < values.size(); ++j) {
+    if (values[j] > 0.0 && limits[j] > 0.0) most = std::max(most, values[j] / limits[j]);
+  }
+  return most;
+}
+
+/// How long each part of a path takes at least, s, within kPathSpeed and the limits of speed.
+std::vector<double> TimesAlong(const robot::RobotModel& model, const std::vector<VectorXd>& path) {
+  std::vector<double> times{0.0};
+  for (std::size_t k = 1; k < path.size(); ++k) {
+    const VectorXd way = (path[k] - path[k - 1]).cwiseAbs();
+    const double least = MostOf(way, model.velocity_limits());
+    times.push_back(times.back() + std::max(least, way.norm() / kPathSpeed));
+  }
+  return times;
+}
+
+/// In which SmoothStep goes along a path within the limits of speed and acceleration, but for its
+/// corners, s.
+double DurationAlong(const robot::RobotModel& model, const std::vector<VectorXd>& path,
+                     double limit_share) {
+  VectorXd way = VectorXd::Zero(path.front().size());
+  for (std::size_t k = 1; k < path.size(); ++k) way += (path[k] - path[k - 1]).cwiseAbs();
+  const double bend = MostOf(way, model.acceleration_limits());
+  return std::max(kStepSlope * TimesAlong(model, path).back(), std::sqrt(kStepBend * bend)) /
+         limit_share;
+}
 
 }  // namespace
 
 BandCurve BandPlanner::Along(const BandTask& task, const std::vector<VectorXd>& path) const {
-  std::vector<double> lengths{0.0};
-  for (std::size_t k = 1; k < path.size(); ++k) {
-    lengths.push_back(lengths.back() + (path[k] - path[k - 1]).norm());
-  }
+  const std::vector<double> lengths = TimesAlong(model(), path);
   const double begin = task.start + std::min(0.2, 0.1 * (zero_.end() - task.start));
   const double end = zero_.end() - std::min(0.5, 0.2 * (zero_.end() - task.start));
   VectorXd request(zero_.size());
@@ -158,14 +190,9 @@ models::Name BandPlanner::StandingName(const BandTask& task, const robot::NearPa
 
 void BandPlanner::TryPath(const BandTask& task, const std::vector<VectorXd>& path, BandPlan& best) {
   // A path of straight pieces needs time and points: the more, the nearer the band is to it.
-  double length = 0.0;
-  for (std::size_t k = 1; k < path.size(); ++k) length += (path[k] - path[k - 1]).norm();
-  double speed = robot::kUnlimited;
-  for (Eigen::Index j = 0; j < zero_.size(); ++j) {
-    speed = std::min(speed, model().velocity_limits()[j]);
-  }
-  double duration =
-      std::max(length / std::min(kPathSpeed, speed / 2.5), task.request_end - task.start);
+  double duration = std::max(
+      std::min(DurationAlong(model(), path, settings_.band.limit_share), settings_.most_horizon),
+      task.request_end - task.start);
   for (const double interval : {0.25, 0.15, 0.1}) {
     Prepare(task, {duration + settings_.tail, interval});
     const BandCurve along = Along(task, path);
