@@ -51,8 +51,8 @@ class TreePair {
   double spacing() const { return spacing_; }
   double room() const { return room_; }
   /// From now on samples keep up to `most` (m) besides the margin, as far as both positions do.
-  void LeaveRoom(CertifiedMotion& motion, const Eigen::VectorXd& start,
-                 const Eigen::VectorXd& goal, double most = kSampleRoom);
+  void LeaveRoom(CertifiedMotion& motion, const Eigen::VectorXd& start, const Eigen::VectorXd& goal,
+                 double most = kSampleRoom);
 
   SearchTree from_start, from_goal;
 

@@ -225,8 +225,7 @@ TEST_F(SceneDraftTest, WritesAnSrdfWhereNothingAllowsCollisions) {
 TEST_F(SceneDraftTest, WhatIsMissingOrUnknownIsRefusedAndLeavesNoFile) {
   EXPECT_THAT(RefusalOf(Object("id: a, header: {frame_id: wrld}, primitives: [{type: sphere, "
                                "dimensions: [1]}]")),
-              AllOf(HasSubstr("scene.yaml:1: frame; got 'wrld'"),
-                    HasSubstr("nearest is 'world'")));
+              AllOf(HasSubstr("scene.yaml:1: frame; got 'wrld'"), HasSubstr("nearest is 'world'")));
   EXPECT_THAT(RefusalOf("world: {}\n", "group_name: arms\n" + std::string(kRequest).substr(16)),
               AllOf(HasSubstr("group_name; got 'arms'"), HasSubstr("nearest is 'arm'")));
   std::string less = kRequest;
