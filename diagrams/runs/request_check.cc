@@ -134,7 +134,9 @@ class RequestJudge {
     Add(*ahead_->source,
         fmt::format("{} is to {} {:.4g} {}{} at {:.3g} s; {}: {}{}", JointText(worst), demand.verb,
                     worst_value, UnitOf(worst), demand.per, when, limits, demand.consequence,
-                    more > 0 ? fmt::format("; and {} more joints likewise", more) : ""));
+                    more > 0
+                        ? fmt::format("; and {} more joint{} likewise", more, more > 1 ? "s" : "")
+                        : ""));
   }
 
   void JudgeContacts() {

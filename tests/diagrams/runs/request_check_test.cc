@@ -93,7 +93,7 @@ TEST_F(RequestCheckFile, AccelerationsAreLookedAtWhereTheyHaveALimit) {
   EXPECT_THAT(
       Told({"systems.spline.key_points.1.time=2", "parameters.acceleration_limit=1.3"}),
       ElementsAre(AllOf(HasSubstr("joint 'j1' is to accelerate with"), HasSubstr("2.667 rad/s^2"),
-                        HasSubstr("and 1 more joints likewise"))));
+                        HasSubstr("and 1 more joint likewise"))));
 }
 
 TEST_F(RequestCheckFile, ContactAtTheStartAndAtTheEndIsNamed) {
