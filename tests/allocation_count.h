@@ -3,11 +3,13 @@
 
 #include <cstdint>
 
+#include "tests/sanitized.h"
+
 namespace oca {
 
 /// Whether a program that has allocation_count.cc among its sources counts; sanitizers bring a
 /// malloc of their own.
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__GLIBC__) && !OCA_SANITIZED
 inline constexpr bool kCountsAllocations = true;
 #else
 inline constexpr bool kCountsAllocations = false;

@@ -19,6 +19,15 @@ namespace {
 
 constexpr std::size_t kMostMoving = 8;
 
+/// Calls `declare` with std::index_sequence<0, ..., count - 1>; count <= kMostMoving.
+template <std::size_t kCount = 0, class Declare>
+auto WithIndices(std::size_t count, const Declare& declare) {
+  if constexpr (kCount < kMostMoving) {
+    if (count > kCount) return WithIndices<kCount + 1>(count, declare);
+  }
+  return declare(std::make_index_sequence<kCount>());
+}
+
 template <std::size_t>
 using PosesOfOne = LinkPoses;  // as many as there are indices
 
@@ -154,28 +163,20 @@ std::vector<Input<LinkPoses>> BulletDistance::DeclareOtherLinks() {
 }
 
 // What is not looked at is not read: the inputs of `others` stay, whatever the switch says.
-template <std::size_t kMoving>
 Output<ProximitySet> BulletDistance::DeclareProximities(std::size_t moving) {
-  if constexpr (kMoving < kMostMoving) {
-    if (moving > kMoving) return DeclareProximities<kMoving + 1>(moving);
-  }
-  return [this]<std::size_t... I>(std::index_sequence<I...>) {
-    return DeclareOutput<ProximitySet, &BulletDistance::CalcProximities<PosesOfOne<I>...>>(
-        "proximities", {}, links, obstacles, scene_, near_, asked_, links_of_others[I]...);
-  }
-  (std::make_index_sequence<kMoving>());
+  return WithIndices(
+      moving, [this]<std::size_t... I>(std::index_sequence<I...>) {
+        return DeclareOutput<ProximitySet, &BulletDistance::CalcProximities<PosesOfOne<I>...>>(
+            "proximities", {}, links, obstacles, scene_, near_, asked_, links_of_others[I]...);
+      });
 }
 
-template <std::size_t kMoving>
 Output<ObstacleSet> BulletDistance::DeclareAround(std::size_t moving) {
-  if constexpr (kMoving < kMostMoving) {
-    if (moving > kMoving) return DeclareAround<kMoving + 1>(moving);
-  }
-  return [this]<std::size_t... I>(std::index_sequence<I...>) {
-    return DeclareOutput<ObstacleSet, &BulletDistance::CalcAround<PosesOfOne<I>...>>(
-        "around", {}, obstacles, links_of_others[I]...);
-  }
-  (std::make_index_sequence<kMoving>());
+  return WithIndices(
+      moving, [this]<std::size_t... I>(std::index_sequence<I...>) {
+        return DeclareOutput<ObstacleSet, &BulletDistance::CalcAround<PosesOfOne<I>...>>(
+            "around", {}, obstacles, links_of_others[I]...);
+      });
 }
 
 template <class... Poses>

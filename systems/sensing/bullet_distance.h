@@ -121,9 +121,7 @@ class BulletDistance final : public System {
   std::vector<std::pair<models::Name, models::Name>> MakeIgnored(const Params& params,
                                                                  const ModelSet& models) const;
   std::vector<Input<LinkPoses>> DeclareOtherLinks();
-  template <std::size_t kMoving = 0>
   Output<ProximitySet> DeclareProximities(std::size_t moving);
-  template <std::size_t kMoving = 0>
   Output<ObstacleSet> DeclareAround(std::size_t moving);
   void DeclareRoles(const Params& params, const ModelSet& models);
 

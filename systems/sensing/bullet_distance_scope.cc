@@ -78,9 +78,9 @@ std::vector<BulletDistance::Other> BulletDistance::MakeOthers(const Params& para
   std::vector<Other> others;
   const auto add = [&](const std::string& name, const std::string& local_name) {
     const auto& model = models.all().at(name);
-    std::vector<Neighbour> links = MakeNeighbours(name, *model);
-    auto solids = MakeSolids(*model, links);
-    others.push_back({name, local_name, model, std::move(links), std::move(solids)});
+    std::vector<Neighbour> neighbours = MakeNeighbours(name, *model);
+    auto solids = MakeSolids(*model, neighbours);
+    others.push_back({name, local_name, model, std::move(neighbours), std::move(solids)});
   };
   if (LooksAtAll(params)) {
     for (const auto& [name, local_name] : all) add(name, local_name);

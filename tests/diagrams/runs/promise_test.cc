@@ -56,15 +56,16 @@ std::vector<Case> Cases() {
 class PromiseTest : public testing::TestWithParam<Case> {};
 
 TEST_P(PromiseTest, IsMetWithoutAWarningOrTheReasonIsNamed) {
-  const auto& [method, file] = GetParam();
+  const Case& of = GetParam();
   const loading::LoadedDiagram loaded =
-      loading::LoadDiagram(kFolder / (file + ".yaml"), {{"parameters.avoidance", method}});
+      loading::LoadDiagram(kFolder / (of.file + ".yaml"), {{"parameters.avoidance", of.method}});
   EXPECT_THAT(loaded.warnings, testing::IsEmpty());
   const RunResult result = runs::Run(loaded, {});
   EXPECT_FALSE(result.failure) << result.failure->message;
   for (const ExpectationResult& expectation : result.expectations) {
     const bool met = std::none_of(std::begin(kUnmet), std::end(kUnmet), [&](const Unmet& unmet) {
-      return unmet.method == method && unmet.file == file && unmet.expectation == expectation.name;
+      return unmet.method == of.method && unmet.file == of.file &&
+             unmet.expectation == expectation.name;
     });
     EXPECT_EQ(expectation.ok, met) << expectation.name << " " << expectation.bound << ", got "
                                    << expectation.value.value_or(-1.0);

@@ -12,6 +12,7 @@
 #include "oca/models/random.h"
 #include "tests/models/geometry/random_bodies.h"
 #include "tests/models/planning/scene.h"
+#include "tests/sanitized.h"
 
 namespace oca::planning {
 namespace batch_clearance_test {
@@ -19,11 +20,8 @@ namespace batch_clearance_test {
 using test::Arm;
 using test::BoxAt;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kBatches = 500;
-#else
-constexpr int kBatches = 32000;  // of eight configurations, for each of four arms: 10^6 in all
-#endif
+// Of eight configurations, for each of four arms: 10^6 in all.
+constexpr int kBatches = kSanitized ? 500 : 32000;
 
 /// Twenty solids of all kinds about the arm, a floor under it.
 std::vector<robot::PlacedBody> Clutter(unsigned seed, double size = 1.0) {

@@ -15,17 +15,14 @@
 #include "oca/models/robot/pose_error.h"
 #include "oca/models/robot/urdf.h"
 #include "tests/models/robot/random_robot.h"
+#include "tests/sanitized.h"
 
 namespace oca::robot::test {
 namespace inverse_kinematics_test {
 
 constexpr double kPi = std::numbers::pi;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kManyPoses = 300;  // each takes milliseconds
-#else
-constexpr int kManyPoses = 10000;
-#endif
+constexpr int kManyPoses = kSanitized ? 300 : 10000;  // each takes milliseconds
 
 RobotModel Arm(const std::string& name) {
   return LoadUrdf(ProductFile("robots/" + name + "/" + name + ".urdf"));
