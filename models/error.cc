@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "oca/models/counted.h"
+
 namespace oca::models {
 
 void ModelErrors::Throw() const {
@@ -13,7 +15,7 @@ void ModelErrors::Throw() const {
   if (lines_.empty()) return;
   const auto end = lines_.begin() + static_cast<std::ptrdiff_t>(std::min(kShown, lines_.size()));
   std::string text = fmt::format("{}", fmt::join(lines_.begin(), end, "\n"));
-  if (lines_.size() > kShown) text += fmt::format("\nand {} more errors", lines_.size() - kShown);
+  if (lines_.size() > kShown) text += "\nand " + Counted(lines_.size() - kShown, "more error");
   throw ModelError(text);
 }
 

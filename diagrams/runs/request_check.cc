@@ -13,6 +13,7 @@
 #include "oca/diagrams/runs/way_check.h"
 #include "oca/framework/dataflow/dynamic_port.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/models/counted.h"
 #include "oca/models/error.h"
 #include "oca/models/robot/clearance.h"
 #include "oca/systems/signals/roles.h"
@@ -126,17 +127,16 @@ class RequestJudge {
       }
     }
     if (worst < 0) return;
-    const auto more = (excess.array() > 0.0).count() - 1;
+    const auto more = static_cast<std::size_t>((excess.array() > 0.0).count() - 1);
     const std::string limits =
         demand.derivative == 0
             ? fmt::format("its limits are [{:.4g}, {:.4g}]", lower[worst], upper[worst])
             : fmt::format("its limit is {:.4g}", upper[worst]);
     Add(*ahead_->source,
-        fmt::format("{} is to {} {:.4g} {}{} at {:.3g} s; {}: {}{}", JointText(worst), demand.verb,
-                    worst_value, UnitOf(worst), demand.per, when, limits, demand.consequence,
-                    more > 0
-                        ? fmt::format("; and {} more joint{} likewise", more, more > 1 ? "s" : "")
-                        : ""));
+        fmt::format(
+            "{} is to {} {:.4g} {}{} at {:.3g} s; {}: {}{}", JointText(worst), demand.verb,
+            worst_value, UnitOf(worst), demand.per, when, limits, demand.consequence,
+            more > 0 ? fmt::format("; and {} likewise", models::Counted(more, "more joint")) : ""));
   }
 
   void JudgeContacts() {

@@ -5,6 +5,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "oca/models/counted.h"
+
 namespace oca::robot {
 namespace {
 
@@ -35,7 +37,7 @@ std::vector<std::string> InertiaWarnings(const RobotModel& model, bool sum_up) {
                     link.name.text(), why));
   }
   if (sum_up && lines.size() > 1) {
-    lines.front() += fmt::format("; and {} more links", lines.size() - 1);
+    lines.front() += "; and " + models::Counted(lines.size() - 1, "more link");
     lines.resize(1);
   }
   return lines;

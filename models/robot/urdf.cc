@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <span>
 
+#include "oca/models/counted.h"
 #include "oca/models/error.h"
 #include "oca/models/geometry/decomposition.h"
 #include "oca/models/geometry/mesh_surface.h"
@@ -276,7 +277,7 @@ class UrdfReader {
     const std::size_t all = missing_visuals_.size();
     const std::size_t told = options_.sum_up ? std::min<std::size_t>(1, all) : all;
     const std::size_t more = all - told;
-    const std::string rest = more == 0 ? "" : fmt::format("; and {} more visuals", more);
+    const std::string rest = more == 0 ? "" : "; and " + models::Counted(more, "more visual");
     for (const std::string& why : std::span(missing_visuals_).first(told)) {
       options_.warn(fmt::format("not drawn: {}{}", why, rest));
     }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <set>
 
+#include "oca/models/counted.h"
 #include "oca/models/error.h"
 #include "oca/models/nearest_name.h"
 #include "oca/models/robot/xml_numbers.h"
@@ -47,7 +48,7 @@ std::string XmlReader::Text(const TiXmlElement& element, const char* attribute) 
 std::vector<double> XmlReader::Numbers(const TiXmlElement& element, const char* attribute,
                                        int count, bool required) const {
   const char* text = element.Attribute(attribute);
-  const std::string expected = fmt::format("{} finite number{}", count, count == 1 ? "" : "s");
+  const std::string expected = models::Counted(static_cast<std::size_t>(count), "finite number");
   if (text == nullptr) {
     if (required) Fail(element, attribute, "nothing", expected);
     return {};

@@ -69,8 +69,8 @@ int ShowCommand(const ShowArguments& arguments) {
     Tell("{}: warning: {}\n", arguments.robot.urdf, line);
   }
   if (record.warnings.size() > told) {
-    Tell("{}: {} more warnings, on the page\n", arguments.robot.urdf,
-         record.warnings.size() - told);
+    Tell("{}: {}, on the page\n", arguments.robot.urdf,
+         models::Counted(record.warnings.size() - told, "more warning"));
   }
   if (arguments.output.empty()) {
     return ServeRecord(arguments.robot.urdf, std::move(record.mcap), arguments.view);

@@ -106,7 +106,7 @@ TEST(UrdfRepairTest, InertiasThatNoBodyCanHaveAreKeptAndToldOnce) {
   EXPECT_THAT(loaded.warnings,
               ElementsAre(AllOf(HasSubstr("inertias that no body can have"),
                                 HasSubstr("link 'a' has principal moments 1, 1, 2.1"),
-                                HasSubstr("and 1 more links"))));
+                                HasSubstr("and 1 more link"))));
 }
 
 TEST(UrdfRepairTest, TheFirstMaterialCountsAndColoursAreFourNumbers) {
@@ -142,7 +142,7 @@ TEST(UrdfRepairTest, AVisualWhoseMeshIsMissingIsNotDrawnAndACollisionMustBeThere
   EXPECT_THAT(loaded.model.links()[0].visuals, IsEmpty());
   EXPECT_THAT(loaded.warnings,
               ElementsAre(AllOf(HasSubstr("not drawn: r.urdf:2: link 'arm' visual: missing mesh"),
-                                HasSubstr("and 1 more visuals"))));
+                                HasSubstr("and 1 more visual"))));
   EXPECT_THROW(LoadLink("<collision>" + mesh + "</collision>"), models::ModelError);
 }
 
