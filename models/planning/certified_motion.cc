@@ -51,10 +51,15 @@ bool CertifiedMotion::Clear(const Eigen::Ref<const Eigen::VectorXd>& q) {
 
 bool CertifiedMotion::Clear(const Eigen::Ref<const Eigen::VectorXd>& q_0,
                             const Eigen::Ref<const Eigen::VectorXd>& q_1, double room) {
-  const int samples = CountOf((q_1 - q_0).norm(), kFirstPiece, kMostSamples);
+  return SamplesClear(q_0, q_1, kFirstPiece, room) && ProvedShare(q_0, q_1, true) == 1.0;
+}
+
+bool CertifiedMotion::SamplesClear(const Eigen::Ref<const Eigen::VectorXd>& q_0,
+                                   const Eigen::Ref<const Eigen::VectorXd>& q_1, double spacing,
+                                   double room) {
+  const int samples = CountOf((q_1 - q_0).norm(), spacing, kMostSamples);
   evaluations_ += (samples + kLanes - 1) / kLanes;
-  return batch().SamplesClear(q_0, q_1, samples, margin_ + room) &&
-         ProvedShare(q_0, q_1, true) == 1.0;
+  return batch().SamplesClear(q_0, q_1, samples, margin_ + room);
 }
 
 double CertifiedMotion::ClearShare(const Eigen::Ref<const Eigen::VectorXd>& q_0,

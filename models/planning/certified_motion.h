@@ -37,8 +37,11 @@ class CertifiedMotion {
   /// `most`, as far as both positions leave twice that.
   double RoomOf(const Eigen::Ref<const Eigen::VectorXd>& q_0,
                 const Eigen::Ref<const Eigen::VectorXd>& q_1, double most);
-  /// The share before the first sample that is nearer to anything than margin and `room`: these are at most `spacing` (2-norm of the
-  /// joints) apart, q_1 included and q_0 not, but no more than 1000.
+  /// Whether all samples on the way are farther from anything than margin and `room`: these are at
+  /// most `spacing` (2-norm of the joints) apart, q_1 included and q_0 not, but no more than 1000.
+  bool SamplesClear(const Eigen::Ref<const Eigen::VectorXd>& q_0,
+                    const Eigen::Ref<const Eigen::VectorXd>& q_1, double spacing, double room);
+  /// The share before the first of these samples that is not.
   double SampledShare(const Eigen::Ref<const Eigen::VectorXd>& q_0,
                       const Eigen::Ref<const Eigen::VectorXd>& q_1, double spacing, double room);
 

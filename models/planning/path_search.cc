@@ -13,7 +13,6 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kEdge = 0.5;           // rad; longest edge
 constexpr double kSameGoal = 1e-9;      // rad
 constexpr int kApproachTurn = 8;        // of so many draws one goes for what is near the goal
 constexpr int kDescents = 30;           // steps down towards the goal
@@ -163,7 +162,7 @@ void PathSearch::FindNearest() {
 void PathSearch::Connect(Tools& tools) {
   const int before = trees_.from_start.size();
   const int most = 4 * levels_.last_nodes;
-  const bool met = trees_.Grow(tools.room.Draw(tools.random), kEdge, most, tools.motion);
+  const bool met = trees_.Grow(tools.room.Draw(tools.random), kLongestEdge, most, tools.motion);
   for (int i = before; i < trees_.from_start.size(); ++i) Note(i, levels_.least_gain);
   if (!met) return;
   if (auto path = trees_.Prove(tools.motion)) {
@@ -188,7 +187,8 @@ void PathSearch::Approach(Tools& tools) {
   const VectorXd q = (centre + radius * out).cwiseMax(tools.room.lower).cwiseMin(tools.room.upper);
   const int before = trees_.from_start.size();
   const int improved = improvements_;
-  trees_.from_start.Grow(q, {kEdge, trees_.spacing(), trees_.room(), before + 20}, tools.motion);
+  trees_.from_start.GrowUntilBlocked(
+      q, {kLongestEdge, trees_.spacing(), trees_.room(), before + 20}, tools.motion);
   for (int i = before; i < trees_.from_start.size(); ++i) Note(i, levels_.least_gain);
   // From a new place that may lead to another valley.
   if (trees_.from_start.size() > before && (improvements_ > improved || draws_ % 4 == 0)) {

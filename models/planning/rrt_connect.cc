@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "oca/models/planning/certified_motion.h"
-#include "oca/models/planning/tree_pair.h"
 #include "oca/models/random.h"
 
 namespace oca::planning {

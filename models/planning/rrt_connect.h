@@ -6,24 +6,25 @@
 #include <optional>
 #include <vector>
 
+#include "oca/models/planning/tree_pair.h"
 #include "oca/models/robot/clearance.h"
 
 namespace oca::planning {
 
 struct RrtOptions {
   std::uint64_t seed{0};
-  double margin{0.01};   ///< m; everything stays farther apart than this
-  int most_nodes{5000};  ///< of both trees together
-  double step{0.5};      ///< rad; longest edge
-  int shortcuts{200};    ///< attempts to shorten what was found; 0: as it is
+  double margin{0.01};        ///< m; everything stays farther apart than this
+  int most_nodes{5000};       ///< of both trees together
+  double step{kLongestEdge};  ///< rad; longest edge
+  int shortcuts{200};         ///< attempts to shorten what was found; 0: as it is
 };
 
 /// A path of straight joint motions from `start` to `goal` on which the robot stays clear of the
 /// bodies of `clearance`, both ends included; nothing if a tree of `most_nodes` has found none.
 ///
-/// Two trees grow from the ends, each towards random positions within the joint limits (a joint
-/// without limits: within half a turn of both ends) and then as far as it can towards the other's
-/// new node. Edges are looked at by samples, eight at once; the path through both trees is proved
+/// Two trees grow from the ends: one by an edge towards a random position within the joint limits (a
+/// joint without limits: within half a turn of both ends), the other as far as it can towards the new
+/// node. Edges are looked at by samples, eight at once; the path through both trees is proved
 /// clear by CertifiedMotion, so that the answer holds between the points too: an edge that cannot be
 /// proved is cut off with what is behind it, and the search goes on with samples half as far apart.
 /// The same arguments give the same path. Allocates.

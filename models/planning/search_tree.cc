@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace oca::planning {
 namespace {
@@ -32,29 +33,50 @@ void SearchTree::Add(const Eigen::VectorXd& q, int parent) {
   parents_.push_back(parent);
 }
 
-SearchTree::Growth SearchTree::Grow(const Eigen::VectorXd& q, const Steps& steps,
+SearchTree::Edge SearchTree::EdgeFrom(int node, const Eigen::VectorXd& q, double step) const {
+  Eigen::VectorXd here = this->q(node);
+  const double length = (q - here).norm();
+  if (length <= step) return {std::move(here), q, length, true};
+  Eigen::VectorXd to = here + step / length * (q - here);
+  return {std::move(here), std::move(to), step, false};
+}
+
+SearchTree::Growth SearchTree::Grow(const Eigen::VectorXd& q, const Steps& steps, int edges,
                                     CertifiedMotion& motion) {
+  int from = Nearest(q);
+  for (int grown = 0; size() < steps.most; ++grown) {
+    const Edge edge = EdgeFrom(from, q, steps.step);
+    if (edge.length == 0.0) return {true, grown > 0};
+    if (grown == edges || !motion.SamplesClear(edge.from, edge.to, steps.spacing, steps.room)) {
+      return {false, grown > 0};
+    }
+    Add(edge.to, from);
+    from = last();
+    if (edge.arrives) return {true, true};
+  }
+  return {false, false};
+}
+
+SearchTree::Growth SearchTree::GrowUntilBlocked(const Eigen::VectorXd& q, const Steps& steps,
+                                                CertifiedMotion& motion) {
   int from = Nearest(q);
   bool grew = false;
   while (size() < steps.most) {
-    const Eigen::VectorXd here = this->q(from);
-    const Eigen::VectorXd way = q - here;
-    const double length = way.norm();
-    if (length == 0.0) return {true, grew};
-    const double share = std::min(1.0, steps.step / length);
-    const Eigen::VectorXd next = share == 1.0 ? q : Eigen::VectorXd(here + share * way);
-    double clear = motion.SampledShare(here, next, steps.spacing, steps.room);
+    const Edge edge = EdgeFrom(from, q, steps.step);
+    if (edge.length == 0.0) return {true, grew};
+    const Eigen::VectorXd way = edge.to - edge.from;
+    double clear = motion.SampledShare(edge.from, edge.to, steps.spacing, steps.room);
     if (clear < 1.0) {  // how far from the last sample that is clear to the first that is not
-      const Eigen::VectorXd last_clear = here + clear * share * way;
-      const double rest = std::min(1.0 - clear, steps.spacing / (share * length));
-      const Eigen::VectorXd not_clear = last_clear + rest * share * way;
+      const Eigen::VectorXd last_clear = edge.from + clear * way;
+      const double rest = std::min(1.0 - clear, steps.spacing / edge.length);
+      const Eigen::VectorXd not_clear = last_clear + rest * way;
       clear += rest * motion.SampledShare(last_clear, not_clear, steps.spacing / 8.0, steps.room);
     }
-    if (clear < 1.0 && clear * share * length < kLeastProgress) return {false, grew};
-    Add(clear == 1.0 ? next : Eigen::VectorXd(here + clear * share * way), from);
+    if (clear < 1.0 && clear * edge.length < kLeastProgress) return {false, grew};
+    Add(clear == 1.0 ? edge.to : Eigen::VectorXd(edge.from + clear * way), from);
     from = last();
     grew = true;
-    if (clear < 1.0 || share == 1.0) return {clear == 1.0, grew};
+    if (clear < 1.0 || edge.arrives) return {clear == 1.0, grew};
   }
   return {false, grew};
 }

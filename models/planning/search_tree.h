@@ -38,8 +38,11 @@ class SearchTree {
     double step, spacing, room;
     int most;
   };
-  /// Grows from the nearest node towards q, as far as the samples are clear.
-  Growth Grow(const Eigen::VectorXd& q, const Steps& steps, CertifiedMotion& motion);
+  /// Grows from the nearest node towards q by at most `edges` edges, all samples of each of which
+  /// are clear.
+  Growth Grow(const Eigen::VectorXd& q, const Steps& steps, int edges, CertifiedMotion& motion);
+  /// The same by any number of edges and a part of one: as far as the samples are clear.
+  Growth GrowUntilBlocked(const Eigen::VectorXd& q, const Steps& steps, CertifiedMotion& motion);
   /// Whether the way from the root to a node is proved clear. If not, the first edge that is not is
   /// cut off, with all that is behind it: nodes get other numbers, but for the root.
   bool Prove(int node, CertifiedMotion& motion);
@@ -51,6 +54,13 @@ class SearchTree {
   std::vector<Eigen::VectorXd> PathTo(int node) const;
 
  private:
+  /// Towards q from a node, no longer than an edge.
+  struct Edge {
+    Eigen::VectorXd from, to;
+    double length;
+    bool arrives;
+  };
+  Edge EdgeFrom(int node, const Eigen::VectorXd& q, double step) const;
   void CutOff(int node);
 
   Eigen::Index size_of_q_{0};

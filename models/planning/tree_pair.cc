@@ -36,15 +36,11 @@ void TreePair::LeaveRoom(CertifiedMotion& motion, const Eigen::VectorXd& start,
 bool TreePair::Grow(const Eigen::VectorXd& q, double step, int most, CertifiedMotion& motion) {
   SearchTree& growing = start_grows_ ? from_start : from_goal;
   SearchTree& other = start_grows_ ? from_goal : from_start;
-  const auto grow = [&](SearchTree& tree, const Eigen::VectorXd& towards) {
-    const int left = most - (&tree == &growing ? other : growing).size();
-    return tree.Grow(towards, {step, spacing_, room_, left}, motion);
-  };
-  const bool grew = grow(growing, q).grew;
+  const bool grew = growing.Grow(q, {step, spacing_, room_, most - other.size()}, 1, motion).grew;
   bool met = false;
   if (grew) {
     const Eigen::VectorXd meeting = growing.q(growing.last());
-    met = grow(other, meeting).arrived;
+    met = other.Grow(meeting, {step, spacing_, room_, most - growing.size()}, most, motion).arrived;
     if (met) {
       const int at = other.Nearest(meeting);
       start_node_ = start_grows_ ? growing.last() : at;

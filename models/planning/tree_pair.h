@@ -21,10 +21,12 @@ struct SearchRoom {
   Eigen::VectorXd lower, upper;
 };
 
-/// Samples of a search's edges are at first this far apart (2-norm of the joints, rad and m), and
-/// half as far, down to the least, whenever they have misled.
-inline constexpr double kSampleSpacing = 0.0625;
-inline constexpr double kLeastSampleSpacing = 0.0625 / 8.0;
+/// Edges of a search are no longer than this (2-norm of the joints, rad and m).
+inline constexpr double kLongestEdge = 0.7;
+/// Samples of a search's edges are at first this far apart, and half as far, down to the least,
+/// whenever they have misled. Eight, which are looked at at once, are those of an edge.
+inline constexpr double kSampleSpacing = kLongestEdge / 8.0;
+inline constexpr double kLeastSampleSpacing = kSampleSpacing / 8.0;
 /// m; that samples keep besides the margin, so that what is between them can mostly be proved.
 inline constexpr double kSampleRoom = 0.003;
 
@@ -40,9 +42,9 @@ class TreePair {
 
   int size() const { return from_start.size() + from_goal.size(); }
 
-  /// One tree grows towards q, then the other as far as it can towards the new node, by edges no
-  /// longer than `step` until both have `most` nodes; whether they meet. Samples keep room() besides
-  /// the margin.
+  /// One tree grows by an edge towards q, then the other as far as it can towards the new node, by
+  /// edges no longer than `step` until both have `most` nodes; whether they meet. Samples keep room()
+  /// besides the margin.
   bool Grow(const Eigen::VectorXd& q, double step, int most, CertifiedMotion& motion);
   /// The path through where they met just now, if it is proved clear; else what is not is cut off,
   /// and samples are closer from now on.

@@ -40,7 +40,6 @@ namespace fs = std::filesystem;
 
 constexpr double kMargin = 0.001;  // m
 constexpr int kMostDraws = 200'000;
-constexpr double kStep = 0.5;  // rad
 
 double Seconds() {
   timespec now{};
@@ -95,12 +94,12 @@ Times Search(robot::Clearance& clearance, const Eigen::VectorXd& start, const Ei
   const planning::SearchRoom room(clearance.model(), start, goal);
   models::Random random(seed);
   std::optional<std::vector<Eigen::VectorXd>> path;
-  if (motion.SampledShare(start, goal, planning::kSampleSpacing, 0.0) == 1.0) {
+  if (motion.SamplesClear(start, goal, planning::kSampleSpacing, 0.0)) {
     times.search = Seconds() - begin;
     if (motion.Clear(start, goal)) path = {start, goal};
   }
   for (int draw = 0; draw < kMostDraws && !path; ++draw) {
-    if (!trees.Grow(room.Draw(random), kStep, kMostDraws, motion)) continue;
+    if (!trees.Grow(room.Draw(random), planning::kLongestEdge, kMostDraws, motion)) continue;
     if (times.search == 0.0) times.search = Seconds() - begin;
     path = trees.Prove(motion);
   }

@@ -28,9 +28,9 @@ TEST(SearchTreeTest, CutsOffWhatSamplesDidNotSeeAndWhatIsBehindIt) {
   robot::Clearance clearance(test::Arm("planar2"), false, {ThinPlate()});
   CertifiedMotion motion(clearance, kMargin);
   SearchTree tree(kBelow);
-  ASSERT_TRUE(tree.Grow(kAbove, {1.0, 1.0, 0.0, 100}, motion).arrived);  // stepped over it
+  ASSERT_TRUE(tree.Grow(kAbove, {1.0, 1.0, 0.0, 100}, 1, motion).arrived);  // stepped over it
   const VectorXd beyond = Eigen::Vector2d(0.9, 0.2);
-  tree.Grow(beyond, {0.3, 0.0625, 0.0, 100}, motion);
+  tree.Grow(beyond, {0.3, 0.0625, 0.0, 100}, 100, motion);
   const int all = tree.size();
   ASSERT_GE(all, 4);
   EXPECT_FALSE(tree.Prove(tree.last(), motion));
@@ -47,10 +47,10 @@ TEST(SearchTreeTest, KeepsBranchesThatDoNotPassWhatIsCutOff) {
   robot::Clearance clearance(test::Arm("planar2"), false, {ThinPlate()});
   CertifiedMotion motion(clearance, kMargin);
   SearchTree tree(kBelow);
-  tree.Grow(kAbove, {1.0, 1.0, 0.0, 100}, motion);
+  tree.Grow(kAbove, {1.0, 1.0, 0.0, 100}, 1, motion);
   const int wrong = tree.last();
   const VectorXd side = Eigen::Vector2d(-1.2, 0.4);
-  ASSERT_TRUE(tree.Grow(side, {0.3, 0.0625, 0.0, 100}, motion).arrived);
+  ASSERT_TRUE(tree.Grow(side, {0.3, 0.0625, 0.0, 100}, 100, motion).arrived);
   ASSERT_FALSE(tree.Prove(wrong, motion));
   EXPECT_EQ(VectorXd(tree.q(tree.last())), side);
   EXPECT_TRUE(tree.Prove(tree.last(), motion));
@@ -67,7 +67,7 @@ TEST(TreePairTest, LooksCloserOnceSamplesHaveMisled) {
     const SearchRoom room(clearance.model(), start, goal);
     for (int i = 0; i < 2000; ++i) {
       const double spacing = trees.spacing();
-      if (!trees.Grow(room.Draw(random), 0.5, 2000, motion)) continue;
+      if (!trees.Grow(room.Draw(random), kLongestEdge, 2000, motion)) continue;
       if (const auto path = trees.Prove(motion)) {
         EXPECT_EQ(path->front(), start);
         EXPECT_EQ(path->back(), goal);
