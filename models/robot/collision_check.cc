@@ -9,6 +9,7 @@
 #include <random>
 
 #include "oca/models/error.h"
+#include "oca/models/geometry/ball_tree.h"
 #include "oca/models/geometry/distance.h"
 #include "oca/models/robot/joint_limits.h"
 #include "oca/models/robot/kinematics.h"
@@ -19,6 +20,7 @@ namespace {
 
 // Of the posture 0, m: what closes flush there, such as fingers, is apart by rounding or is not.
 constexpr double kFlush = 1e-6;
+constexpr std::ptrdiff_t kMostLinks = 500;
 
 struct Solid {
   Eigen::Isometry3d X_LC;
@@ -79,6 +81,14 @@ std::vector<Range> RangesOf(const RobotModel& model) {
 }
 
 std::vector<std::vector<Solid>> MakeSolids(const RobotModel& model) {
+  const auto count = std::count_if(model.links().begin(), model.links().end(),
+                                   [](const Link& link) { return !link.collisions.empty(); });
+  if (count > kMostLinks) {
+    throw models::ModelError(
+        fmt::format("robot '{}': links with solids, each pair of which is looked at; got {}; "
+                    "expected at most {}",
+                    model.name().text(), count, kMostLinks));
+  }
   std::vector<std::vector<Solid>> solids;
   for (const Link& link : model.links()) {
     solids.emplace_back();
@@ -88,6 +98,25 @@ std::vector<std::vector<Solid>> MakeSolids(const RobotModel& model) {
     }
   }
   return solids;
+}
+
+/// A ball around all solids of a link, in its frame.
+geometry::Ball BallAround(const std::vector<Solid>& solids) {
+  geometry::Ball ball{Eigen::Vector3d::Zero(), 0.0};
+  for (const Solid& solid : solids) {
+    ball.centre += solid.X_LC * solid.collider->centre() / static_cast<double>(solids.size());
+  }
+  for (const Solid& solid : solids) {
+    const double away = (solid.X_LC * solid.collider->centre() - ball.centre).norm();
+    ball.radius = std::max(ball.radius, away + solid.collider->bounding_radius());
+  }
+  return ball;
+}
+
+/// Whether balls about both centres are farther apart than `distance`, and by more than rounding.
+bool Apart(const geometry::Ball& a, const geometry::Ball& b, double distance) {
+  const double reach = a.radius + b.radius + std::max(distance, 0.0);
+  return (a.centre - b.centre).squaredNorm() > reach * reach * (1.0 + 1e-12);
 }
 
 // The distance if it is at most `limit`, else any number above.
@@ -142,13 +171,18 @@ std::vector<LinkPairCheck> CheckCollisions(const RobotModel& model,
   }
   Eigen::VectorXd q = ZeroPosture(model);
   std::vector<Eigen::Isometry3d> X_WL(model.links().size());
+  std::vector<geometry::Ball> balls;
+  for (const std::vector<Solid>& of_link : solids) balls.push_back(BallAround(of_link));
+  std::vector<geometry::Ball> placed = balls;
   Draws draws(sampling.seed);
   for (int sample = 0; sample < sampling.samples; ++sample) {
     for (std::size_t i = 0; sample > 0 && i < ranges.size(); ++i) {
       q[static_cast<Eigen::Index>(i)] = draws.Position(ranges[i]);
     }
     ForwardKinematics(model, q, X_WL);
+    for (std::size_t i = 0; i < balls.size(); ++i) placed[i].centre = X_WL[i] * balls[i].centre;
     for (LinkPairCheck& pair : pairs) {
+      if (Apart(placed[pair.link_a], placed[pair.link_b], pair.least_distance)) continue;
       const double distance =
           DistanceWithin(solids[pair.link_a], X_WL[pair.link_a], solids[pair.link_b],
                          X_WL[pair.link_b], pair.least_distance);

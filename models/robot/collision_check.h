@@ -49,8 +49,8 @@ struct LinkPairCheck {
 /// the same answer on every machine that rounds alike. What was never seen may still happen: the
 /// margin, not the number of samples, is what makes "never" safe.
 ///
-/// throws ModelError if samples < 1, the margin is negative or not finite, a joint has no range
-///        that samples cover, a distance is not finite, or a solid cannot be prepared for distance
+/// throws ModelError if samples < 1, the margin is negative or not finite, more than 500 links have
+///        solids, a joint has no range that samples cover, a distance is not finite, or a solid cannot be prepared for distance
 ///        queries
 std::vector<LinkPairCheck> CheckCollisions(const RobotModel& model,
                                            const CollisionSampling& sampling);

@@ -193,6 +193,36 @@ INSTANTIATE_TEST_SUITE_P(Robots, ProductSrdfTest,
                            return name.substr(name.find('/') + 1);
                          });
 
+/// So many links, one behind the other, each with a ball.
+RobotModel Chain(int count) {
+  std::vector<Link> links(static_cast<std::size_t>(count));
+  std::vector<Joint> joints(links.size() - 1);
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    links[i].name = models::Name("link" + std::to_string(i));
+    CollisionElement ball;
+    ball.shape = geometry::Sphere{0.1};
+    ball.source = links[i].name.text();
+    links[i].collisions.push_back(ball);
+    if (i == 0) continue;
+    Joint& joint = joints[i - 1];
+    joint.name = models::Name("joint" + std::to_string(i));
+    joint.X_PJ.translation().z() = 0.3;
+    joint.parent_link = static_cast<int>(i) - 1;
+    joint.child_link = static_cast<int>(i);
+    joint.lower_limit = -1.0;
+    joint.upper_limit = 1.0;
+  }
+  return {models::Name("chain"), std::move(links), std::move(joints)};
+}
+
+TEST(CollisionCheckTest, LooksAtHundredsOfLinksAndRefusesMore) {
+  EXPECT_EQ(CheckCollisions(Chain(500), {.samples = 2}).size(), 500u * 499u / 2u);
+  EXPECT_THAT([] { CheckCollisions(Chain(501), {.samples = 2}); },
+              ThrowsMessage<models::ModelError>(
+                  HasSubstr("robot 'chain': links with solids, each pair of which is looked at; "
+                            "got 501; expected at most 500")));
+}
+
 TEST(CollisionCheckTest, RefusesWhatCannotBeSampled) {
   EXPECT_THAT([] { CheckCollisions(Slides(-1, 1), {.samples = 0}); },
               ThrowsMessage<models::ModelError>(HasSubstr("samples")));
