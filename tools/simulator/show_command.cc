@@ -17,6 +17,7 @@
 #include "oca/diagrams/record/robot_record.h"
 #include "oca/diagrams/runs/output_files.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/models/counted.h"
 #include "oca/models/opened_files.h"
 #include "tools/simulator/commands.h"
 #include "tools/simulator/file_name.h"
