@@ -24,12 +24,18 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
+systems::ShapeParams Ball() {
+  systems::ShapeParams ball;
+  ball.type = systems::ShapeType::kSphere;
+  ball.radius = 0.1;
+  return ball;
+}
+
 /// Holds one ball.
 class Camera final : public System {
  public:
   Camera()
-      : body_(systems::MakeObstacleBody("ball", {systems::ShapeType::kSphere, 0.1, {}, {}, {}},
-                                        "ball", nullptr)),
+      : body_(systems::MakeObstacleBody("ball", Ball(), "ball", nullptr)),
         obstacles(DeclareOutput<ObstacleSet, &Camera::Calc>("obstacles", {})) {
     DeclareRole(systems::Boundary{"a camera"});
     DeclareRole(systems::HoldsObstacles{.obstacles = obstacles});

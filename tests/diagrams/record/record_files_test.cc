@@ -229,13 +229,13 @@ TEST(RecordFilesTest, RefusesToReadWhatDidNotComeWithTheRecord) {
     return extracted.Load({}).opened.size();
   };
   EXPECT_EQ(load("", "files/a.csv"), 2u);
-  for (const auto& [head, name] :
+  for (const auto& place :
        {std::pair<std::string, std::string>("", private_table),
         {"packages: {p: " + folder.path().string() + "}\n", "package://p/private.csv"},
         {"", "files/../../../" + private_table}}) {
-    EXPECT_THAT([&] { load(head, name); },
+    EXPECT_THAT([&] { load(place.first, place.second); },
                 testing::ThrowsMessage<ConfigError>(HasSubstr("outside of the record")))
-        << head << name;
+        << place.first << place.second;
   }
 }
 
