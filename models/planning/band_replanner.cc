@@ -21,6 +21,7 @@ constexpr double kTight = 0.01;           // m
 constexpr double kOffFor = 0.3;           // s; off its band, after which an arm has left it
 constexpr double kMoreTime = 1.25;        // times what a plan took that was late, for the next
 constexpr double kSameTime = 1e-9;        // s
+constexpr double kHorizonKept = 0.5;      // of the horizon: a plan that ends sooner is made anew
 
 }  // namespace
 
@@ -126,6 +127,12 @@ bool BandReplanner::Astray(const BandSituation& now, BandMemory& memory) const {
   return off > settings_.restart_distance || (rest && now.time - memory.off_since > kOffFor);
 }
 
+bool BandReplanner::Covers(const BandSituation& now, const BandMemory& memory) const {
+  const double end = memory.next.empty() ? now.time : memory.next.end();
+  return end >= now.request->times().back() ||
+         end - now.time >= kHorizonKept * settings_.planner.most_horizon;
+}
+
 bool BandReplanner::Kept(const BandSituation& now, BandMemory& memory) const {
   if (now.obstacles.empty() && !settings_.self_collision && memory.held.empty() &&
       memory.next.empty()) {
@@ -134,8 +141,8 @@ bool BandReplanner::Kept(const BandSituation& now, BandMemory& memory) const {
   return (memory.plans >= kFreshPlans ||
           (memory.plans > 0 && memory.start == BandStart::kRequest)) &&
          memory.clear && memory.reaches && memory.search.state() != PathSearch::State::kSearching &&
-         now.request == memory.request && SameStanding(memory.seen, now.obstacles, now.estimates) &&
-         !Astray(now, memory);
+         now.request == memory.request && Covers(now, memory) &&
+         SameStanding(memory.seen, now.obstacles, now.estimates) && !Astray(now, memory);
 }
 
 void BandReplanner::Follow(const BandSituation& now, BandMemory& memory) const {
@@ -320,7 +327,7 @@ void BandReplanner::MakePlan(const BandSituation& now, double start,
   const BandCheck& check = found.check;
   memory.next_until = {check.touch(), std::min(check.clear() ? check.touch_hard : check.touch_trust,
                                                check.touch_limits)};
-  if (Moves(bodies)) {
+  if (Moves(bodies) || memory.next.end() < task.request_end) {  // nothing is known beyond
     memory.next_until.all = std::min(memory.next_until.all, memory.next.end());
     memory.next_until.standing = std::min(memory.next_until.standing, memory.next.end());
   }

@@ -54,7 +54,7 @@ struct BandSituation {
 /// A plan begins with the state that the band before it has at that time, or with the arm, if that
 /// is farther than restart_distance from where the band says. The first eight plans look for
 /// shorter ways even if theirs is clear; after them a plan whose obstacles still stand where they
-/// stood is kept. What it knows from plan to plan is the BandMemory.
+/// stood is kept, as long as it goes on to the end of the request, or for half of most_horizon. What it knows from plan to plan is the BandMemory.
 /// source docs/explanation/recommended.md
 class BandReplanner {
  public:
@@ -88,6 +88,8 @@ class BandReplanner {
  private:
   /// For how long what was seen at the last plan is foreseen to go on, s.
   double Since(double time, const BandMemory& memory) const;
+  /// Whether the plan goes on to the request's end, or for long enough.
+  bool Covers(const BandSituation& now, const BandMemory& memory) const;
   bool Kept(const BandSituation& now, BandMemory& memory) const;
   bool Astray(const BandSituation& now, BandMemory& memory) const;
   using Estimates = std::span<const geometry::ObstacleEstimate>;

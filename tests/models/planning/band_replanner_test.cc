@@ -75,6 +75,32 @@ TEST_F(BandReplannerTest, KeepsAPlanWhileWhatStandsStaysWhereItStood) {
   EXPECT_EQ(memory_.plans, 2u);
 }
 
+TEST_F(BandReplannerTest, LooksAgainBeforeASlowRequestLeavesItsHorizon) {
+  // The box is in the way at half the time, 50 s later than the first plans look ahead.
+  obstacles_[0].X_WO.translation() = Vector3d(0.7, 0.4, 0.0);
+  const double end = 160.0;
+  const auto slow = std::make_shared<const motion::Trajectory>(
+      motion::Trajectory::CubicHermite({{.time = 0.0, .position = Vector3d(0, 0, 0)},
+                                        {.time = end, .position = Vector3d(1, 0, 0)}}));
+  robot::Clearance clearance(test::Arm("planar3"), false,
+                             {{obstacles_[0].body->collider, obstacles_[0].X_WO}});
+  double least = robot::kUnlimited, least_requested = robot::kUnlimited;
+  for (double time = 0.0; time <= end; time += 1.0) {
+    VectorXd q = slow->Evaluate(time, 0);
+    clearance.MoveTo(q);
+    least_requested = std::min(least_requested, clearance.Nearest(1.0).distance);
+    if (!memory_.At(time).empty()) memory_.At(time).Add(time, 0, q);
+    clearance.MoveTo(q);
+    least = std::min(least, clearance.Nearest(1.0).distance);
+    const BandSituation now{time, slow, obstacles_, q};
+    replanner_.Plan(now, time + 0.02, std::nullopt, memory_);
+    if (memory_.next.end() < end) EXPECT_LE(memory_.next_until.all, memory_.next.end()) << time;
+  }
+  EXPECT_LT(least_requested, 0.0);
+  EXPECT_GT(least, 0.04);
+  EXPECT_LT(memory_.plans, 80u) << "it is not made anew all the time";
+}
+
 TEST_F(BandReplannerTest, LeavesOutPairsThatWhoeverMeasuresLeavesOut) {
   obstacles_[0].X_WO.translation() = Vector3d(0.7, 0.4, 0.0);  // in the way
   const VectorXd here = Requested(0.0);
