@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <initializer_list>
+#include <string>
 
 #include "oca/models/error.h"
 
@@ -95,8 +98,21 @@ class ArmSearch {
     return longest <= 2 && IsJaw(next.front());
   }
 
+  /// What names tell: SO-101's `gripper` turns one jaw, which nothing mimics.
+  bool IsNamedJaw(const Joint& joint) const {
+    const auto has = [](std::string name, std::initializer_list<const char*> parts) {
+      for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      return std::any_of(parts.begin(), parts.end(), [&name](const char* part) {
+        return name.find(part) != std::string::npos;
+      });
+    };
+    return has(joint.name.text(), {"gripper", "finger", "jaw", "claw"}) ||
+           has(model_.links()[joint.child_link].name.text(), {"finger", "jaw", "claw"});
+  }
+
   bool IsJaw(int j) const {
     const Joint& joint = model_.joints()[j];
+    if (IsNamedJaw(joint)) return true;
     if (joint.type == robot::JointType::kPrismatic) {
       return joint.upper_limit - joint.lower_limit <= kWidestJaw;
     }

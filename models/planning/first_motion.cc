@@ -25,11 +25,21 @@ constexpr Index kTurningJoints = 3;  // of the arm, from its base, that may make
 constexpr double kMiddle = 0.7;      // share of a range that postures are drawn from
 // Shares of the reach.
 constexpr double kRadius = 1.0 / 12.0;
-constexpr double kRoom = 1.0 / 8.0;                  // from the ball, at the ends
-constexpr double kApart = 0.005, kFarApart = 0.05;   // own links, at least, and as far as it counts
-constexpr double kNearest = 0.35, kFarthest = 0.85;  // the tip, from the first joint
-constexpr double kLeastWay = 0.45;                   // of the tip, end to end
+constexpr double kApart = 0.005, kFarApart = 0.05;  // own links, at least, and as far as it counts
 constexpr double kHandShare = 0.3;  // of the way from the tip back to the last joint
+
+/// What a motion has to keep; shares of the reach.
+struct Rules {
+  bool above;                // no link is below the base
+  double nearest, farthest;  // the tip, from the first joint
+  double way;                // of the tip, end to end
+  double room;               // from the ball, at the ends
+};
+/// First what a person would ask for, then what arms can that hang, or are short on a long rail.
+constexpr Rules kRules[] = {{true, 0.35, 0.85, 0.45, 1.0 / 8.0},
+                            {false, 0.35, 0.85, 0.45, 1.0 / 8.0},
+                            {true, 0.15, 1.0, 0.25, 1.0 / 16.0},
+                            {false, 0.15, 1.0, 0.25, 1.0 / 16.0}};
 
 /// One call of ProposeMotions.
 class MotionSearch {
@@ -52,8 +62,16 @@ class MotionSearch {
     }
   }
 
-  std::vector<FirstMotion> Run(std::size_t count) {
-    for (int i = 0; i < kPostures; ++i) TryPosture(Posture());
+  std::vector<FirstMotion> Run(std::size_t count,
+                               const std::function<bool(double share)>& progress) {
+    for (const Rules& rules : kRules) {
+      rules_ = rules;
+      for (int i = 0; i < kPostures; ++i) {
+        if (progress && !progress(1.0 * i / kPostures)) return {};
+        TryPosture(Posture());
+      }
+      if (!found_.empty()) break;
+    }
     std::stable_sort(found_.begin(), found_.end(),
                      [](const Scored& a, const Scored& b) { return a.score > b.score; });
     std::vector<FirstMotion> motions;
@@ -88,7 +106,7 @@ class MotionSearch {
   void TryPosture(const VectorXd& q) {
     clearance_.MoveTo(q);
     const double stretch = (Tip() - OriginOf(model_.bodies().front())).norm() / reach_;
-    if (stretch < kNearest || stretch > kFarthest) return;
+    if (stretch < rules_.nearest || stretch > rules_.farthest) return;
     for (Index j = 0; j < std::min(kTurningJoints, q.size()); ++j) {
       const auto [lower, upper] = ranges_[static_cast<std::size_t>(j)];
       const double range = upper - lower;
@@ -117,7 +135,7 @@ class MotionSearch {
     clearance_.MoveTo(motion.from);
     const Vector3d start = Tip();
     clearance_.MoveTo(motion.to);
-    if ((Tip() - start).norm() < kLeastWay * reach_) return;
+    if ((Tip() - start).norm() < rules_.way * reach_) return;
     double lowest = robot::kUnlimited;
     double apart = kFarApart * reach_;
     for (int step = 0; step <= kPathSteps; ++step) {
@@ -127,7 +145,7 @@ class MotionSearch {
       if (apart < kApart * reach_) return;
       lowest = std::min(lowest, Lowest());
     }
-    if (lowest < 0.0) return;
+    if (rules_.above && lowest < 0.0) return;
     PlaceBall(motion, lowest, apart);
   }
 
@@ -159,8 +177,9 @@ class MotionSearch {
       clearance_.MoveTo(end);
       for (const double distance : Distances()) motion.room = std::min(motion.room, distance);
     }
-    if (motion.room < kRoom * reach_) return;
-    const double score = std::min(least_move / reach_, 0.3) + std::min(lowest / reach_, 0.2) +
+    if (motion.room < rules_.room * reach_) return;
+    const double score = std::min(least_move / reach_, 0.3) +
+                         std::clamp(lowest / reach_, 0.0, 0.2) +
                          std::min(motion.room / reach_, 0.3) + 3.0 * apart / reach_;
     found_.push_back({motion, score});
   }
@@ -177,6 +196,7 @@ class MotionSearch {
   const double reach_;
   const std::shared_ptr<const geometry::Collider> ball_;
   robot::Clearance clearance_;
+  Rules rules_{kRules[0]};
   models::Random random_;
   std::vector<std::pair<double, double>> ranges_;
   std::vector<Scored> found_;
@@ -186,6 +206,7 @@ class MotionSearch {
 
 double ReachOf(const robot::RobotModel& model, int link) {
   double reach = 0.0;
+  std::vector<double> slides;
   double offset = 0.0;  // fixed frames between the last joint that moves and the one at hand
   for (int at = link; at > 0;) {
     const robot::Joint& joint = model.joints()[at - 1];
@@ -199,11 +220,13 @@ double ReachOf(const robot::RobotModel& model, int link) {
         throw models::ModelError("joint '" + joint.name.text() +
                                  "': slides without end; got no limits; expected a range");
       }
-      reach += range;
+      slides.push_back(range);
     }
     offset += joint.X_PJ.translation().norm();
     at = joint.parent_link;
   }
+  const double lengths = reach;
+  for (const double range : slides) reach += lengths > 0.0 ? std::min(range, lengths) : range;
   if (!(reach > 0.0)) {
     throw models::ModelError("link '" + model.links()[static_cast<std::size_t>(link)].name.text() +
                              "': its reach; got 0 m, for it lies where the joint is that moves it; "
@@ -213,8 +236,9 @@ double ReachOf(const robot::RobotModel& model, int link) {
 }
 
 std::vector<FirstMotion> ProposeMotions(const std::shared_ptr<const robot::RobotModel>& model,
-                                        int tip, std::size_t count, std::uint64_t seed) {
-  return MotionSearch(model, tip, seed).Run(count);
+                                        int tip, std::size_t count, std::uint64_t seed,
+                                        const std::function<bool(double share)>& progress) {
+  return MotionSearch(model, tip, seed).Run(count, progress);
 }
 
 }  // namespace oca::planning

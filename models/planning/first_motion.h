@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -19,20 +20,25 @@ struct FirstMotion {
   double room{0.0};                               ///< m; from the ball, where it starts and ends
 };
 
-/// A bound on how far a link's origin gets from that of the first joint that moves it, m: the
-/// lengths between the joints, and the ranges of sliding ones.
+/// How large an arm is, m: how far a link's origin gets from that of the first joint that moves it,
+/// at most. That is the lengths between the joints and the ranges of sliding ones, each of which
+/// counts no more than all lengths together: a long rail makes no large arm.
 /// throws ModelError if a sliding joint has no range, or the bound is 0
 double ReachOf(const robot::RobotModel& model, int link);
 
 /// Motions to try a robot with, best first, at most `count`: one joint turns, or slides, the tip
 /// goes half of its reach or more, and a ball of a twelfth of the reach lies across its way, clear
 /// of where it starts and ends. Postures are drawn from the middle of the ranges: the arm bent, no
-/// link below the base's foot, own links apart. All distances scale with the reach.
+/// link below the base's foot, own links apart. Where there is none of these, links may be below the
+/// base, as of an arm that hangs; then the tip's way and the room shorter. All distances scale with
+/// the reach.
 ///
 /// Whether an arm can evade is not known here. The same seed gives the same motions; none if nothing
-/// of the kind is found.
+/// of the kind is found. `progress` is told now and then what share of the postures was tried; false:
+/// it ends.
 /// throws ModelError for a robot whose solids Clearance refuses, or whose postures cannot be drawn
 std::vector<FirstMotion> ProposeMotions(const std::shared_ptr<const robot::RobotModel>& model,
-                                        int tip, std::size_t count, std::uint64_t seed = 0);
+                                        int tip, std::size_t count, std::uint64_t seed = 0,
+                                        const std::function<bool(double share)>& progress = {});
 
 }  // namespace oca::planning

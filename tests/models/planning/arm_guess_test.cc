@@ -98,6 +98,15 @@ TEST(ArmGuessTest, EndsAtAJawThatOthersMimic) {
   EXPECT_EQ(guess.tip, "j6");
 }
 
+TEST(ArmGuessTest, EndsAtAJawThatItsNameTells) {
+  for (const char* name : {"gripper", "Gripper_joint", "left_finger", "moving_jaw", "claw"}) {
+    const Guess guess = GuessOf(Tree().Chain("j", "base", 5).Add(name, "j5").Robot());
+    EXPECT_EQ(guess.joints.size(), 5) << name;
+    EXPECT_THAT(guess.others, ElementsAre(name));
+    EXPECT_EQ(guess.tip, "j5");
+  }
+}
+
 TEST(ArmGuessTest, OfAHandWithFingersOfFourJointsIsTheArmAlone) {
   Tree tree;
   tree.Chain("j", "base", 6);

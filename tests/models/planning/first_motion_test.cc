@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oca/models/planning/first_motion.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "oca/models/file_bytes.h"
 #include "oca/models/geometry/collider.h"
 #include "oca/models/planning/arm_guess.h"
 #include "oca/models/robot/clearance.h"
@@ -22,6 +24,53 @@ std::shared_ptr<const robot::RobotModel> Load(const std::string& name) {
 TEST(ReachTest, IsTheLengthBetweenTheJoints) {
   const auto arm = Load("planar2");  // links of 0.5 and 0.4 m
   EXPECT_DOUBLE_EQ(ReachOf(*arm, arm->FindLink("planar2_tip")), 0.9);
+}
+
+/// The arm of planar2 on a slide of `rail` m.
+robot::RobotModel OnARail(double rail) {
+  const std::string joint =
+      "'><parent link='{}'/><child link='{}'/><axis xyz='{}'/><origin xyz='{} 0 0'/><limit "
+      "lower='0' "
+      "upper='{}' velocity='1' effort='1'/></joint>";
+  std::string text =
+      "<robot name='railed'><link name='a'/><link name='b'/><link name='c'/>"
+      "<link name='d'/><link name='tip'/>";
+  text += "<joint name='slide' type='prismatic" +
+          fmt::format(fmt::runtime(joint), "a", "b", "1 0 0", 0.0, rail);
+  text += "<joint name='shoulder' type='revolute" +
+          fmt::format(fmt::runtime(joint), "b", "c", "0 0 1", 0.0, 2.0);
+  text += "<joint name='elbow' type='revolute" +
+          fmt::format(fmt::runtime(joint), "c", "d", "0 0 1", 0.5, 2.0);
+  text +=
+      "<joint name='end' type='fixed'><parent link='d'/><child link='tip'/>"
+      "<origin xyz='0.3 0 0'/></joint></robot>";
+  return robot::ParseUrdf(text, "railed.urdf");
+}
+
+TEST(ReachTest, CountsASlideNoMoreThanTheLengthsTogether) {
+  for (const auto& [rail, reach] : {std::pair(0.2, 1.0), {0.8, 1.6}, {4.0, 1.6}}) {
+    const robot::RobotModel arm = OnARail(rail);
+    EXPECT_DOUBLE_EQ(ReachOf(arm, arm.FindLink("tip")), reach) << rail;
+  }
+}
+
+/// iiwa14 as it hangs from a ceiling: all that it reaches is below its base.
+TEST(FirstMotionHangingTest, GoesBelowTheBaseWhereItCannotStayAbove) {
+  const std::string folder = OCA_SOURCE_DIR "/models/robots/iiwa14/";
+  std::string text = models::ReadFile(folder + "iiwa14.urdf");
+  text.insert(text.rfind("</robot>"),
+              "<link name='ceiling'><collision><origin xyz='0 0 0.03'/><geometry><box size='3 3 "
+              "0.05'/></geometry></collision></link><joint name='hang' type='fixed'><parent "
+              "link='ceiling'/><child link='" +
+                  Load("iiwa14")->links()[0].name.text() +
+                  "'/><origin rpy='3.14159265 0 0'/></joint>");
+  robot::LoadOptions options;
+  options.package_directories = {OCA_SOURCE_DIR "/models/robots"};
+  const auto arm = std::make_shared<const robot::RobotModel>(
+      robot::ParseUrdf(text, folder + "iiwa14.urdf", options));
+  const auto motions = ProposeMotions(arm, GuessArm(*arm).tip, 3);
+  ASSERT_FALSE(motions.empty());
+  for (const FirstMotion& motion : motions) EXPECT_LT(motion.ball.z(), 0.0);
 }
 
 class FirstMotionTest : public testing::TestWithParam<const char*> {};
