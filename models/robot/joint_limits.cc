@@ -196,11 +196,13 @@ std::vector<std::string> LimitWarnings(const RobotModel& model) {
   const auto zero = [](const Joint& joint) { return joint.velocity_limit == 0.0; };
   WarnOfAll(
       model,
-      "velocity limit 0, as exporters write for 'not filled in'; counts as not given: nothing "
+      "velocity limit 0 or none, as exporters write for 'not filled in'; counts as not given: "
+      "nothing "
       "bounds the speed",
       [&](const Joint& joint) { return zero(joint) && !bounded(joint); }, lines);
   WarnOfAll(
-      model, "velocity limit 0, as exporters write for 'not filled in'; counts as not given",
+      model,
+      "velocity limit 0 or none, as exporters write for 'not filled in'; counts as not given",
       [&](const Joint& joint) { return zero(joint) && bounded(joint); }, lines);
   WarnOfAll(
       model, "no velocity limit; nothing bounds the speed",

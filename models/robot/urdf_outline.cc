@@ -82,8 +82,8 @@ class OutlineReader {
     xml_.Numbers(*origin, "rpy", 3);
   }
 
-  void CheckNotNegative(const TiXmlElement& element, const char* attribute, bool required) const {
-    const auto number = xml_.Numbers(element, attribute, 1, required);
+  void CheckNotNegative(const TiXmlElement& element, const char* attribute) const {
+    const auto number = xml_.Numbers(element, attribute, 1, false);
     if (!number.empty() && number[0] < 0.0) {
       xml_.Fail(element, attribute, fmt::format("{}", number[0]), "0 or more");
     }
@@ -199,7 +199,7 @@ class OutlineReader {
       xml_.Fail(*limit, "range", fmt::format("lower {} and upper {}", lower[0], upper[0]),
                 "lower <= upper");
     }
-    CheckNotNegative(*limit, "velocity", !joint.fixed);
+    CheckNotNegative(*limit, "velocity");
     if (limit->Attribute("acceleration") != nullptr) {
       joint.acceleration = xml_.Positive(*limit, "acceleration", 1).front();
     }

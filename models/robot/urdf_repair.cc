@@ -64,7 +64,7 @@ class Repair {
       if (e->ValueStr() == "link") ReadLink(*e);
       if (e->ValueStr() == "joint") {
         HoldRoot(*e, children);
-        FillEffort(*e);
+        FillLimit(*e);
       }
       if (e->ValueStr() == "material") {
         if (!HasColour(*e)) {
@@ -194,10 +194,11 @@ class Repair {
     joint.SetAttribute("type", "fixed");
   }
 
-  /// No effort, which urdfdom wants, is one of 0: not given (LimitWarnings).
-  void FillEffort(TiXmlElement& joint) {
+  /// No effort, and no velocity, which urdfdom wants, is one of 0: not given (LimitWarnings).
+  void FillLimit(TiXmlElement& joint) {
     auto* const limit = joint.FirstChildElement("limit");
     if (limit == nullptr) return;
+    if (limit->Attribute("velocity") == nullptr) limit->SetAttribute("velocity", "0");
     const auto effort = NumbersOf(limit, "effort", 1);
     if (effort && effort->front() >= 0.0) return;
     if (const char* const text = limit->Attribute("effort")) {

@@ -7,7 +7,7 @@ for method in "$OCA_SOURCE"/diagrams/parts/avoidance_*.yaml; do
   method=${method##*/avoidance_}
   method=${method%.yaml}
   "$SIMULATOR" check arm.yaml -s parameters.avoidance=$method > out 2>&1
-  if ! grep -q "warning: models.arm: joint 'shoulder': velocity limit 0, .* not given" out ||
+  if ! grep -q "warning: models.arm: joint 'shoulder': velocity limit 0 .* not given" out ||
      ! grep -q "warning: models.arm: joint 'elbow': no velocity limit" out; then
     echo "$method:"; cat out; status=1
   fi

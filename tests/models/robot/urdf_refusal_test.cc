@@ -138,7 +138,6 @@ TEST(UrdfRefusalTest, LimitsThatAreMissingOrReversed) {
   ExpectRefused(Joint("revolute", ""), "limit; got none", "'elbow'");
   ExpectRefused(Joint("prismatic", ""), "limit; got none", "'elbow'");
   ExpectRefused(Joint("revolute", "<limit velocity='1' effort='1'/>"), "lower", "'elbow'");
-  ExpectRefused(Joint("revolute", "<limit lower='0' upper='1' effort='1'/>"), "velocity");
   ExpectRefused(Joint("revolute", "<limit lower='1' upper='0.9' velocity='1' effort='1'/>"),
                 "lower <= upper", "'elbow'");
   EXPECT_NO_THROW(ParseUrdf(
@@ -231,7 +230,7 @@ TEST(UrdfRefusalTest, DamagedTextIsReadOrRefusedButNeverCrashes) {
     std::string text = sound;
     const auto place = [&] { return static_cast<std::size_t>(Uniform(random, 0, text.size())); };
     if (i % 3 == 0) text.resize(place());
-    if (i % 3 == 1) text[place()] = static_cast<char>(Uniform(random, 0, 256));
+    if (i % 3 == 1) text[place()] = static_cast<char>(static_cast<int>(Uniform(random, 0, 256)));
     if (i % 3 == 2) text.insert(place(), sound, place(), 40);
     try {
       EXPECT_EQ(ParseUrdf(text, "bad.urdf").name().empty(), false);

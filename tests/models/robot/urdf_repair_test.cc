@@ -81,6 +81,21 @@ TEST(UrdfRepairTest, AnEffortThatIsMissingOrNoneCountsAsNotGiven) {
   }
 }
 
+TEST(UrdfRepairTest, AVelocityThatIsMissingCountsAsNotGiven) {
+  for (const char* limit : {"<limit lower='-1' upper='1' effort='1'/>",
+                            "<limit lower='-1' upper='1' effort='1' velocity='0'/>"}) {
+    const Loaded loaded = Load(
+        "<link name='a'/><link name='b'/><joint name='j' type='revolute'><parent link='a'/>"
+        "<child link='b'/>" +
+        std::string(limit) + "</joint>");
+    EXPECT_EQ(loaded.model.velocity_limits()[0], kUnlimited) << limit;
+    EXPECT_EQ(loaded.model.upper_limits()[0], 1.0) << limit;
+    EXPECT_THAT(loaded.warnings,
+                testing::Contains(HasSubstr("joint 'j': velocity limit 0 or none")))
+        << limit;
+  }
+}
+
 TEST(UrdfRepairTest, InertiasThatAreNoneAreLeftOut) {
   const std::string inertia = "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/>";
   for (const std::string& content :
