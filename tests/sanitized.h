@@ -16,4 +16,6 @@
 
 namespace oca {
 inline constexpr bool kSanitized = OCA_SANITIZED == 1;
+/// How many of so many random cases there is time for.
+constexpr int Fewer(int count) { return kSanitized ? count / 20 : count; }
 }  // namespace oca

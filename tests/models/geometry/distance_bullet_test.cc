@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "tests/models/geometry/random_bodies.h"
+#include "tests/sanitized.h"
 
 namespace oca::geometry {
 namespace distance_bullet_test {
@@ -83,7 +84,7 @@ BulletAnswer BulletDistance(const Collider& a, const Isometry3d& X_WA, const Col
   return {output.m_distance, Vector3d(n.x(), n.y(), n.z())};
 }
 
-constexpr int kShares = 4, kPairs = 125'000;  // a share
+constexpr int kShares = 4, kPairs = Fewer(125'000);  // a share
 
 class DistanceBulletTest : public testing::TestWithParam<int> {};
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/models/geometry/random_bodies.h"
+#include "tests/sanitized.h"
 
 namespace oca::geometry {
 namespace distance_fcl_test {
@@ -54,7 +55,7 @@ double FclDistance(const Collider& a, const Isometry3d& X_WA, const Collider& b,
   return fcl::distance(&first, &second, request, result);
 }
 
-constexpr int kShares = 4, kPairs = 125'000;  // a share
+constexpr int kShares = 4, kPairs = Fewer(125'000);  // a share
 
 class DistanceFclTest : public testing::TestWithParam<int> {};
 

@@ -8,6 +8,7 @@
 
 #include "oca/models/qp/projection_solver.h"
 #include "tests/models/qp/random_qp.h"
+#include "tests/sanitized.h"
 
 namespace oca::qp::test {
 namespace projection_enumeration_test {
@@ -114,7 +115,7 @@ class Enumeration {
 TEST(ProjectionEnumerationTest, TheBestOfAllCandidatesIsTheAnswer) {
   RandomQps random(21);
   Real worst = 0.0L;
-  for (int k = 0; k < 10000; ++k) {
+  for (int k = 0; k < Fewer(10000); ++k) {
     const int n = 1 + random.Choose(3);
     const int m = random.Choose(6);
     const ProjectionQp qp = random.Make(k % RandomQps::kKinds, n, m);

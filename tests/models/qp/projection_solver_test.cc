@@ -11,6 +11,7 @@
 #include "tests/allocation_count.h"
 #include "tests/models/qp/kkt_judge.h"
 #include "tests/models/qp/random_qp.h"
+#include "tests/sanitized.h"
 
 namespace oca::qp::test {
 namespace projection_solver_test {
@@ -123,7 +124,7 @@ TEST(ProjectionSolverTest, AShortRowMovesNothingAndHidesNothing) {
 TEST(ProjectionSolverTest, SolvesAMillionProblemsToAProof) {
   RandomQps random(11);
   std::array<long double, RandomQps::kKinds> worst{};
-  for (int k = 0; k < 1000000; ++k) {
+  for (int k = 0; k < Fewer(1000000); ++k) {
     const int n = 1 + random.Choose(k % 50 == 0 ? 20 : 8);
     const int m = random.Choose(k % 100 == 0 ? 500 : 40);
     const int kind = k % RandomQps::kKinds;
