@@ -18,17 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder of a package that the robot's file is in, or that lies beside it or a folder above.
-fs::path PackageNear(const fs::path& file, const std::string& package) {
-  std::error_code error;
-  for (fs::path folder = fs::absolute(file, error).lexically_normal().parent_path();
-       folder.has_relative_path(); folder = folder.parent_path()) {
-    if (folder.filename() == package) return folder;
-    if (fs::is_directory(folder / package, error)) return folder / package;
-  }
-  return {};
-}
-
 /// The link at the end of an arm of which all other joints are held.
 int TipOf(const robot::RobotModel& model) { return planning::GuessArm(model).tip; }
 
@@ -51,12 +40,9 @@ std::vector<int> JointsBeside(const DraftOptions& options, const robot::RobotMod
 namespace internal {
 
 fs::path RobotReader::FindPackage(const std::string& package) {
-  std::error_code error;
-  // What OCA knows goes first, as it does when the diagram is loaded.
-  for (const fs::path& folder : files::PackageFolders()) {
-    if (fs::is_directory(folder / package, error)) return folder / package;
-  }
-  fs::path found = PackageNear(options_.robot, package);
+  // A diagram need not name what it finds by itself.
+  if (fs::path known = files::KnownPackage(package); !known.empty()) return known;
+  fs::path found = files::PackageFor(options_.robot, package);
   if (!found.empty()) packages_[package] = found;
   return found;
 }

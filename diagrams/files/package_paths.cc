@@ -43,6 +43,25 @@ std::vector<fs::path> PackageFolders() {
   return folders;
 }
 
+fs::path KnownPackage(const std::string& package) {
+  for (const fs::path& folder : PackageFolders()) {
+    std::error_code error;
+    if (fs::is_directory(folder / package, error)) return folder / package;
+  }
+  return {};
+}
+
+fs::path PackageFor(const fs::path& file, const std::string& package) {
+  if (fs::path known = KnownPackage(package); !known.empty()) return known;
+  std::error_code error;
+  for (fs::path folder = fs::absolute(file, error).lexically_normal().parent_path();
+       folder.has_relative_path(); folder = folder.parent_path()) {
+    if (folder.filename() == package) return folder;
+    if (fs::is_directory(folder / package, error)) return folder / package;
+  }
+  return {};
+}
+
 namespace {
 
 /// The package that is the diagrams which come with OCA.
@@ -56,10 +75,9 @@ fs::path FindPackage(const std::string& package, const std::string& name) {
       if (fs::is_directory(data / "diagrams", error)) return data / "diagrams";
     }
   }
+  if (fs::path known = KnownPackage(package); !known.empty()) return known;
   std::string places;
   for (const fs::path& place : PackageFolders()) {
-    std::error_code error;
-    if (fs::is_directory(place / package, error)) return place / package;
     places += (places.empty() ? "" : ", ") + place.string();
   }
   throw ConfigError(fmt::format("{}: no package '{}'; looked in packages, {}", name, package,

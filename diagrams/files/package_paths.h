@@ -25,6 +25,12 @@ std::vector<std::filesystem::path> PackageFolders();
 std::filesystem::path ResolvePath(const std::string& name, const std::filesystem::path& folder,
                                   const PackageMap& packages);
 
+/// The folder of a package in one of PackageFolders(); empty if there is none.
+std::filesystem::path KnownPackage(const std::string& package);
+/// The same, else the folder of that name that `file` lies in, or that lies beside it or beside a
+/// folder above.
+std::filesystem::path PackageFor(const std::filesystem::path& file, const std::string& package);
+
 /// Whether a diagram file is one of the parts that come with OCA, by its name and content, wherever
 /// it lies.
 bool IsPartOfOca(const std::filesystem::path& file);

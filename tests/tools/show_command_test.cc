@@ -55,6 +55,19 @@ TEST_F(ShowCommandTest, TellsTheWarningsOfTheLoad) {
   EXPECT_THAT(drawn.err, Not(HasSubstr("warning")));
 }
 
+TEST_F(ShowCommandTest, FindsPackagesThatLieBesideTheRobot) {
+  run.folder().Write("their_arm/meshes/a.obj",
+                     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  const std::string arm = run.folder().Write(
+      "their_arm/urdf/arm.urdf",
+      "<robot name='arm'><link name='base'><collision><geometry><mesh filename='package://"
+      "their_arm/meshes/a.obj'/></geometry></collision></link></robot>");
+  EXPECT_EQ(Show(arm).status, 0) << Show(arm).err;
+  const Ran looked = run("$S robot check-collisions " + arm);
+  EXPECT_EQ(looked.status, 0) << looked.err;
+  EXPECT_THAT(looked.out, HasSubstr("arm: 0 pairs of links with solids"));
+}
+
 TEST_F(ShowCommandTest, TakesXacroAndItsArguments) {
   const std::string arm =
       run.folder().Write("arm.xacro", R"xml(<robot name="$(arg n)" xmlns:xacro="x">

@@ -39,6 +39,10 @@ void AddRobotOptions(CLI::App& command, RobotArguments& arguments) {
 robot::LoadOptions LoadOptionsOf(const RobotArguments& arguments) {
   robot::LoadOptions options;
   options.package_directories = files::PackageFolders();
+  options.find_package =
+      [robot = files::ResolvePath(arguments.urdf, {}, {})](const std::string& package) {
+        return files::PackageFor(robot, package);
+      };
   options.visual_as_collision = VisualsFrom(arguments.visual_as_collision);
   options.xacro_arguments = ParseXacroArguments(arguments.arguments);
   return options;
