@@ -29,5 +29,17 @@ TEST(TaskProgressTest, WritesOnceAnIntervalAndNothingOfTasksThatEndSoon) {
   EXPECT_EQ(Shown(Seconds(1e3), Seconds(0.0)), "");
 }
 
+TEST(TerminalTest, CutsLinesOfErrorsThatHaveNoEnd) {
+  const std::string long_line = "begin" + std::string(100000, 'x') + "end";
+  testing::internal::CaptureStderr();
+  WriteError("short\n" + long_line + "\n" + std::string(1999, 'y') + "\nlast");
+  const std::string text = testing::internal::GetCapturedStderr();
+  EXPECT_TRUE(text.starts_with("short\nbeginxxx")) << text.substr(0, 40);
+  EXPECT_TRUE(text.ends_with("yyy\nlast"));
+  EXPECT_NE(text.find("xxx [... 98209 characters ...] xxx"), std::string::npos);
+  EXPECT_NE(text.find("xxxend\n" + std::string(1999, 'y')), std::string::npos);
+  EXPECT_LT(text.size(), 4100u);
+}
+
 }  // namespace terminal_test
 }  // namespace oca::tools

@@ -44,6 +44,24 @@ std::string Shown(std::string_view text) {
   return shown;
 }
 
+/// A message's lines, those without end cut in their middle: names of others may have a megabyte.
+std::string WithoutTheMiddles(std::string_view text) {
+  constexpr std::size_t kMost = 2000, kBegin = 1200, kEnd = 600;
+  std::string cut;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size() - 1) + 1;
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(end);
+    if (line.size() <= kMost) {
+      cut += line;
+      continue;
+    }
+    cut += fmt::format("{} [... {} characters ...] {}", line.substr(0, kBegin),
+                       line.size() - kBegin - kEnd, line.substr(line.size() - kEnd));
+  }
+  return cut;
+}
+
 /// Draws a line of progress over the one before.
 void Redraw(std::string_view line) {
   Write(kRedraw, stderr);
@@ -63,7 +81,7 @@ void PrepareTerminal() {
 }
 
 void WriteError(std::string_view text) {
-  Write(Shown(text), stderr);
+  Write(Shown(WithoutTheMiddles(text)), stderr);
   std::fflush(stderr);
 }
 

@@ -17,7 +17,8 @@ void PrepareTerminal();
 
 /// Write to standard error and to standard output. None fails, so that a run goes on and its record
 /// is complete when nobody reads: what cannot be written is lost. Names of others are in the text,
-/// so nothing of it is obeyed by a terminal but the colours of Good, Bad and Dim.
+/// so nothing of it is obeyed by a terminal but the colours of Good, Bad and Dim; lines of errors
+/// that have more than 2000 characters are cut in their middle.
 void WriteError(std::string_view text);
 void WriteOutput(std::string_view text);
 /// What another program reads, or a file takes: as it is, unless standard output is a terminal.
