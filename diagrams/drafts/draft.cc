@@ -35,39 +35,40 @@ class DraftMaker {
     if (!limits_text_.empty()) limits_ = options.folder / (name + "_limits.yaml");
   }
 
-  /// Leaves no file behind if it throws.
+  /// Leaves no file behind if it throws, or is to end.
   Draft Make() {
     PrepareFolder();
     try {
       Fill();
     } catch (...) {
-      for (const fs::path& file : draft_.files) {
-        std::error_code ignored;
-        fs::remove(file, ignored);
-      }
+      RemoveAll();
       throw;
     }
+    if (ended_) RemoveAll();
     return std::move(draft_);
   }
 
  private:
   void Fill() {
     if (!srdf_.empty()) WriteSrdf();
-    const auto motions = planning::ProposeMotions(draft_.robot.model, draft_.robot.tip,
-                                                  kMostProposals, options_.seed);
+    if (ended_) return;
+    const auto motions = planning::ProposeMotions(
+        draft_.robot.model, draft_.robot.tip, kMostProposals, options_.seed,
+        [this](double share) { return GoesOn("looking for a first motion", share); });
+    if (ended_) return;
     if (motions.empty()) {
       throw ConfigError(fmt::format(
-          "{}: a first motion; got no posture of '{}' from which its tip goes half its reach, "
-          "{:.3g} "
-          "m, own links apart and none below its base; expected a robot that can",
+          "{}: a first motion; got no posture of '{}' from which its tip goes a quarter of its "
+          "reach, {:.3g} m, own links apart; expected a robot that can",
           options_.robot.string(), draft_.robot.model->name().text(), draft_.robot.reach));
     }
     if (!limits_.empty()) Keep(limits_, limits_text_);
     WriteDiagram(motions.front());
     const loading::Blueprint blueprint(draft_.diagram);
     for (const planning::FirstMotion& motion : motions) {
-      if (draft_.tries == options_.tries || Interrupted()) break;
+      if (draft_.tries == options_.tries) break;
       Attempt attempt = Try(blueprint, motion);
+      if (ended_) return;
       const bool good = attempt.contact() && attempt.evaded();
       if (good || ++draft_.tries == 1 || Better(attempt, draft_.attempt)) {
         draft_.attempt = std::move(attempt);
@@ -77,16 +78,27 @@ class DraftMaker {
     WriteDiagram(draft_.attempt.motion);
   }
 
-  bool Interrupted() const { return options_.interrupted && options_.interrupted(); }
+  bool GoesOn(const std::string& task, double share) {
+    ended_ = ended_ || (options_.progress && !options_.progress(task, share));
+    return !ended_;
+  }
 
-  void PrepareFolder() const {
+  void RemoveAll() const {
+    std::error_code ignored;
+    for (const fs::path& file : draft_.files) fs::remove(file, ignored);
+    if (made_folder_) fs::remove(options_.folder, ignored);  // if it is empty
+  }
+
+  void PrepareFolder() {
     std::error_code error;
-    fs::create_directories(options_.folder, error);
+    made_folder_ = fs::create_directories(options_.folder, error);
     if (error) {
       throw ConfigError(fmt::format("{}: {}; expected a folder to write to",
                                     options_.folder.string(), error.message()));
     }
-    for (const fs::path& file : {draft_.diagram, srdf_, limits_}) {
+    fs::path page = draft_.diagram;
+    page.replace_extension(".html");  // that whoever runs it writes
+    for (const fs::path& file : {draft_.diagram, srdf_, limits_, page}) {
       if (file.empty() || !fs::exists(file, error)) continue;
       throw ConfigError(
           fmt::format("{} is there already; expected a folder without it", file.string()));
@@ -101,8 +113,11 @@ class DraftMaker {
   /// Of the arm, with all else where it is held. The robot is read again, with what it says.
   void WriteSrdf() {
     const robot::RobotModel& model = *draft_.robot.model;
-    robot::SaveDisabledPairs(srdf_, model.name().text(),
-                             robot::PairsToDisable(model, robot::CheckCollisions(model, {})));
+    robot::CollisionSampling sampling;
+    sampling.progress = [this](double share) { return GoesOn("looking at pairs of links", share); };
+    const auto pairs = robot::CheckCollisions(model, sampling);
+    if (ended_) return;
+    robot::SaveDisabledPairs(srdf_, model.name().text(), robot::PairsToDisable(model, pairs));
     draft_.files.push_back(srdf_);
     DraftOptions known = options_;
     known.srdf = srdf_;
@@ -122,17 +137,22 @@ class DraftMaker {
     }
   }
 
-  Attempt Try(const loading::Blueprint& blueprint, const planning::FirstMotion& motion) const {
+  Attempt Try(const loading::Blueprint& blueprint, const planning::FirstMotion& motion) {
     Attempt attempt{motion};
     const auto run = [&](bool avoid) {
       auto overrides = internal::OverridesOf(internal::TextOf(motion, draft_.robot));
       overrides.push_back({"parameters.avoid", avoid ? "true" : "false"});
+      const loading::LoadedDiagram loaded = blueprint.Build(overrides);
+      const std::string task = fmt::format("trying motion {} {} avoidance", draft_.tries + 1,
+                                           avoid ? "with" : "without");
       runs::RunOptions options;
-      options.progress = [this](double) { return !Interrupted(); };
-      return runs::Run(blueprint.Build(overrides), options);
+      options.progress = [&](double time) {
+        return GoesOn(task, std::min(time / loaded.simulator.duration, 1.0));
+      };
+      return runs::Run(loaded, options);
     };
     attempt.without = run(false);
-    if (attempt.contact()) attempt.with = run(true);
+    if (!ended_ && attempt.contact()) attempt.with = run(true);
     return attempt;
   }
 
@@ -147,6 +167,8 @@ class DraftMaker {
   Draft draft_;
   fs::path srdf_, limits_;  // that are written; empty: not
   std::string limits_text_;
+  bool made_folder_{false};
+  bool ended_{false};  // as whoever is told of the progress wants
 };
 
 }  // namespace

@@ -33,7 +33,8 @@ struct DraftOptions {
   std::uint64_t seed{0};                                ///< of sampled postures
   int tries{12};                                        ///< how many motions are run, at most; >= 1
   std::function<void(const std::string& line)> warn{};  ///< what loading the robot warns of
-  std::function<bool()> interrupted{};                  ///< asked now and then; true: it ends
+  /// Told now and then what is done, and what share of it; false: it ends, and leaves no file.
+  std::function<bool(const std::string& task, double share)> progress{};
 };
 
 /// What is known of a robot before its first diagram.
@@ -76,7 +77,8 @@ DraftRobot ReadDraftRobot(const DraftOptions& options);
 /// Writes NAME.yaml, a diagram in which the arm turns past a ball that lies across its way, and
 /// beside it NAME.srdf, if none is given, and NAME_limits.yaml, if the description lacks limits of
 /// speeds; NAME is the robot's. The first of planning::ProposeMotions counts that is in contact
-/// without avoidance and evaded with it, else the one that comes nearest to that.
+/// without avoidance and evaded with it, else the one that comes nearest to that. A NAME.html that
+/// is there is in the way too: it is where the run's report goes.
 /// throws ModelError, ConfigError if the robot is none, no motion is found, a file is there already
 ///        or cannot be written
 Draft MakeDraft(const DraftOptions& options);

@@ -176,6 +176,7 @@ std::vector<LinkPairCheck> CheckCollisions(const RobotModel& model,
   std::vector<geometry::Ball> placed = balls;
   Draws draws(sampling.seed);
   for (int sample = 0; sample < sampling.samples; ++sample) {
+    if (sampling.progress && !sampling.progress(1.0 * sample / sampling.samples)) return {};
     for (std::size_t i = 0; sample > 0 && i < ranges.size(); ++i) {
       q[static_cast<Eigen::Index>(i)] = draws.Position(ranges[i]);
     }

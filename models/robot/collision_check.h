@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -28,6 +29,8 @@ struct CollisionSampling {
   int samples{10000};
   std::uint64_t seed{0};
   double margin{0.02};  // m; a pair that came nearer counts as one that may collide
+  /// Told before each sample what share is done; false: it ends, and no pair is told of.
+  std::function<bool(double share)> progress{};
 };
 
 /// One pair of links that have solids. `link_a` < `link_b` are link numbers.

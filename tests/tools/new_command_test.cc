@@ -41,6 +41,25 @@ TEST_F(NewCommandTest, ReplacesNothing) {
   EXPECT_EQ(run.Read("mine/ur5e.yaml"), "mine");
 }
 
+TEST_F(NewCommandTest, ReplacesNoReport) {
+  run.folder().Write("mine/ur5e.html", "precious");
+  const Ran ran = New("package://ur5e/ur5e.urdf -o mine");
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_THAT(ran.err, HasSubstr("mine/ur5e.html is there already"));
+  EXPECT_EQ(run.Read("mine/ur5e.html"), "precious");
+  EXPECT_FALSE(std::filesystem::exists(run.folder().path() / "mine/ur5e.yaml"));
+}
+
+TEST_F(NewCommandTest, LeavesNothingBehindWhenItIsInterrupted) {
+  for (const char* wait : {"0.05", "0.2", "0.5"}) {
+    const Ran ran = New("package://iiwa14/iiwa14.urdf -o it & sleep " + std::string(wait) +
+                        "; kill -INT $!; wait $!");
+    if (ran.status == 0) continue;  // it was done before
+    EXPECT_EQ(ran.status, 130) << wait << ran.err;
+    EXPECT_FALSE(std::filesystem::exists(run.folder().path() / "it")) << wait;
+  }
+}
+
 TEST_F(NewCommandTest, RefusesWhatIsNoRobotAndLeavesNothing) {
   run.folder().Write("one.urdf", "<robot name='one'><link name='a'/></robot>");
   const Ran ran = New("one.urdf");

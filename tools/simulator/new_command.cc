@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <optional>
+#include <utility>
 
 #include "oca/diagrams/drafts/draft.h"
 #include "oca/diagrams/files/package_paths.h"
@@ -82,8 +84,13 @@ int NewCommand(const NewArguments& arguments) {
   options.seed = arguments.seed;
   options.tries = arguments.tries;
   options.warn = [](const std::string& line) { Tell("warning: {}\n", line); };
-  options.interrupted = [] { return Interrupted(); };
+  std::optional<TaskProgress> progress(std::in_place);
+  options.progress = [&progress](const std::string& task, double share) {
+    progress->Show(task, share);
+    return !Interrupted();
+  };
   const drafts::Draft draft = drafts::MakeDraft(options);
+  progress.reset();
   if (Interrupted()) return kInterrupted;
   PrintRobot(draft.robot);
   for (const fs::path& file : draft.files) Print("wrote {}\n", file.string());

@@ -66,6 +66,16 @@ std::string Table(const robot::RobotModel& model, const std::vector<LinkPairChec
   return text + InContactAtZero(model, pairs);
 }
 
+/// Shows how far it is.
+std::vector<LinkPairCheck> Look(const robot::RobotModel& model, robot::CollisionSampling sampling) {
+  TaskProgress progress;
+  sampling.progress = [&progress](double share) {
+    progress.Show("looking at pairs of links", share);
+    return true;
+  };
+  return robot::CheckCollisions(model, sampling);
+}
+
 ordered_json ToJson(const robot::RobotModel& model, const std::vector<LinkPairCheck>& pairs,
                     const robot::CollisionSampling& sampling) {
   ordered_json json{{"robot", model.name().text()},
@@ -101,7 +111,7 @@ int CheckCollisionsCommand(const CheckCollisionsArguments& arguments) {
       !unseen.empty())
     warn(unseen);
   const robot::CollisionSampling sampling{arguments.samples, arguments.seed, arguments.margin};
-  const std::vector<LinkPairCheck> pairs = robot::CheckCollisions(model, sampling);
+  const std::vector<LinkPairCheck> pairs = Look(model, sampling);
   if (!arguments.write_srdf.empty()) {
     robot::SaveDisabledPairs(arguments.write_srdf, model.name().text(),
                              robot::PairsToDisable(model, pairs));

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <functional>
 #include <iterator>
+#include <set>
 #include <string>
 
 #include "oca/diagrams/loading/loader.h"
@@ -70,8 +72,10 @@ class DraftTest : public testing::Test {
     options.robot = folder_.path() / "my_arm.urdf";
     options.folder = folder_.path() / "out";
     options.warn = [this](const std::string& line) { warnings_ += line + "\n"; };
+    options.progress = progress_;
     return MakeDraft(options);
   }
+  std::function<bool(const std::string& task, double share)> progress_;
   test::TemporaryFolder folder_;
   std::string warnings_;
 };
@@ -108,6 +112,26 @@ TEST_F(DraftTest, FillsInLimitsThatAreMissing) {
               HasSubstr("\"j3\": {has_velocity_limits: true, max_velocity: 1}   # rad/s; a guess"));
   const auto loaded = loading::LoadDiagram(draft.diagram);
   EXPECT_EQ(loaded.models.Get("arm")->velocity_limits(), Eigen::VectorXd::Ones(6));
+}
+
+TEST_F(DraftTest, EndsWhenToldToAndLeavesNothing) {
+  std::set<std::string> tasks;
+  progress_ = [&](const std::string& task, double share) {
+    EXPECT_GE(share, 0.0);
+    EXPECT_LE(share, 1.0);
+    tasks.insert(task);
+    return true;
+  };
+  Make(ArmWithGripper(1.0));
+  EXPECT_THAT(tasks,
+              testing::IsSupersetOf({"looking at pairs of links", "looking for a first motion",
+                                     "trying motion 1 without avoidance"}));
+  std::filesystem::remove_all(folder_.path() / "out");
+  for (const std::string& last : tasks) {
+    progress_ = [&](const std::string& task, double) { return task != last; };
+    Make(ArmWithGripper(1.0));
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out")) << last;
+  }
 }
 
 TEST_F(DraftTest, ReplacesNothing) {
