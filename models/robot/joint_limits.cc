@@ -15,6 +15,7 @@ namespace oca::robot {
 namespace {
 
 constexpr double kHalfTurn = std::numbers::pi;
+constexpr double kTurnsOfDegrees = 8.0;  // of a range, more than which may be meant as degrees
 // Of the larger end of a range: what digits in a file take from ranges that are meant to touch.
 constexpr double kLimitRounding = 1e-9;
 
@@ -132,13 +133,26 @@ void WarnOfMimics(const RobotModel& model, std::vector<std::string>& lines) {
   }
 }
 
+/// Whole numbers, many turns apart: -170 and 170, as a person writes degrees.
+bool LooksLikeDegrees(const Joint& joint, double lower, double upper) {
+  return joint.type != JointType::kPrismatic && upper - lower > kTurnsOfDegrees * 2.0 * kHalfTurn &&
+         lower == std::round(lower) && upper == std::round(upper);
+}
+
 void WarnOfRanges(const RobotModel& model, std::vector<std::string>& lines) {
   for (const Joint& joint : model.joints()) {
     const int i = joint.position_index;
-    if (i < 0 || HasOwnRange(model, i)) continue;
+    if (i < 0) continue;
     const double lower = model.lower_limits()[i];
     const double upper = model.upper_limits()[i];
     if (!std::isfinite(lower) || !std::isfinite(upper)) continue;
+    if (HasOwnRange(model, i)) {
+      if (!LooksLikeDegrees(joint, lower, upper)) continue;
+      lines.push_back(fmt::format(
+          "joint '{}': range {} rad, {:.0f} turns; it is kept, but looks like degrees",
+          joint.name.text(), RangeText(lower, upper), (upper - lower) / (2.0 * kHalfTurn)));
+      continue;
+    }
     lines.push_back(fmt::format("joint '{}': range {} {}, wider than {}; it is kept, but {}",
                                 joint.name.text(), RangeText(lower, upper), UnitOf(joint),
                                 joint.type == JointType::kPrismatic ? "100 m" : "100 turns",

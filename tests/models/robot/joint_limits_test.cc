@@ -188,6 +188,22 @@ TEST(JointLimitsTest, SpeaksOfTheSpeedThatNothingBounds) {
                                       EndsWith("counts as not given"))));
 }
 
+TEST(JointLimitsTest, SaysThatARangeLooksLikeDegrees) {
+  const auto warnings = [](JointType type, double lower, double upper) {
+    Chain chain(1);
+    chain.joints[0].type = type;
+    chain.joints[0].lower_limit = lower;
+    chain.joints[0].upper_limit = upper;
+    return LimitWarnings(chain.Model());
+  };
+  EXPECT_THAT(warnings(JointType::kRevolute, -170.0, 170.0),
+              ElementsAre("joint 'a': range [-170, 170] rad, 54 turns; it is kept, but looks like "
+                          "degrees"));
+  EXPECT_THAT(warnings(JointType::kRevolute, -170.5, 170.0), testing::IsEmpty());
+  EXPECT_THAT(warnings(JointType::kRevolute, -6.0, 6.0), testing::IsEmpty());
+  EXPECT_THAT(warnings(JointType::kPrismatic, -40.0, 40.0), testing::IsEmpty());
+}
+
 TEST(JointLimitsTest, SaysThatARangeIsTooWide) {
   Chain chain(2);
   chain.joints[0].lower_limit = -1e9;
