@@ -133,7 +133,7 @@ Campaign Cross(SafetyFilter::Form form, double speed, int runs) {
 }
 
 void ExpectTheBound(SafetyFilter::Form form, double speed) {
-  const Campaign campaign = Cross(form, speed, 120);
+  const Campaign campaign = Cross(form, speed, 180);
   EXPECT_GT(campaign.ticks, 5000);
   EXPECT_GT(campaign.endangered, 10);
   EXPECT_GT(campaign.lowest, -1.0);
