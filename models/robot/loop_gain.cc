@@ -53,9 +53,9 @@ LoopGainWorkspace::LoopGainWorkspace(const RobotModel& model)
       push(Eigen::VectorXd::Zero(model.num_positions())),
       row(push) {}
 
-double LoopGain(const RobotModel& model, std::span<const Eigen::Isometry3d> X_WL,
-                std::span<const GainContact> contacts, const MappingSettings& settings,
-                LoopGainWorkspace& workspace) {
+double LoopGainOf(const RobotModel& model, std::span<const Eigen::Isometry3d> X_WL,
+                  std::span<const GainContact> contacts, const MappingSettings& settings,
+                  LoopGainWorkspace& workspace) {
   workspace.loop.setZero();
   for (const GainContact& contact : contacts) {
     DistanceRow(model, X_WL, contact.link, contact.point, contact.other, contact.other_point,

@@ -41,9 +41,9 @@ struct LoopGainWorkspace {
 /// norm, which is never too small. A loop that takes the share `dt / tau` of the way to the raw
 /// delta each dt is stable if tau > dt (1 + g) / 2.
 /// source docs/theory.md, Loop gain and relaxation
-double LoopGain(const RobotModel& model, std::span<const Eigen::Isometry3d> X_WL,
-                std::span<const GainContact> contacts, const MappingSettings& settings,
-                LoopGainWorkspace& workspace);
+double LoopGainOf(const RobotModel& model, std::span<const Eigen::Isometry3d> X_WL,
+                  std::span<const GainContact> contacts, const MappingSettings& settings,
+                  LoopGainWorkspace& workspace);
 
 /// dt (1 + g) / 2: the relaxation time above which the loop is stable, s.
 double LeastRelaxationTime(double gain, double dt);

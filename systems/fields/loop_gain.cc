@@ -69,7 +69,7 @@ void LoopGain::CalcEstimate(const ContactSlopes& first, const ContactSlopes* sec
   AddContacts(first, result.contacts);
   if (second != nullptr) AddContacts(*second, result.contacts);
   const auto X_WL = PosesInOrder(*model_, poses, result.reordered);
-  result.gain = robot::LoopGain(*model_, X_WL, result.contacts, settings_, *result.workspace);
+  result.gain = robot::LoopGainOf(*model_, X_WL, result.contacts, settings_, *result.workspace);
 }
 
 void LoopGain::CalcTime(const Estimate& result, MutableVectorView value) const {

@@ -21,7 +21,7 @@ namespace oca::systems {
 ///     relaxation_time = max(parameter relaxation_time, safety period (1 + gain) / 2)
 ///     gain = spectral radius of alpha M sum_i b_i(slope_i + 2 damping_i / period) b_i(normal_i)^T
 ///
-/// as robot::LoopGain has it, with the M of the mapping: the parameters model, alpha, method and
+/// as robot::LoopGainOf has it, with the M of the mapping: the parameters model, alpha, method and
 /// damping must be those of the JacobianMapping in the loop. With `safety` 1 the loop is at the
 /// bound, with 2 an error of the linear part is gone after one period; more is slower. A force that
 /// answers to the rate of the distance counts like one that answers to the distance over half a

@@ -13,7 +13,7 @@
 namespace oca::robot::xacro {
 namespace {
 
-[[noreturn]] void FailTypes(const Value& a, const std::string& word, const Value& b) {
+[[noreturn]] void FailTypes(const PythonValue& a, const std::string& word, const PythonValue& b) {
   throw Mistake(fmt::format("'{}'", word), fmt::format("{} {} {}", a.type(), word, b.type()),
                 "two numbers, or texts and lists where Python has it");
 }
@@ -44,7 +44,7 @@ double FloatPower(double a, double b) {
   return result;
 }
 
-Value OfWholes(std::int64_t a, const std::string& word, std::int64_t b) {
+PythonValue OfWholes(std::int64_t a, const std::string& word, std::int64_t b) {
   std::int64_t result = 0;
   if (word == "+") {
     if (__builtin_add_overflow(a, b, &result)) FailOverflow(word);
@@ -53,32 +53,32 @@ Value OfWholes(std::int64_t a, const std::string& word, std::int64_t b) {
   } else if (word == "*") {
     if (__builtin_mul_overflow(a, b, &result)) FailOverflow(word);
   } else if (word == "**") {
-    if (b < 0) return Value(FloatPower(static_cast<double>(a), static_cast<double>(b)));
-    return Value(PowerOf(a, b));
+    if (b < 0) return PythonValue(FloatPower(static_cast<double>(a), static_cast<double>(b)));
+    return PythonValue(PowerOf(a, b));
   } else if (word == "/") {
-    return Value(static_cast<double>(a) / static_cast<double>(b));
+    return PythonValue(static_cast<double>(a) / static_cast<double>(b));
   } else {
     if (a == std::numeric_limits<std::int64_t>::min() && b == -1) FailOverflow(word);
     const std::int64_t rest = a % b;
     const bool down = rest != 0 && (rest < 0) != (b < 0);
     result = word == "//" ? a / b - (down ? 1 : 0) : rest + (down ? b : 0);
   }
-  return Value(result);
+  return PythonValue(result);
 }
 
-Value OfFloats(double a, const std::string& word, double b) {
-  if (word == "+") return Value(a + b);
-  if (word == "-") return Value(a - b);
-  if (word == "*") return Value(a * b);
-  if (word == "/") return Value(a / b);
-  if (word == "**") return Value(FloatPower(a, b));
+PythonValue OfFloats(double a, const std::string& word, double b) {
+  if (word == "+") return PythonValue(a + b);
+  if (word == "-") return PythonValue(a - b);
+  if (word == "*") return PythonValue(a * b);
+  if (word == "/") return PythonValue(a / b);
+  if (word == "**") return PythonValue(FloatPower(a, b));
   double rest = std::fmod(a, b);
   if (rest != 0.0 && (rest < 0.0) != (b < 0.0)) rest += b;
-  if (word == "%") return Value(rest);
-  return Value(std::round((a - rest) / b));
+  if (word == "%") return PythonValue(rest);
+  return PythonValue(std::round((a - rest) / b));
 }
 
-Value Repeated(const Value& of, std::int64_t times, const std::string& word) {
+PythonValue Repeated(const PythonValue& of, std::int64_t times, const std::string& word) {
   const auto count = static_cast<std::size_t>(std::max<std::int64_t>(times, 0));
   if (of.text() != nullptr) {
     const std::string& text = *of.text();
@@ -88,23 +88,23 @@ Value Repeated(const Value& of, std::int64_t times, const std::string& word) {
     }
     std::string result;
     for (std::size_t i = 0; i < count && !text.empty(); ++i) result += text;
-    return Value(std::move(result));
+    return PythonValue(std::move(result));
   }
-  const Value::Items& items = of.list()->items;
+  const PythonValue::Items& items = of.list()->items;
   if (!items.empty() && count > kMostItems / items.size()) {
     throw Mistake(fmt::format("'{}'", word), fmt::format("a list {} times", count),
                   fmt::format("at most {} items", kMostItems));
   }
-  Value::Items result;
+  PythonValue::Items result;
   for (std::size_t i = 0; i < count && !items.empty(); ++i) {
     result.insert(result.end(), items.begin(), items.end());
   }
-  return Value::ListOf(std::move(result), of.list()->tuple);
+  return PythonValue::ListOf(std::move(result), of.list()->tuple);
 }
 
 }  // namespace
 
-Value Calculate(const Value& a, const std::string& word, const Value& b) {
+PythonValue Calculate(const PythonValue& a, const std::string& word, const PythonValue& b) {
   if (a.is_number() && b.is_number()) {
     if ((word == "/" || word == "//" || word == "%") && b.number() == 0.0) {
       throw Mistake(fmt::format("'{}'", word), "a division by 0", "another number");
@@ -116,15 +116,15 @@ Value Calculate(const Value& a, const std::string& word, const Value& b) {
     if (a.text()->size() + b.text()->size() > kMostText) {
       throw Mistake("'+'", "two long texts", fmt::format("at most {} bytes", kMostText));
     }
-    return Value(*a.text() + *b.text());
+    return PythonValue(*a.text() + *b.text());
   }
   if (word == "+" && a.list() != nullptr && b.list() != nullptr &&
       a.list()->tuple == b.list()->tuple) {
-    Value::Items items = a.list()->items;
+    PythonValue::Items items = a.list()->items;
     items.insert(items.end(), b.list()->items.begin(), b.list()->items.end());
-    return Value::ListOf(std::move(items), a.list()->tuple);
+    return PythonValue::ListOf(std::move(items), a.list()->tuple);
   }
-  const auto repeats = [](const Value& of, const Value& times) {
+  const auto repeats = [](const PythonValue& of, const PythonValue& times) {
     return (of.text() != nullptr || of.list() != nullptr) && times.is_whole();
   };
   if (word == "*" && repeats(a, b)) return Repeated(a, b.whole(), word);
@@ -133,19 +133,19 @@ Value Calculate(const Value& a, const std::string& word, const Value& b) {
   FailTypes(a, word, b);
 }
 
-Value Negative(const Value& value) {
+PythonValue Negative(const PythonValue& value) {
   if (!value.is_number()) throw Mistake("'-'", std::string(value.type()), "a number");
-  if (value.is_float()) return Value(-value.number());
+  if (value.is_float()) return PythonValue(-value.number());
   return OfWholes(0, "-", value.whole());
 }
 
-bool Contains(const Value& container, const Value& item) {
+bool Contains(const PythonValue& container, const PythonValue& item) {
   if (container.text() != nullptr && item.text() != nullptr) {
     return container.text()->find(*item.text()) != std::string::npos;
   }
   if (const auto* list = container.list()) {
     return std::any_of(list->items.begin(), list->items.end(),
-                       [&](const Value& one) { return Equal(one, item); });
+                       [&](const PythonValue& one) { return Equal(one, item); });
   }
   if (const auto* dict = container.dict()) return Find(*dict, item) != nullptr;
   throw Mistake("'in'", fmt::format("{} in {}", item.type(), container.type()),

@@ -3,18 +3,18 @@
 
 #include <string>
 
-#include "oca/models/robot/xacro/value.h"
+#include "oca/models/robot/xacro/python_value.h"
 
 namespace oca::robot::xacro {
 
 /// `a word b` with word one of + - * / // % **, as Python has it for numbers, texts and lists.
 /// throws Mistake for types that have none, a zero to divide by, and results that are too large
-Value Calculate(const Value& a, const std::string& word, const Value& b);
+PythonValue Calculate(const PythonValue& a, const std::string& word, const PythonValue& b);
 
 /// -value of a number.
-Value Negative(const Value& value);
+PythonValue Negative(const PythonValue& value);
 
 /// `item in container`. throws Mistake if that is no container of such
-bool Contains(const Value& container, const Value& item);
+bool Contains(const PythonValue& container, const PythonValue& item);
 
 }  // namespace oca::robot::xacro

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "oca/models/robot/xacro/value.h"
+#include "oca/models/robot/xacro/python_value.h"
 
 namespace oca::robot::xacro {
 

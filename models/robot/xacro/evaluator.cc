@@ -15,8 +15,8 @@ namespace {
 
 using Kind = Expression::Kind;
 
-std::size_t SizeOf(const Value& value) {
-  constexpr std::size_t kOne = sizeof(Value);
+std::size_t SizeOf(const PythonValue& value) {
+  constexpr std::size_t kOne = sizeof(PythonValue);
   if (value.text() != nullptr) return kOne + value.text()->size();
   if (value.list() != nullptr) return kOne * (1 + value.list()->items.size());
   if (value.dict() != nullptr) return kOne * (1 + value.dict()->entries.size());
@@ -24,7 +24,7 @@ std::size_t SizeOf(const Value& value) {
 }
 
 /// Of looking for one text in another.
-std::size_t SearchWork(const Value& in, const Value& part) {
+std::size_t SearchWork(const PythonValue& in, const PythonValue& part) {
   if (in.text() == nullptr || part.text() == nullptr) return 0;
   return in.text()->size() * part.text()->size() / 64;
 }
@@ -33,22 +33,22 @@ class Evaluation {
  public:
   Evaluation(Surroundings& in, Budget& budget) : in_(in), budget_(budget) {}
 
-  Value Of(const Expression& e) {
+  PythonValue Of(const Expression& e) {
     const Budget::Level level(budget_);
-    Value value = Work(e);
+    PythonValue value = Work(e);
     budget_.Spend(SizeOf(value));
     return value;
   }
 
  private:
-  Value Work(const Expression& e) {
+  PythonValue Work(const Expression& e) {
     switch (e.kind) {
       case Kind::kConstant:
         return e.value;
       case Kind::kName:
         return Named(e.text);
       case Kind::kNot:
-        return Value(!Of(*e.parts[0]).truth());
+        return PythonValue(!Of(*e.parts[0]).truth());
       case Kind::kNegative:
         return Negative(Of(*e.parts[0]));
       case Kind::kPositive:
@@ -64,7 +64,7 @@ class Evaluation {
         return Of(*e.parts[Of(*e.parts[1]).truth() ? 0 : 2]);
       case Kind::kList:
       case Kind::kTuple:
-        return Value::ListOf(AllOf(e, 0), e.kind == Kind::kTuple);
+        return PythonValue::ListOf(AllOf(e, 0), e.kind == Kind::kTuple);
       case Kind::kDict:
         return Dictionary(e);
       case Kind::kSubscript:
@@ -79,22 +79,22 @@ class Evaluation {
     return {};
   }
 
-  Value::Items AllOf(const Expression& e, std::size_t from) {
-    Value::Items items;
+  PythonValue::Items AllOf(const Expression& e, std::size_t from) {
+    PythonValue::Items items;
     for (std::size_t i = from; i < e.parts.size(); ++i) items.push_back(Of(*e.parts[i]));
     return items;
   }
 
-  Value Named(const std::string& name) {
-    if (const Value* const property = in_.Property(name)) return *property;
-    if (const auto constant = ConstantNamed(name)) return Value(*constant);
+  PythonValue Named(const std::string& name) {
+    if (const PythonValue* const property = in_.Property(name)) return *property;
+    if (const auto constant = ConstantNamed(name)) return PythonValue(*constant);
     const std::vector<std::string> known = in_.PropertyNames();
     const std::string nearest = models::NearestName(name, known);
     throw Mistake("unknown name", fmt::format("'{}'", name),
                   nearest.empty() ? "a property" : fmt::format("a property such as '{}'", nearest));
   }
 
-  static bool Holds(const Value& a, const std::string& word, const Value& b) {
+  static bool Holds(const PythonValue& a, const std::string& word, const PythonValue& b) {
     if (word == "==") return Equal(a, b);
     if (word == "!=") return !Equal(a, b);
     if (word == "<") return Less(a, b);
@@ -110,19 +110,19 @@ class Evaluation {
     return !unordered && (word == "<=" ? !Less(b, a) : !Less(a, b));
   }
 
-  Value Compared(const Expression& e) {
-    Value left = Of(*e.parts[0]);
+  PythonValue Compared(const Expression& e) {
+    PythonValue left = Of(*e.parts[0]);
     for (std::size_t i = 0; i < e.words.size(); ++i) {
-      Value right = Of(*e.parts[i + 1]);
+      PythonValue right = Of(*e.parts[i + 1]);
       budget_.Spend(SizeOf(left) + SizeOf(right) + SearchWork(right, left));
-      if (!Holds(left, e.words[i], right)) return Value(false);
+      if (!Holds(left, e.words[i], right)) return PythonValue(false);
       left = std::move(right);
     }
-    return Value(true);
+    return PythonValue(true);
   }
 
-  Value Decided(const Expression& e) {
-    Value value;
+  PythonValue Decided(const Expression& e) {
+    PythonValue value;
     for (const ExpressionPtr& part : e.parts) {
       value = Of(*part);
       if (value.truth() == (e.kind == Kind::kOr)) break;
@@ -130,15 +130,15 @@ class Evaluation {
     return value;
   }
 
-  Value Dictionary(const Expression& e) {
-    Value::Entries entries;
+  PythonValue Dictionary(const Expression& e) {
+    PythonValue::Entries entries;
     for (std::size_t i = 0; i < e.parts.size(); i += 2) {
       entries.emplace_back(Of(*e.parts[i]), Of(*e.parts[i + 1]));
     }
-    return Value::DictOf(std::move(entries));
+    return PythonValue::DictOf(std::move(entries));
   }
 
-  static std::int64_t Place(const Value& at, std::size_t size) {
+  static std::int64_t Place(const PythonValue& at, std::size_t size) {
     if (!at.is_whole()) throw Mistake("place in a list", std::string(at.type()), "a whole number");
     const auto count = static_cast<std::int64_t>(size);
     const std::int64_t place = at.whole() < 0 ? at.whole() + count : at.whole();
@@ -149,7 +149,7 @@ class Evaluation {
     return place;
   }
 
-  static std::string KeysOf(const Value::Dict& dict) {
+  static std::string KeysOf(const PythonValue::Dict& dict) {
     std::string keys;
     for (std::size_t i = 0; i < dict.entries.size() && i < 12; ++i) {
       keys += (i == 0 ? "" : ", ") + ToText(dict.entries[i].first);
@@ -157,9 +157,9 @@ class Evaluation {
     return dict.entries.empty() ? "none: it is empty" : "one of " + keys;
   }
 
-  static Value Item(const Value& of, const Value& at) {
+  static PythonValue Item(const PythonValue& of, const PythonValue& at) {
     if (const auto* dict = of.dict()) {
-      const Value* const found = Find(*dict, at);
+      const PythonValue* const found = Find(*dict, at);
       if (found == nullptr) throw Mistake("unknown key", Shown(at), KeysOf(*dict));
       return *found;
     }
@@ -171,12 +171,12 @@ class Evaluation {
     }
     const std::vector<std::size_t> offsets = CharacterOffsets(*of.text());
     const auto place = static_cast<std::size_t>(Place(at, offsets.size() - 1));
-    return Value(of.text()->substr(offsets[place], offsets[place + 1] - offsets[place]));
+    return PythonValue(of.text()->substr(offsets[place], offsets[place + 1] - offsets[place]));
   }
 
   std::optional<std::int64_t> Bound(const ExpressionPtr& part) {
     if (part == nullptr) return std::nullopt;
-    const Value bound = Of(*part);
+    const PythonValue bound = Of(*part);
     if (bound.none()) return std::nullopt;
     if (!bound.is_whole())
       throw Mistake("bound of [:]", std::string(bound.type()), "whole numbers");
@@ -203,12 +203,12 @@ class Evaluation {
     return places;
   }
 
-  Value Slice(const Expression& e) {
-    const Value of = Of(*e.parts[0]);
+  PythonValue Slice(const Expression& e) {
+    const PythonValue of = Of(*e.parts[0]);
     if (const auto* list = of.list()) {
-      Value::Items items;
+      PythonValue::Items items;
       for (const std::size_t at : Places(e, list->items.size())) items.push_back(list->items[at]);
-      return Value::ListOf(std::move(items), list->tuple);
+      return PythonValue::ListOf(std::move(items), list->tuple);
     }
     if (of.text() == nullptr) throw Mistake("[:]", std::string(of.type()), "a list or text");
     const std::vector<std::size_t> offsets = CharacterOffsets(*of.text());
@@ -217,7 +217,7 @@ class Evaluation {
     for (const std::size_t at : Places(e, offsets.size() - 1)) {
       text += of.text()->substr(offsets[at], offsets[at + 1] - offsets[at]);
     }
-    return Value(std::move(text));
+    return PythonValue(std::move(text));
   }
 
   Surroundings* NamespaceOf(const Expression& e) {
@@ -237,32 +237,32 @@ class Evaluation {
     return module ? e.text : "";
   }
 
-  Value Attribute(const Expression& e) {
+  PythonValue Attribute(const Expression& e) {
     if (Surroundings* const space = NamespaceOf(*e.parts[0])) {
-      if (const Value* const property = space->Property(e.text)) return *property;
+      if (const PythonValue* const property = space->Property(e.text)) return *property;
       throw Mistake("unknown name in a namespace", fmt::format("'{}'", e.text), "a property of it");
     }
     if (!ModuleOf(*e.parts[0]).empty()) {
-      if (const auto constant = ConstantNamed(e.text)) return Value(*constant);
+      if (const auto constant = ConstantNamed(e.text)) return PythonValue(*constant);
       throw Mistake("attribute", fmt::format("'{}'", e.text), "a function that is called, or pi");
     }
-    const Value of = Of(*e.parts[0]);
+    const PythonValue of = Of(*e.parts[0]);
     if (of.dict() == nullptr) {
       throw Mistake(fmt::format("attribute '{}'", e.text), std::string(of.type()),
                     "a dictionary, or the call of a method");
     }
-    return Item(of, Value(e.text));
+    return Item(of, PythonValue(e.text));
   }
 
-  Value Call(const Expression& e) {
+  PythonValue Call(const Expression& e) {
     const Expression& callee = *e.parts[0];
     Arguments arguments{AllOf(e, 1), {}};
     for (std::size_t i = 0; i < e.words.size(); ++i) {
-      Value& value = arguments.values[arguments.values.size() - e.words.size() + i];
+      PythonValue& value = arguments.values[arguments.values.size() - e.words.size() + i];
       arguments.named.emplace_back(e.words[i], std::move(value));
     }
     arguments.values.resize(arguments.values.size() - e.words.size());
-    for (const Value& value : arguments.values) budget_.Spend(SizeOf(value));
+    for (const PythonValue& value : arguments.values) budget_.Spend(SizeOf(value));
     if (callee.kind == Kind::kName) {
       if (callee.text == "load_yaml" || callee.text == "abs_filename" || callee.text == "dotify") {
         return in_.CallXacro(callee.text, arguments);
@@ -273,8 +273,8 @@ class Evaluation {
     const std::string module = ModuleOf(*callee.parts[0]);
     if (module == "xacro") return in_.CallXacro(callee.text, arguments);
     if (!module.empty()) return CallFunction(callee.text, arguments, budget_);
-    const Value of = Of(*callee.parts[0]);
-    for (const Value& value : arguments.values) budget_.Spend(SearchWork(of, value));
+    const PythonValue of = Of(*callee.parts[0]);
+    for (const PythonValue& value : arguments.values) budget_.Spend(SearchWork(of, value));
     return CallMethod(of, callee.text, arguments, budget_);
   }
 
@@ -284,22 +284,22 @@ class Evaluation {
 
 }  // namespace
 
-Value Evaluate(const Expression& expression, Surroundings& in, Budget& budget) {
+PythonValue Evaluate(const Expression& expression, Surroundings& in, Budget& budget) {
   return Evaluation(in, budget).Of(expression);
 }
 
-Value LiteralOf(const std::string& text) {
+PythonValue LiteralOf(const std::string& text) {
   if (text.size() >= 2 && text.front() == '\'' && text.back() == '\'') {
-    return Value(text.substr(1, text.size() - 2));
+    return PythonValue(text.substr(1, text.size() - 2));
   }
-  if (text.size() > 100 || text.find('_') != std::string::npos) return Value(text);
-  if (const auto whole = WholeOf(text)) return Value(*whole);
+  if (text.size() > 100 || text.find('_') != std::string::npos) return PythonValue(text);
+  if (const auto whole = WholeOf(text)) return PythonValue(*whole);
   const bool digits = text.find_first_not_of("0123456789") == std::string::npos;
-  if (digits) return Value(text);  // empty, or a whole number beyond 64 bits
-  if (const auto number = NumberOf(text)) return Value(*number);
-  if (text == "true" || text == "True") return Value(true);
-  if (text == "false" || text == "False") return Value(false);
-  return Value(text);
+  if (digits) return PythonValue(text);  // empty, or a whole number beyond 64 bits
+  if (const auto number = NumberOf(text)) return PythonValue(*number);
+  if (text == "true" || text == "True") return PythonValue(true);
+  if (text == "false" || text == "False") return PythonValue(false);
+  return PythonValue(text);
 }
 
 }  // namespace oca::robot::xacro

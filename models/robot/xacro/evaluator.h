@@ -7,7 +7,7 @@
 #include "oca/models/robot/xacro/budget.h"
 #include "oca/models/robot/xacro/expression.h"
 #include "oca/models/robot/xacro/functions.h"
-#include "oca/models/robot/xacro/value.h"
+#include "oca/models/robot/xacro/python_value.h"
 
 namespace oca::robot::xacro {
 
@@ -16,20 +16,20 @@ class Surroundings {
  public:
   virtual ~Surroundings() = default;
   /// The property of that name here or further out; nullptr if there is none.
-  virtual const Value* Property(const std::string& name) = 0;
+  virtual const PythonValue* Property(const std::string& name) = 0;
   /// What `name.` stands for after an include with ns="name"; nullptr if that is none.
   virtual Surroundings* Namespace(const std::string& name) = 0;
   /// xacro.NAME(...), of kXacroFunctions.
-  virtual Value CallXacro(const std::string& name, const Arguments& arguments) = 0;
+  virtual PythonValue CallXacro(const std::string& name, const Arguments& arguments) = 0;
   /// All properties that it sees, for messages.
   virtual std::vector<std::string> PropertyNames() const = 0;
 };
 
 /// The value of an expression. throws Mistake
-Value Evaluate(const Expression& expression, Surroundings& in, Budget& budget);
+PythonValue Evaluate(const Expression& expression, Surroundings& in, Budget& budget);
 
 /// What xacro makes of the text of a property or parameter: a number or boolean if it is one; else
 /// the text, without single quotes around it.
-Value LiteralOf(const std::string& text);
+PythonValue LiteralOf(const std::string& text);
 
 }  // namespace oca::robot::xacro

@@ -33,16 +33,16 @@ void CheckAttributes(const Node& node, AttributeNames known) {
 }
 
 /// The boolean that xacro takes a condition for.
-bool Truth(const Value& value) {
+bool Truth(const PythonValue& value) {
   if (value.text() == nullptr) return value.truth();
-  const Value literal = LiteralOf(*value.text());
+  const PythonValue literal = LiteralOf(*value.text());
   if (literal.is_whole()) return literal.truth();
   throw Mistake("condition", Shown(value), "true, false, a number or an expression");
 }
 
 }  // namespace
 
-Place Expander::Here(const Place& place) const {
+SourcePlace Expander::Here(const SourcePlace& place) const {
   return {place.file, place.line, place.call != nullptr ? place.call : call_};
 }
 

@@ -42,7 +42,7 @@ class Expander {
   void Pass(const Macro& macro, const Node& node, Scope& scope, Scope& inner);
   void PassBlocks(const Macro& macro, const Node& node, Scope& scope, Scope& inner);
 
-  Place Here(const Place& place) const;
+  SourcePlace Here(const SourcePlace& place) const;
   std::string TextOf(const Node& node, const char* attribute, Scope& scope) const;
 
   Session& session_;

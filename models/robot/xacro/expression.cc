@@ -261,7 +261,7 @@ class ExpressionParser {
     made->value = tokens_[at_++].value;
     while (made->value.text() != nullptr && Here().kind == Token::Kind::kConstant &&
            Here().value.text() != nullptr) {  // 'a' 'b' is 'ab'
-      made->value = Value(*made->value.text() + *tokens_[at_++].value.text());
+      made->value = PythonValue(*made->value.text() + *tokens_[at_++].value.text());
     }
     return made;
   }
@@ -275,7 +275,7 @@ class ExpressionParser {
     ++at_;
     if (name == "True" || name == "False" || name == "None") {
       ExpressionPtr made = Make(Kind::kConstant, "");
-      if (name != "None") made->value = Value(name == "True");
+      if (name != "None") made->value = PythonValue(name == "True");
       return made;
     }
     return Make(Kind::kName, name);

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "oca/models/robot/xacro/value.h"
+#include "oca/models/robot/xacro/python_value.h"
 
 namespace oca::robot::xacro {
 
@@ -32,7 +32,7 @@ struct Expression {
     kCall,       ///< parts[0](parts[1], ...); the last of them have the names in words
   };
   Kind kind{Kind::kConstant};
-  Value value{};
+  PythonValue value{};
   std::string text{};
   std::vector<std::string> words{};
   std::vector<std::unique_ptr<Expression>> parts{};

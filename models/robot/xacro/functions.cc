@@ -13,14 +13,14 @@
 namespace oca::robot::xacro {
 namespace {
 
-const Value::Items& ItemsOf(std::string_view what, const Value& value) {
+const PythonValue::Items& ItemsOf(std::string_view what, const PythonValue& value) {
   if (value.list() == nullptr) throw Mistake(what, Shown(value), "a list");
   return value.list()->items;
 }
 
 /// What list(), sorted() and their like go through: keys of a dictionary, letters of a text.
-Value::Items Elements(std::string_view what, const Value& value) {
-  Value::Items items;
+PythonValue::Items Elements(std::string_view what, const PythonValue& value) {
+  PythonValue::Items items;
   if (const auto* dict = value.dict()) {
     for (const auto& [key, item] : dict->entries) items.push_back(key);
   } else if (value.text() != nullptr) {
@@ -35,93 +35,93 @@ Value::Items Elements(std::string_view what, const Value& value) {
   return items;
 }
 
-Value Extreme(const Arguments& arguments, bool most) {
+PythonValue Extreme(const Arguments& arguments, bool most) {
   const char* const what = most ? "max()" : "min()";
   CheckCount(what, arguments, 1, kMostItems);
-  const Value::Items items =
+  const PythonValue::Items items =
       arguments.values.size() == 1 ? Elements(what, arguments.values[0]) : arguments.values;
   if (items.empty()) throw Mistake(what, "an empty list", "values");
-  const Value* best = &items[0];
-  for (const Value& item : items) {
+  const PythonValue* best = &items[0];
+  for (const PythonValue& item : items) {
     if (most ? Less(*best, item) : Less(item, *best)) best = &item;
   }
   return *best;
 }
 
-Value Max(const Arguments& arguments, Budget&) { return Extreme(arguments, true); }
-Value Min(const Arguments& arguments, Budget&) { return Extreme(arguments, false); }
+PythonValue Max(const Arguments& arguments, Budget&) { return Extreme(arguments, true); }
+PythonValue Min(const Arguments& arguments, Budget&) { return Extreme(arguments, false); }
 
-Value Absolute(const Arguments& arguments, Budget&) {
+PythonValue Absolute(const Arguments& arguments, Budget&) {
   CheckCount("abs()", arguments, 1, 1);
-  const Value& value = arguments.values[0];
+  const PythonValue& value = arguments.values[0];
   return NumberArgument("abs()", value) < 0.0 ? Negative(value) : value;
 }
 
-Value Rounded(const Arguments& arguments, Budget&) {
+PythonValue Rounded(const Arguments& arguments, Budget&) {
   CheckCount("round()", arguments, 1, 2);
   const double number = NumberArgument("round()", arguments.values[0]);
   if (arguments.values.size() == 1) {
     if (arguments.values[0].is_whole()) return arguments.values[0];
-    return Value(ToWhole(std::nearbyint(number), "round()"));
+    return PythonValue(ToWhole(std::nearbyint(number), "round()"));
   }
-  const Value& digits = arguments.values[1];
+  const PythonValue& digits = arguments.values[1];
   if (!digits.is_whole() || digits.whole() < 0 || digits.whole() > 30) {
     throw Mistake("digits of round()", Shown(digits), "0 to 30");
   }
   if (arguments.values[0].is_whole()) return arguments.values[0];
-  if (!std::isfinite(number)) return Value(number);
-  return Value(std::strtod(fmt::format("{:.{}f}", number, digits.whole()).c_str(), nullptr));
+  if (!std::isfinite(number)) return PythonValue(number);
+  return PythonValue(std::strtod(fmt::format("{:.{}f}", number, digits.whole()).c_str(), nullptr));
 }
 
 template <double (*kRound)(double)>
-Value RoundedBy(const Arguments& arguments, Budget&) {
+PythonValue RoundedBy(const Arguments& arguments, Budget&) {
   CheckCount("rounding", arguments, 1, 1);
-  if (arguments.values[0].is_whole()) return Value(arguments.values[0].whole());
-  return Value(ToWhole(kRound(NumberArgument("rounding", arguments.values[0])), "rounding"));
+  if (arguments.values[0].is_whole()) return PythonValue(arguments.values[0].whole());
+  return PythonValue(ToWhole(kRound(NumberArgument("rounding", arguments.values[0])), "rounding"));
 }
 double Floor(double x) { return std::floor(x); }
 double Ceiling(double x) { return std::ceil(x); }
 double Truncated(double x) { return std::trunc(x); }
 
-Value Whole(const Arguments& arguments, Budget&) {
+PythonValue Whole(const Arguments& arguments, Budget&) {
   CheckCount("int()", arguments, 0, 1);
-  if (arguments.values.empty()) return Value(std::int64_t{0});
-  const Value& value = arguments.values[0];
-  if (value.is_whole()) return Value(value.whole());
-  if (value.is_float()) return Value(ToWhole(std::trunc(value.number()), "int()"));
+  if (arguments.values.empty()) return PythonValue(std::int64_t{0});
+  const PythonValue& value = arguments.values[0];
+  if (value.is_whole()) return PythonValue(value.whole());
+  if (value.is_float()) return PythonValue(ToWhole(std::trunc(value.number()), "int()"));
   const auto whole = value.text() == nullptr ? std::nullopt : WholeOf(*value.text());
   if (!whole) throw Mistake("int()", Shown(value), "a whole number of 64 bits");
-  return Value(*whole);
+  return PythonValue(*whole);
 }
 
-Value Float(const Arguments& arguments, Budget&) {
+PythonValue Float(const Arguments& arguments, Budget&) {
   CheckCount("float()", arguments, 0, 1);
-  if (arguments.values.empty()) return Value(0.0);
-  const Value& value = arguments.values[0];
-  if (value.is_number()) return Value(value.number());
+  if (arguments.values.empty()) return PythonValue(0.0);
+  const PythonValue& value = arguments.values[0];
+  if (value.is_number()) return PythonValue(value.number());
   const auto number = value.text() == nullptr ? std::nullopt : NumberOf(*value.text());
   if (!number) throw Mistake("float()", Shown(value), "a number");
-  return Value(*number);
+  return PythonValue(*number);
 }
 
-Value Text(const Arguments& arguments, Budget&) {
+PythonValue Text(const Arguments& arguments, Budget&) {
   CheckCount("str()", arguments, 0, 1);
-  return Value(arguments.values.empty() ? std::string() : ToText(arguments.values[0]));
+  return PythonValue(arguments.values.empty() ? std::string() : ToText(arguments.values[0]));
 }
 
-Value Represented(const Arguments& arguments, Budget&) {
+PythonValue Represented(const Arguments& arguments, Budget&) {
   CheckCount("repr()", arguments, 1, 1);
-  return Value(Repr(arguments.values[0]));
+  return PythonValue(Repr(arguments.values[0]));
 }
 
-Value Boolean(const Arguments& arguments, Budget&) {
+PythonValue Boolean(const Arguments& arguments, Budget&) {
   CheckCount("bool()", arguments, 0, 1);
-  return Value(!arguments.values.empty() && arguments.values[0].truth());
+  return PythonValue(!arguments.values.empty() && arguments.values[0].truth());
 }
 
-Value Length(const Arguments& arguments, Budget&) {
+PythonValue Length(const Arguments& arguments, Budget&) {
   CheckCount("len()", arguments, 1, 1);
-  const Value& value = arguments.values[0];
+  const PythonValue& value = arguments.values[0];
   std::size_t size = 0;
   if (value.text() != nullptr) {
     size = CharacterOffsets(*value.text()).size() - 1;
@@ -132,74 +132,74 @@ Value Length(const Arguments& arguments, Budget&) {
   } else {
     throw Mistake("len()", std::string(value.type()), "a text, list or dictionary");
   }
-  return Value(static_cast<std::int64_t>(size));
+  return PythonValue(static_cast<std::int64_t>(size));
 }
 
 template <bool kTuple>
-Value ListFrom(const Arguments& arguments, Budget&) {
+PythonValue ListFrom(const Arguments& arguments, Budget&) {
   CheckCount("list()", arguments, 0, 1);
-  if (arguments.values.empty()) return Value::ListOf({}, kTuple);
-  return Value::ListOf(Elements("list()", arguments.values[0]), kTuple);
+  if (arguments.values.empty()) return PythonValue::ListOf({}, kTuple);
+  return PythonValue::ListOf(Elements("list()", arguments.values[0]), kTuple);
 }
 
-Value Dictionary(const Arguments& arguments, Budget&) {
+PythonValue Dictionary(const Arguments& arguments, Budget&) {
   if (arguments.values.size() > 1) throw Mistake("dict()", "several values", "at most one");
-  Value::Entries entries;
+  PythonValue::Entries entries;
   if (!arguments.values.empty()) {
-    const Value& from = arguments.values[0];
+    const PythonValue& from = arguments.values[0];
     if (const auto* dict = from.dict()) {
       entries = dict->entries;
     } else {
-      for (const Value& pair : ItemsOf("dict()", from)) {
-        const Value::Items& both = ItemsOf("item of dict()", pair);
+      for (const PythonValue& pair : ItemsOf("dict()", from)) {
+        const PythonValue::Items& both = ItemsOf("item of dict()", pair);
         if (both.size() != 2) throw Mistake("item of dict()", Shown(pair), "a key and a value");
         entries.emplace_back(both[0], both[1]);
       }
     }
   }
-  for (const auto& [name, value] : arguments.named) entries.emplace_back(Value(name), value);
-  return Value::DictOf(std::move(entries));
+  for (const auto& [name, value] : arguments.named) entries.emplace_back(PythonValue(name), value);
+  return PythonValue::DictOf(std::move(entries));
 }
 
-Value Total(const Arguments& arguments, Budget&) {
+PythonValue Total(const Arguments& arguments, Budget&) {
   CheckCount("sum()", arguments, 1, 1);
-  Value total(std::int64_t{0});
-  for (const Value& item : ItemsOf("sum()", arguments.values[0])) {
+  PythonValue total(std::int64_t{0});
+  for (const PythonValue& item : ItemsOf("sum()", arguments.values[0])) {
     total = Calculate(total, "+", item);
   }
   return total;
 }
 
-Value Sorted(const Arguments& arguments, Budget&) {
+PythonValue Sorted(const Arguments& arguments, Budget&) {
   CheckCount("sorted()", arguments, 1, 1);
-  Value::Items items = Elements("sorted()", arguments.values[0]);
-  for (const Value& item : items) {  // so that the order is one of all
+  PythonValue::Items items = Elements("sorted()", arguments.values[0]);
+  for (const PythonValue& item : items) {  // so that the order is one of all
     if (item.is_float() && std::isnan(item.number())) throw Mistake("sorted()", "nan", "numbers");
     Less(item, items[0]);
   }
   std::stable_sort(items.begin(), items.end(), Less);
-  return Value::ListOf(std::move(items));
+  return PythonValue::ListOf(std::move(items));
 }
 
-Value Reversed(const Arguments& arguments, Budget&) {
+PythonValue Reversed(const Arguments& arguments, Budget&) {
   CheckCount("reversed()", arguments, 1, 1);
-  Value::Items items = Elements("reversed()", arguments.values[0]);
+  PythonValue::Items items = Elements("reversed()", arguments.values[0]);
   std::reverse(items.begin(), items.end());
-  return Value::ListOf(std::move(items));
+  return PythonValue::ListOf(std::move(items));
 }
 
-Value Range(const Arguments& arguments, Budget&) {
+PythonValue Range(const Arguments& arguments, Budget&) {
   CheckCount("range()", arguments, 1, 3);
   std::int64_t bounds[3] = {0, 0, 1};
   for (std::size_t i = 0; i < arguments.values.size(); ++i) {
-    const Value& value = arguments.values[i];
+    const PythonValue& value = arguments.values[i];
     if (!value.is_whole() || std::abs(value.whole()) > 1'000'000'000) {
       throw Mistake("range()", Shown(value), "whole numbers up to 10^9");
     }
     bounds[arguments.values.size() == 1 ? 1 : i] = value.whole();
   }
   if (bounds[2] == 0) throw Mistake("step of range()", "0", "another number");
-  Value::Items items;
+  PythonValue::Items items;
   for (std::int64_t at = bounds[0]; bounds[2] > 0 ? at < bounds[1] : at > bounds[1];
        at += bounds[2]) {
     if (items.size() >= kMostItems) {
@@ -207,19 +207,19 @@ Value Range(const Arguments& arguments, Budget&) {
     }
     items.emplace_back(at);
   }
-  return Value::ListOf(std::move(items));
+  return PythonValue::ListOf(std::move(items));
 }
 
 template <bool kAll>
-Value Quantified(const Arguments& arguments, Budget&) {
+PythonValue Quantified(const Arguments& arguments, Budget&) {
   CheckCount(kAll ? "all()" : "any()", arguments, 1, 1);
-  for (const Value& item : Elements("all() or any()", arguments.values[0])) {
-    if (item.truth() != kAll) return Value(!kAll);
+  for (const PythonValue& item : Elements("all() or any()", arguments.values[0])) {
+    if (item.truth() != kAll) return PythonValue(!kAll);
   }
-  return Value(kAll);
+  return PythonValue(kAll);
 }
 
-using Function = Value (*)(const Arguments&, Budget&);
+using Function = PythonValue (*)(const Arguments&, Budget&);
 const std::map<std::string, Function>& Functions() {
   static const std::map<std::string, Function> functions = {
       {"max", Max},
@@ -259,11 +259,11 @@ const std::map<std::string, Function>& Functions() {
 
 }  // namespace
 
-Value CallFunction(const std::string& name, const Arguments& arguments, Budget& budget) {
+PythonValue CallFunction(const std::string& name, const Arguments& arguments, Budget& budget) {
   if (const auto own = Functions().find(name); own != Functions().end()) {
     return own->second(arguments, budget);
   }
-  const std::optional<Value> value = CallMath(name, arguments);
+  const std::optional<PythonValue> value = CallMath(name, arguments);
   if (!value) FailUnknown(name);
   return *value;
 }

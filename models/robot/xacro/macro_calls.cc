@@ -54,7 +54,7 @@ void Expander::Pass(const Macro& macro, const Node& node, Scope& scope, Scope& i
   std::vector<std::string> missing;
   for (const Parameter& one : macro.parameters) {
     if (one.name.starts_with('*') || node.Attribute(one.name) != nullptr) continue;
-    const Value* const forwarded = one.forwards ? scope.Property(one.name) : nullptr;
+    const PythonValue* const forwarded = one.forwards ? scope.Property(one.name) : nullptr;
     if (forwarded != nullptr) {
       inner.Set(one.name, *forwarded);
     } else if (one.fallback) {

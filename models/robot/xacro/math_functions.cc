@@ -43,20 +43,21 @@ const std::map<std::string, Binary>& BinaryFunctions() {
       {"hypot", [](double x, double y) { return std::hypot(x, y); }},
       {"fmod", [](double x, double y) { return std::fmod(x, y); }},
       {"copysign", [](double x, double y) { return std::copysign(x, y); }},
-      {"pow", [](double x, double y) { return Calculate(Value(x), "**", Value(y)).number(); }},
+      {"pow",
+       [](double x, double y) { return Calculate(PythonValue(x), "**", PythonValue(y)).number(); }},
   };
   return functions;
 }
 
 /// `number`, of arguments that were numbers. throws Mistake if a function has no value there
-Value Defined(std::string_view what, double number, bool finite) {
+PythonValue Defined(std::string_view what, double number, bool finite) {
   if (finite && !std::isfinite(number)) {
     throw Mistake(what, "an argument for which it has no value", "another one");
   }
-  return Value(number);
+  return PythonValue(number);
 }
 
-Value Logarithm(const Arguments& arguments) {
+PythonValue Logarithm(const Arguments& arguments) {
   CheckCount("log()", arguments, 1, 2);
   const double number = NumberArgument("log()", arguments.values[0]);
   double value = number > 0.0 ? std::log(number) : kUndefined;
@@ -76,7 +77,7 @@ std::vector<std::string> MathFunctions() {
   return names;
 }
 
-std::optional<Value> CallMath(const std::string& name, const Arguments& arguments) {
+std::optional<PythonValue> CallMath(const std::string& name, const Arguments& arguments) {
   const std::string what = name + "()";
   if (name == "log") return Logarithm(arguments);
   const auto one = UnaryFunctions().find(name);
@@ -90,7 +91,7 @@ std::optional<Value> CallMath(const std::string& name, const Arguments& argument
   return Defined(what, two->second(first, second), std::isfinite(first) && std::isfinite(second));
 }
 
-double NumberArgument(std::string_view what, const Value& value) {
+double NumberArgument(std::string_view what, const PythonValue& value) {
   if (!value.is_number()) throw Mistake(what, Shown(value), "a number");
   return value.number();
 }

@@ -25,7 +25,7 @@ bool IsIn(const Names& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-Value Size(std::size_t size) { return Value(static_cast<std::int64_t>(size)); }
+PythonValue Size(std::size_t size) { return PythonValue(static_cast<std::int64_t>(size)); }
 
 std::string Stripped(const std::string& text, std::string_view of, bool left, bool right) {
   const std::size_t from = left ? text.find_first_not_of(of) : 0;
@@ -34,8 +34,8 @@ std::string Stripped(const std::string& text, std::string_view of, bool left, bo
   return last == std::string::npos ? "" : text.substr(from, last + 1 - from);
 }
 
-Value::Items SplitAtBlanks(const std::string& text, std::int64_t most) {
-  Value::Items items;
+PythonValue::Items SplitAtBlanks(const std::string& text, std::int64_t most) {
+  PythonValue::Items items;
   std::size_t at = text.find_first_not_of(kBlank);
   while (at != std::string::npos) {
     if (most >= 0 && std::ssize(items) == most) {
@@ -49,9 +49,9 @@ Value::Items SplitAtBlanks(const std::string& text, std::int64_t most) {
   return items;
 }
 
-Value::Items SplitAt(const std::string& text, const std::string& separator, std::int64_t most,
-                     bool from_right) {
-  Value::Items items;
+PythonValue::Items SplitAt(const std::string& text, const std::string& separator, std::int64_t most,
+                           bool from_right) {
+  PythonValue::Items items;
   std::size_t from = 0, to = text.size();
   while (most < 0 || std::ssize(items) < most) {
     if (items.size() >= kMostItems) throw Mistake("split()", "too many parts", "fewer");
@@ -73,7 +73,7 @@ Value::Items SplitAt(const std::string& text, const std::string& separator, std:
   return items;
 }
 
-Value Split(const std::string& text, const std::string& name, const Arguments& arguments) {
+PythonValue Split(const std::string& text, const std::string& name, const Arguments& arguments) {
   CheckCount(name + "()", arguments, 0, 2);
   std::int64_t most = -1;
   if (arguments.values.size() == 2) {
@@ -86,14 +86,14 @@ Value Split(const std::string& text, const std::string& name, const Arguments& a
     if (name == "rsplit" && most >= 0) {
       throw Mistake("rsplit()", "a limit without a separator", "a separator first");
     }
-    return Value::ListOf(SplitAtBlanks(text, most));
+    return PythonValue::ListOf(SplitAtBlanks(text, most));
   }
   const std::string& separator = TextArgument(name + "()", arguments, 0);
   if (separator.empty()) throw Mistake(name + "()", "''", "a separator");
-  return Value::ListOf(SplitAt(text, separator, most, name == "rsplit"));
+  return PythonValue::ListOf(SplitAt(text, separator, most, name == "rsplit"));
 }
 
-Value Joined(const std::string& separator, const Arguments& arguments) {
+PythonValue Joined(const std::string& separator, const Arguments& arguments) {
   CheckCount("join()", arguments, 1, 1);
   const auto* const list = arguments.values[0].list();
   if (list == nullptr) throw Mistake("join()", Shown(arguments.values[0]), "a list of texts");
@@ -105,10 +105,10 @@ Value Joined(const std::string& separator, const Arguments& arguments) {
     text += *item;
     if (text.size() > kMostText) throw Mistake("join()", "a text above 1 MB", "a shorter one");
   }
-  return Value(std::move(text));
+  return PythonValue(std::move(text));
 }
 
-Value Replaced(const std::string& text, const Arguments& arguments) {
+PythonValue Replaced(const std::string& text, const Arguments& arguments) {
   CheckCount("replace()", arguments, 2, 2);
   const std::string& old = TextArgument("replace()", arguments, 0);
   const std::string& fresh = TextArgument("replace()", arguments, 1);
@@ -120,10 +120,10 @@ Value Replaced(const std::string& text, const Arguments& arguments) {
     from = at + old.size();
     if (result.size() > kMostText) throw Mistake("replace()", "a text above 1 MB", "a shorter one");
   }
-  return Value(result.append(text, from, std::string::npos));
+  return PythonValue(result.append(text, from, std::string::npos));
 }
 
-Value Found(const std::string& text, const std::string& name, const Arguments& arguments) {
+PythonValue Found(const std::string& text, const std::string& name, const Arguments& arguments) {
   CheckCount(name + "()", arguments, 1, 1);
   const std::string& part = TextArgument(name + "()", arguments, 0);
   if (name == "count") {
@@ -133,12 +133,12 @@ Value Found(const std::string& text, const std::string& name, const Arguments& a
          at = text.find(part, at + part.size())) {
       ++count;
     }
-    return Value(count);
+    return PythonValue(count);
   }
   const std::size_t at = name == "rfind" ? text.rfind(part) : text.find(part);
   if (at == std::string::npos) {
-    if (name == "index") throw Mistake("index()", Shown(Value(part)), "a text that is in it");
-    return Value(std::int64_t{-1});
+    if (name == "index") throw Mistake("index()", Shown(PythonValue(part)), "a text that is in it");
+    return PythonValue(std::int64_t{-1});
   }
   return Size(CharacterOffsets(text.substr(0, at)).size() - 1);
 }
@@ -155,19 +155,21 @@ std::string Cased(std::string text, const std::string& name) {
   return text;
 }
 
-Value ZeroFilled(const std::string& text, const Arguments& arguments) {
+PythonValue ZeroFilled(const std::string& text, const Arguments& arguments) {
   CheckCount("zfill()", arguments, 1, 1);
-  const Value& width = arguments.values[0];
+  const PythonValue& width = arguments.values[0];
   if (!width.is_whole() || width.whole() > 1000) {
     throw Mistake("zfill()", Shown(width), "a whole number up to 1000");
   }
   const auto least = static_cast<std::size_t>(std::max<std::int64_t>(width.whole(), 0));
-  if (text.size() >= least) return Value(text);
+  if (text.size() >= least) return PythonValue(text);
   const std::size_t sign = text.starts_with('-') || text.starts_with('+') ? 1 : 0;
-  return Value(text.substr(0, sign) + std::string(least - text.size(), '0') + text.substr(sign));
+  return PythonValue(text.substr(0, sign) + std::string(least - text.size(), '0') +
+                     text.substr(sign));
 }
 
-Value CallOfText(const std::string& text, const std::string& name, const Arguments& arguments) {
+PythonValue CallOfText(const std::string& text, const std::string& name,
+                       const Arguments& arguments) {
   const std::string what = name + "()";
   if (name == "split" || name == "rsplit") return Split(text, name, arguments);
   if (name == "join") return Joined(text, arguments);
@@ -180,37 +182,38 @@ Value CallOfText(const std::string& text, const std::string& name, const Argumen
     CheckCount(what, arguments, 0, 1);
     const std::string of =
         arguments.values.empty() ? std::string(kBlank) : TextArgument(what, arguments, 0);
-    return Value(Stripped(text, of, name != "rstrip", name != "lstrip"));
+    return PythonValue(Stripped(text, of, name != "rstrip", name != "lstrip"));
   }
   if (name == "startswith" || name == "endswith") {
     CheckCount(what, arguments, 1, 1);
     const std::string& part = TextArgument(what, arguments, 0);
-    return Value(name == "startswith" ? text.starts_with(part) : text.ends_with(part));
+    return PythonValue(name == "startswith" ? text.starts_with(part) : text.ends_with(part));
   }
   CheckCount(what, arguments, 0, 0);
   if (name == "__len__") return Size(CharacterOffsets(text).size() - 1);
   if (name == "splitlines") {
-    Value::Items lines = SplitAt(text, "\n", -1, false);
+    PythonValue::Items lines = SplitAt(text, "\n", -1, false);
     if (lines.back().text()->empty()) lines.pop_back();
-    return Value::ListOf(std::move(lines));
+    return PythonValue::ListOf(std::move(lines));
   }
   if (name.starts_with("is")) {
     const auto fits = [&](char c) {
       const auto byte = static_cast<unsigned char>(c);
       return name == "isalpha" ? std::isalpha(byte) != 0 : std::isdigit(byte) != 0;
     };
-    return Value(!text.empty() && std::all_of(text.begin(), text.end(), fits));
+    return PythonValue(!text.empty() && std::all_of(text.begin(), text.end(), fits));
   }
-  return Value(Cased(text, name));
+  return PythonValue(Cased(text, name));
 }
 
-Value CallOfList(const Value::Items& items, const std::string& name, const Arguments& arguments) {
+PythonValue CallOfList(const PythonValue::Items& items, const std::string& name,
+                       const Arguments& arguments) {
   if (name == "__len__") {
     CheckCount("__len__()", arguments, 0, 0);
     return Size(items.size());
   }
   CheckCount(name + "()", arguments, 1, 1);
-  const auto same = [&](const Value& item) { return Equal(item, arguments.values[0]); };
+  const auto same = [&](const PythonValue& item) { return Equal(item, arguments.values[0]); };
   if (name == "count") {
     return Size(static_cast<std::size_t>(std::count_if(items.begin(), items.end(), same)));
   }
@@ -221,39 +224,39 @@ Value CallOfList(const Value::Items& items, const std::string& name, const Argum
   return Size(static_cast<std::size_t>(found - items.begin()));
 }
 
-Value CallOfDict(const Value& of, const std::string& name, const Arguments& arguments) {
-  const Value::Dict& dict = *of.dict();
+PythonValue CallOfDict(const PythonValue& of, const std::string& name, const Arguments& arguments) {
+  const PythonValue::Dict& dict = *of.dict();
   if (name == "get") {
     CheckCount("get()", arguments, 1, 2);
-    if (const Value* const found = Find(dict, arguments.values[0])) return *found;
-    return arguments.values.size() == 2 ? arguments.values[1] : Value();
+    if (const PythonValue* const found = Find(dict, arguments.values[0])) return *found;
+    return arguments.values.size() == 2 ? arguments.values[1] : PythonValue();
   }
   if (name == "has_key") {
     CheckCount("has_key()", arguments, 1, 1);
-    return Value(Find(dict, arguments.values[0]) != nullptr);
+    return PythonValue(Find(dict, arguments.values[0]) != nullptr);
   }
   CheckCount(name + "()", arguments, 0, 0);
   if (name == "__len__") return Size(dict.entries.size());
   if (name == "copy") return of;
-  Value::Items items;
+  PythonValue::Items items;
   for (const auto& [key, value] : dict.entries) {
     items.push_back(name == "keys"     ? key
                     : name == "values" ? value
-                                       : Value::ListOf({key, value}, true));
+                                       : PythonValue::ListOf({key, value}, true));
   }
-  return Value::ListOf(std::move(items));
+  return PythonValue::ListOf(std::move(items));
 }
 
 template <class Names>
-[[noreturn]] void FailMethod(const Value& of, const std::string& name, const Names& known) {
+[[noreturn]] void FailMethod(const PythonValue& of, const std::string& name, const Names& known) {
   throw Mistake(fmt::format("method of {}", of.type()), fmt::format("'{}'", name),
                 fmt::format("one of {}", fmt::join(known, ", ")));
 }
 
 }  // namespace
 
-Value CallMethod(const Value& of, const std::string& name, const Arguments& arguments,
-                 Budget& budget) {
+PythonValue CallMethod(const PythonValue& of, const std::string& name, const Arguments& arguments,
+                       Budget& budget) {
   if (of.text() != nullptr) {
     if (!IsIn(kTextMethods, name)) FailMethod(of, name, kTextMethods);
     budget.Spend(of.text()->size());

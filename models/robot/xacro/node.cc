@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "oca/models/robot/xacro/value.h"
+#include "oca/models/robot/xacro/python_value.h"
 
 namespace oca::robot::xacro {
 namespace {
@@ -100,7 +100,7 @@ class NodeWriter {
 
 }  // namespace
 
-std::string Place::ToString() const {
+std::string SourcePlace::ToString() const {
   constexpr int kMostCalls = 4;
   std::string text = fmt::format("{}:{}", *file, line);
   int count = 0;

@@ -14,7 +14,7 @@ namespace oca::robot::xacro {
 struct Call;
 
 /// Where something is written, and the macro calls that lead there.
-struct Place {
+struct SourcePlace {
   std::shared_ptr<const std::string> file{};
   int line{0};
   std::shared_ptr<const Call> call{};  ///< the innermost; nullptr: none
@@ -23,7 +23,7 @@ struct Place {
   std::string ToString() const;
 };
 struct Call {
-  Place at;
+  SourcePlace at;
 };
 
 struct Node;
@@ -31,7 +31,7 @@ using NodePtr = std::shared_ptr<const Node>;
 
 /// An element, or a text if it has no name.
 struct Node {
-  Place place{};
+  SourcePlace place{};
   std::string name{};
   std::string text{};
   std::vector<std::pair<std::string, std::string>> attributes{};

@@ -69,7 +69,7 @@ std::vector<Parameter> ParseParameters(const std::string& params) {
   return parameters;
 }
 
-const Value* Scope::Property(const std::string& name) {
+const PythonValue* Scope::Property(const std::string& name) {
   for (Scope* at = this; at != nullptr; at = at->outer_) {
     const auto found = at->properties_.find(name);
     if (found == at->properties_.end()) continue;
@@ -86,7 +86,7 @@ void Scope::Resolve(const std::string& name, Entry& entry) {
   }
   entry.open = true;
   try {
-    Value value = session_.Evaluate(entry.text, *this, entry.place);
+    PythonValue value = session_.Evaluate(entry.text, *this, entry.place);
     entry.value = value.text() != nullptr ? LiteralOf(*value.text()) : std::move(value);
     entry.lazy = entry.open = false;
   } catch (const Mistake& mistake) {
@@ -97,7 +97,7 @@ void Scope::Resolve(const std::string& name, Entry& entry) {
   }
 }
 
-Value Scope::CallXacro(const std::string& name, const Arguments& arguments) {
+PythonValue Scope::CallXacro(const std::string& name, const Arguments& arguments) {
   return session_.CallXacro(name, arguments);
 }
 
@@ -111,13 +111,13 @@ std::vector<std::string> Scope::PropertyNames() const {
   return names;
 }
 
-void Scope::Set(const std::string& name, Value value) {
+void Scope::Set(const std::string& name, PythonValue value) {
   if (value.text() != nullptr) value = LiteralOf(*value.text());
   properties_[name] = {std::move(value), {}, {}, false, false};
 }
 
-void Scope::SetLazily(const std::string& name, const std::string& text, const Place& place) {
-  Value literal = LiteralOf(text);
+void Scope::SetLazily(const std::string& name, const std::string& text, const SourcePlace& place) {
+  PythonValue literal = LiteralOf(text);
   const bool lazy = literal.text() != nullptr;
   properties_[name] = lazy ? Entry{{}, *literal.text(), place, true, false}
                            : Entry{std::move(literal), {}, {}, false, false};

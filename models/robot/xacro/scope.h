@@ -9,7 +9,7 @@
 
 #include "oca/models/robot/xacro/evaluator.h"
 #include "oca/models/robot/xacro/node.h"
-#include "oca/models/robot/xacro/value.h"
+#include "oca/models/robot/xacro/python_value.h"
 
 namespace oca::robot::xacro {
 
@@ -40,15 +40,15 @@ class Scope final : public Surroundings {
  public:
   Scope(Session& session, Scope* outer) : session_(session), outer_(outer) {}
 
-  const Value* Property(const std::string& name) override;
+  const PythonValue* Property(const std::string& name) override;
   Surroundings* Namespace(const std::string& name) override { return FindNamespace(name); }
-  Value CallXacro(const std::string& name, const Arguments& arguments) override;
+  PythonValue CallXacro(const std::string& name, const Arguments& arguments) override;
   std::vector<std::string> PropertyNames() const override;
 
   /// A value; of a text what LiteralOf makes of it.
-  void Set(const std::string& name, Value value);
+  void Set(const std::string& name, PythonValue value);
   /// A text that is worked out when it is first asked for, here.
-  void SetLazily(const std::string& name, const std::string& text, const Place& place);
+  void SetLazily(const std::string& name, const std::string& text, const SourcePlace& place);
   void Remove(const std::string& name);
 
   /// By its name with stars.
@@ -68,9 +68,9 @@ class Scope final : public Surroundings {
 
  private:
   struct Entry {
-    Value value{};
+    PythonValue value{};
     std::string text{};
-    Place place{};
+    SourcePlace place{};
     bool lazy{false};
     bool open{false};  ///< being worked out
   };

@@ -28,9 +28,9 @@ constexpr std::size_t kMostYaml = 5'000'000;
 /// Names no properties and functions: of the expressions in YAML.
 class NoNames final : public Surroundings {
  public:
-  const Value* Property(const std::string& /*name*/) override { return nullptr; }
+  const PythonValue* Property(const std::string& /*name*/) override { return nullptr; }
   Surroundings* Namespace(const std::string& /*name*/) override { return nullptr; }
-  Value CallXacro(const std::string& name, const Arguments& /*arguments*/) override {
+  PythonValue CallXacro(const std::string& name, const Arguments& /*arguments*/) override {
     throw Mistake("function", "xacro." + name, "arithmetic");
   }
   std::vector<std::string> PropertyNames() const override { return {}; }
@@ -38,7 +38,8 @@ class NoNames final : public Surroundings {
 
 std::string TextOf(const std::string& name, const Arguments& arguments) {
   std::string text;
-  for (const Value& value : arguments.values) text += (text.empty() ? "" : " ") + ToText(value);
+  for (const PythonValue& value : arguments.values)
+    text += (text.empty() ? "" : " ") + ToText(value);
   if (!arguments.named.empty()) {
     throw Mistake(name + "()", arguments.named[0].first + "=", "arguments without names");
   }
@@ -46,36 +47,37 @@ std::string TextOf(const std::string& name, const Arguments& arguments) {
 }
 
 /// xacro.tokenize(text, separators=',; ', skip_empty=True)
-Value Tokens(const Arguments& arguments) {
+PythonValue Tokens(const Arguments& arguments) {
   CheckCount("tokenize()", arguments, 1, 3);
   const std::string& text = TextArgument("tokenize()", arguments, 0);
   const std::string separators =
       arguments.values.size() > 1 ? TextArgument("tokenize()", arguments, 1) : ",; ";
   const bool skip = arguments.values.size() < 3 || arguments.values[2].truth();
-  Value::Items items;
+  PythonValue::Items items;
   for (std::size_t from = 0; from <= text.size();) {
     const std::size_t end = std::min(text.find_first_of(separators, from), text.size());
     if (end > from || !skip) items.emplace_back(text.substr(from, end - from));
     from = end + 1;
   }
-  return Value::ListOf(std::move(items));
+  return PythonValue::ListOf(std::move(items));
 }
 
 }  // namespace
 
 Session::Session(const XacroOptions& options) : options_(options), arguments_(options.arguments) {}
 
-Value Session::Evaluate(const std::string& text, Scope& scope, const Place& place) {
+PythonValue Session::Evaluate(const std::string& text, Scope& scope, const SourcePlace& place) {
   const Budget::Level level(budget_);
   budget_.Spend(text.size() + 1);
   std::string joined;
   TextParts parts(text);
   bool first = true;
   for (TextPart part = parts.Next(); part.kind != TextPart::Kind::kEnd; part = parts.Next()) {
-    Value value =
-        part.kind == TextPart::Kind::kExpression     ? EvaluateExpression(part.text, scope, place)
-        : part.kind == TextPart::Kind::kSubstitution ? Value(Substitute(part.text, scope, place))
-                                                     : Value(part.text);
+    PythonValue value = part.kind == TextPart::Kind::kExpression
+                            ? EvaluateExpression(part.text, scope, place)
+                        : part.kind == TextPart::Kind::kSubstitution
+                            ? PythonValue(Substitute(part.text, scope, place))
+                            : PythonValue(part.text);
     if (first && parts.AtEnd()) return value;
     first = false;
     joined += ToText(value);
@@ -84,16 +86,17 @@ Value Session::Evaluate(const std::string& text, Scope& scope, const Place& plac
     }
   }
   budget_.Spend(joined.size());
-  return Value(std::move(joined));
+  return PythonValue(std::move(joined));
 }
 
-Value Session::EvaluateExpression(const std::string& text, Scope& scope, const Place& place) {
+PythonValue Session::EvaluateExpression(const std::string& text, Scope& scope,
+                                        const SourcePlace& place) {
   // ${...} and $(...) inside of an expression are put in as texts before it is read.
-  const Value inner = Evaluate(text, scope, place);
+  const PythonValue inner = Evaluate(text, scope, place);
   if (inner.text() == nullptr) return inner;
-  const Place* const outer = std::exchange(at_, &place);
+  const SourcePlace* const outer = std::exchange(at_, &place);
   try {
-    Value value = xacro::Evaluate(*ParseExpression(*inner.text()), scope, budget_);
+    PythonValue value = xacro::Evaluate(*ParseExpression(*inner.text()), scope, budget_);
     at_ = outer;
     return value;
   } catch (const Mistake& mistake) {
@@ -107,7 +110,7 @@ Value Session::EvaluateExpression(const std::string& text, Scope& scope, const P
   }
 }
 
-std::string Session::Substitute(const std::string& text, Scope& scope, const Place& place) {
+std::string Session::Substitute(const std::string& text, Scope& scope, const SourcePlace& place) {
   const std::string inner = ToText(Evaluate(text, scope, place));
   const std::vector<std::string_view> words = models::internal::Words(inner);
   const std::string command(words.empty() ? "" : words[0]);
@@ -181,7 +184,7 @@ std::string Session::PackageFolder(const std::string& package) const {
       fmt::format("one that is known{}", places.empty() ? "" : " or a folder in " + places));
 }
 
-fs::path Session::PathOf(const std::string& name, const Place& place) const {
+fs::path Session::PathOf(const std::string& name, const SourcePlace& place) const {
   if (name.empty()) throw Mistake("file", "an empty name", "one of a file");
   if (name.starts_with("package://")) {
     const std::string rest = name.substr(10);
@@ -204,7 +207,7 @@ NodePtr Session::Read(const fs::path& file) {
              ReadNode(*document->RootElement(), std::make_shared<const std::string>(file.string()));
 }
 
-Value Session::LoadYaml(const std::string& name) {
+PythonValue Session::LoadYaml(const std::string& name) {
   const fs::path file = PathOf(name, *at_);
   budget_.CountFile();
   const auto found = yaml_.find(file);
@@ -230,12 +233,12 @@ Value Session::LoadYaml(const std::string& name) {
   }
 }
 
-Value Session::CallXacro(const std::string& name, const Arguments& arguments) {
+PythonValue Session::CallXacro(const std::string& name, const Arguments& arguments) {
   const std::string what = "xacro." + name + "()";
   if (name == "tokenize") return Tokens(arguments);
   if (name == "message" || name == "warning" || name == "error" || name == "print_location") {
     if (name != "print_location") Warn(*at_, TextOf(name, arguments));
-    return Value(std::string());
+    return PythonValue(std::string());
   }
   if (name == "fatal")
     throw Mistake("xacro.fatal", TextOf(name, arguments), "what the file asks for");
@@ -248,12 +251,12 @@ Value Session::CallXacro(const std::string& name, const Arguments& arguments) {
   CheckCount(what, arguments, 1, 1);
   if (name == "dotify") return arguments.values[0];
   const std::string& text = TextArgument(what, arguments, 0);
-  if (name == "arg") return Value(ArgumentNamed(text));
-  if (name == "abs_filename") return Value(fs::absolute(PathOf(text, *at_)).string());
+  if (name == "arg") return PythonValue(ArgumentNamed(text));
+  if (name == "abs_filename") return PythonValue(fs::absolute(PathOf(text, *at_)).string());
   return LoadYaml(text);
 }
 
-void Session::Warn(const Place& place, const std::string& text) const {
+void Session::Warn(const SourcePlace& place, const std::string& text) const {
   if (options_.warn) options_.warn(fmt::format("{}: {}", place.ToString(), text));
 }
 

@@ -10,7 +10,7 @@
 #include "oca/models/robot/xacro/budget.h"
 #include "oca/models/robot/xacro/evaluator.h"
 #include "oca/models/robot/xacro/node.h"
-#include "oca/models/robot/xacro/value.h"
+#include "oca/models/robot/xacro/python_value.h"
 
 namespace oca::robot::xacro {
 
@@ -25,10 +25,10 @@ class Session {
 
   /// What a text means with its ${...} and $(...) worked out: the value itself if it is but one of
   /// these, else a text. throws Mistake
-  Value Evaluate(const std::string& text, Scope& scope, const Place& place);
+  PythonValue Evaluate(const std::string& text, Scope& scope, const SourcePlace& place);
 
   /// xacro.NAME(...), called from where Evaluate is at. throws Mistake
-  Value CallXacro(const std::string& name, const Arguments& arguments);
+  PythonValue CallXacro(const std::string& name, const Arguments& arguments);
 
   /// Gives an argument its default, unless it was given; `fallback` works it out.
   template <class Fallback>
@@ -40,27 +40,27 @@ class Session {
   void CheckArguments() const;
 
   /// A path from the folder of the file that `place` is in.
-  std::filesystem::path PathOf(const std::string& name, const Place& place) const;
+  std::filesystem::path PathOf(const std::string& name, const SourcePlace& place) const;
   /// The root element of a file. throws ModelError; Mistake beyond the budget
   NodePtr Read(const std::filesystem::path& file);
 
   /// Tells what a file has to say.
-  void Warn(const Place& place, const std::string& text) const;
+  void Warn(const SourcePlace& place, const std::string& text) const;
 
  private:
-  Value EvaluateExpression(const std::string& text, Scope& scope, const Place& place);
-  std::string Substitute(const std::string& text, Scope& scope, const Place& place);
+  PythonValue EvaluateExpression(const std::string& text, Scope& scope, const SourcePlace& place);
+  std::string Substitute(const std::string& text, Scope& scope, const SourcePlace& place);
   std::string PackageFolder(const std::string& package) const;
   const std::string& ArgumentNamed(const std::string& name);
-  Value LoadYaml(const std::string& name);
+  PythonValue LoadYaml(const std::string& name);
 
   const XacroOptions& options_;
   Budget budget_;
   std::map<std::string, std::string> arguments_;
   std::set<std::string> declared_;
   std::map<std::filesystem::path, NodePtr> files_;
-  std::map<std::filesystem::path, Value> yaml_;
-  const Place* at_{nullptr};  // of the expression that is being worked out
+  std::map<std::filesystem::path, PythonValue> yaml_;
+  const SourcePlace* at_{nullptr};  // of the expression that is being worked out
 };
 
 }  // namespace oca::robot::xacro

@@ -26,7 +26,7 @@ bool TakePlus(std::string_view& text) {
 }
 
 /// One value by a conversion such as `%05.2f`.
-std::string Converted(std::string conversion, const Value& value) {
+std::string Converted(std::string conversion, const PythonValue& value) {
   const char kind = conversion.back();
   if (kind == 's' || kind == 'r') {
     if (conversion.size() > 2) throw Mistake("'%'", conversion, "%s");
@@ -51,9 +51,9 @@ std::string Converted(std::string conversion, const Value& value) {
 
 }  // namespace
 
-Value FormatPercent(const std::string& format, const Value& value) {
+PythonValue FormatPercent(const std::string& format, const PythonValue& value) {
   const bool tuple = value.list() != nullptr && value.list()->tuple;
-  const Value::Items values = tuple ? value.list()->items : Value::Items{value};
+  const PythonValue::Items values = tuple ? value.list()->items : PythonValue::Items{value};
   std::string text;
   std::size_t used = 0, from = 0;
   for (std::size_t at = format.find('%'); at != std::string::npos; at = format.find('%', from)) {
@@ -74,7 +74,7 @@ Value FormatPercent(const std::string& format, const Value& value) {
     if (text.size() > kMostText) throw Mistake("'%'", "a text above 1 MB", "a shorter one");
   }
   if (used < values.size()) throw Mistake("'%'", "too many values", "one a conversion");
-  return Value(text.append(format, from, std::string::npos));
+  return PythonValue(text.append(format, from, std::string::npos));
 }
 
 const std::string& TextArgument(std::string_view what, const Arguments& arguments, std::size_t i) {

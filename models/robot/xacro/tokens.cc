@@ -94,7 +94,7 @@ class TokenReader {
     return {Token::Kind::kConstant, written, ValueOf(digits, whole, written)};
   }
 
-  static Value ValueOf(const std::string& digits, bool whole, const std::string& written) {
+  static PythonValue ValueOf(const std::string& digits, bool whole, const std::string& written) {
     const char* const end = digits.data() + digits.size();
     if (whole) {
       std::int64_t number = 0;
@@ -104,13 +104,13 @@ class TokenReader {
       if (digits.size() > 1 && digits[0] == '0' && number != 0) {
         Fail("whole number", written, "one without leading zeros");
       }
-      return Value(number);
+      return PythonValue(number);
     }
     double number = 0.0;
     if (std::from_chars(digits.data(), end, number).ec != std::errc()) {
       Fail("number", written, "one that a double can hold");
     }
-    return Value(number);
+    return PythonValue(number);
   }
 
   Token Text() {
@@ -135,7 +135,7 @@ class TokenReader {
     }
     ++at_;
     return {Token::Kind::kConstant, std::string(text_.substr(from, at_ - 1 - from)),
-            Value(std::move(text))};
+            PythonValue(std::move(text))};
   }
 
   Token Operator() {

@@ -5,15 +5,15 @@
 #include <string_view>
 #include <vector>
 
-#include "oca/models/robot/xacro/value.h"
+#include "oca/models/robot/xacro/python_value.h"
 
 namespace oca::robot::xacro {
 
 struct Token {
   enum class Kind { kEnd, kName, kOperator, kConstant };
   Kind kind{Kind::kEnd};
-  std::string text{};  ///< as written
-  Value value{};       ///< of a constant
+  std::string text{};   ///< as written
+  PythonValue value{};  ///< of a constant
 };
 
 /// The tokens of an expression, with one of kEnd at the end.

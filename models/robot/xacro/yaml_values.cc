@@ -47,7 +47,7 @@ std::string WithoutUnderscores(std::string_view text) {
 }
 
 /// A whole number in YAML 1.1: decimal, 0b, 0x, octal with a leading 0.
-std::optional<Value> WholeInYaml(std::string_view text) {
+std::optional<PythonValue> WholeInYaml(std::string_view text) {
   const bool negative = text.starts_with('-');
   std::string_view digits = negative || text.starts_with('+') ? text.substr(1) : text;
   if (digits.empty() || digits[0] < '0' || digits[0] > '9') return std::nullopt;
@@ -65,19 +65,19 @@ std::optional<Value> WholeInYaml(std::string_view text) {
   if (plain.empty() || plain.find_first_not_of(known) != plain.npos) return std::nullopt;
   if (plain.size() > (base == 2 ? 62u : base == 16 ? 15u : 18u)) return std::nullopt;
   const std::int64_t whole = std::stoll(plain, nullptr, base);
-  return Value(negative ? -whole : whole);
+  return PythonValue(negative ? -whole : whole);
 }
 
 /// A float in YAML 1.1 has a point, and a sign in its exponent.
-std::optional<Value> FloatInYaml(std::string_view text) {
+std::optional<PythonValue> FloatInYaml(std::string_view text) {
   const std::string_view body =
       text.starts_with('-') || text.starts_with('+') ? text.substr(1) : text;
   if (IsOneOf(body, {".inf", ".Inf", ".INF"})) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    return Value(text.starts_with('-') ? -kInfinity : kInfinity);
+    return PythonValue(text.starts_with('-') ? -kInfinity : kInfinity);
   }
   if (IsOneOf(text, {".nan", ".NaN", ".NAN"})) {
-    return Value(std::numeric_limits<double>::quiet_NaN());
+    return PythonValue(std::numeric_limits<double>::quiet_NaN());
   }
   const std::size_t point = body.find('.'), e = body.find_first_of("eE");
   if (point == body.npos || (point == 0 && body.size() == 1)) return std::nullopt;
@@ -86,30 +86,30 @@ std::optional<Value> FloatInYaml(std::string_view text) {
     return std::nullopt;
   }
   const auto number = NumberOf(WithoutUnderscores(text));
-  return number ? std::optional(Value(*number)) : std::nullopt;
+  return number ? std::optional(PythonValue(*number)) : std::nullopt;
 }
 
-Value PlainValue(const std::string& text) {
+PythonValue PlainValue(const std::string& text) {
   if (IsOneOf(text, {"", "~", "null", "Null", "NULL"})) return {};
   if (IsOneOf(text, {"true", "True", "TRUE", "yes", "Yes", "YES", "on", "On", "ON"})) {
-    return Value(true);
+    return PythonValue(true);
   }
   if (IsOneOf(text, {"false", "False", "FALSE", "no", "No", "NO", "off", "Off", "OFF"})) {
-    return Value(false);
+    return PythonValue(false);
   }
   if (text.size() < 100) {
     if (const auto whole = WholeInYaml(text)) return *whole;
     if (const auto number = FloatInYaml(text)) return *number;
   }
-  return Value(text);
+  return PythonValue(text);
 }
 
 class ValueBuilder final : public models::internal::YamlEvents {
  public:
-  explicit ValueBuilder(const std::function<Value(const std::string&)>& evaluate)
+  explicit ValueBuilder(const std::function<PythonValue(const std::string&)>& evaluate)
       : evaluate_(evaluate) {}
 
-  Value Take() { return std::move(root_); }
+  PythonValue Take() { return std::move(root_); }
 
   void OnNull(const YamlMark& mark, std::size_t anchor) override { Put({}, mark, anchor); }
   void OnAlias(const YamlMark& mark, std::size_t anchor) override {
@@ -124,8 +124,8 @@ class ValueBuilder final : public models::internal::YamlEvents {
   void OnListStart(const Node& node) override { Open(node, false); }
   void OnListEnd() override {
     Frame frame = TakeFrame();
-    Put(Checked(frame.mark, [&] { return Value::ListOf(std::move(frame.items)); }), frame.mark,
-        frame.anchor);
+    Put(Checked(frame.mark, [&] { return PythonValue::ListOf(std::move(frame.items)); }),
+        frame.mark, frame.anchor);
   }
   void OnMapStart(const Node& node) override { Open(node, true); }
   void OnMapEnd() override {
@@ -137,11 +137,11 @@ class ValueBuilder final : public models::internal::YamlEvents {
   struct Frame {
     YamlMark mark;
     std::size_t anchor;
-    Value::Items items;  // of a map keys and values in turn
+    PythonValue::Items items;  // of a map keys and values in turn
   };
 
   template <class Make>
-  static Value Checked(const YamlMark& mark, const Make& make) {
+  static PythonValue Checked(const YamlMark& mark, const Make& make) {
     try {
       return make();
     } catch (const Mistake& mistake) {
@@ -149,17 +149,17 @@ class ValueBuilder final : public models::internal::YamlEvents {
     }
   }
 
-  Value Scalar(const Node& node, const std::string& text) const {
+  PythonValue Scalar(const Node& node, const std::string& text) const {
     if (node.tag == "!" || node.tag == "!!str" || node.tag == "tag:yaml.org,2002:str") {
-      return Value(text);
+      return PythonValue(text);
     }
     if (node.tag.empty() || node.tag == "?") return PlainValue(text);
     for (const Unit& unit : kUnits) {
       if (node.tag != unit.tag) continue;
       return Checked(node.mark, [&] {
-        const Value value = evaluate_(text);
+        const PythonValue value = evaluate_(text);
         if (!value.is_number()) throw Mistake(node.tag, Shown(value), "a number");
-        return Value(value.number() * unit.factor);
+        return PythonValue(value.number() * unit.factor);
       });
     }
     FailTag(node);
@@ -171,10 +171,10 @@ class ValueBuilder final : public models::internal::YamlEvents {
                                            node.tag));
   }
 
-  Value MapOf(const Value::Items& items) {
-    Value::Entries merged, own;
+  PythonValue MapOf(const PythonValue::Items& items) {
+    PythonValue::Entries merged, own;
     for (std::size_t i = 0; i + 1 < items.size(); i += 2) {
-      const Value& value = items[i + 1];
+      const PythonValue& value = items[i + 1];
       const bool merge = items[i].text() != nullptr && *items[i].text() == "<<";
       if (!merge) {
         own.emplace_back(items[i], value);
@@ -187,7 +187,7 @@ class ValueBuilder final : public models::internal::YamlEvents {
       }
     }
     merged.insert(merged.end(), own.begin(), own.end());
-    return Value::DictOf(std::move(merged));
+    return PythonValue::DictOf(std::move(merged));
   }
 
   void Open(const Node& node, bool map) {
@@ -208,7 +208,7 @@ class ValueBuilder final : public models::internal::YamlEvents {
     return frame;
   }
 
-  void Put(Value value, const YamlMark& mark, std::size_t anchor) {
+  void Put(PythonValue value, const YamlMark& mark, std::size_t anchor) {
     if (anchor != 0) anchors_[anchor] = value;
     if (stack_.empty()) {
       root_ = std::move(value);
@@ -220,17 +220,18 @@ class ValueBuilder final : public models::internal::YamlEvents {
     }
   }
 
-  const std::function<Value(const std::string&)>& evaluate_;
+  const std::function<PythonValue(const std::string&)>& evaluate_;
   std::vector<Frame> stack_;
   std::size_t merged_{0};  // entries that merge keys copied
-  std::map<std::size_t, Value> anchors_;
-  Value root_;
+  std::map<std::size_t, PythonValue> anchors_;
+  PythonValue root_;
 };
 
 }  // namespace
 
-Value ReadYamlValues(const std::string& text,
-                     const std::function<Value(const std::string& expression)>& evaluate) {
+PythonValue ReadYamlValues(
+    const std::string& text,
+    const std::function<PythonValue(const std::string& expression)>& evaluate) {
   ValueBuilder builder(evaluate);
   try {
     models::internal::ReadYamlEvents(text, builder);

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "oca/models/robot/xacro/value.h"
+#include "oca/models/robot/xacro/python_value.h"
 
 namespace oca::robot::xacro {
 
@@ -13,7 +13,8 @@ namespace oca::robot::xacro {
 /// and `!foot` give numbers in radians and metres. Their texts are expressions, worked out by
 /// `evaluate`. Aliases and merge keys count.
 /// throws Mistake beginning with the line, for what is no YAML and for other tags
-Value ReadYamlValues(const std::string& text,
-                     const std::function<Value(const std::string& expression)>& evaluate);
+PythonValue ReadYamlValues(
+    const std::string& text,
+    const std::function<PythonValue(const std::string& expression)>& evaluate);
 
 }  // namespace oca::robot::xacro

@@ -12,7 +12,7 @@ namespace xacro_expression_test {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 using xacro::Mistake;
-using xacro::Value;
+using xacro::PythonValue;
 
 void ExpectRefused(const std::string& text, const char* why) {
   EXPECT_THAT([&] { ValueOf(text); },
@@ -24,7 +24,7 @@ void ExpectRefused(const std::string& text, const char* why) {
 TEST(XacroExpressionTest, SeesPropertiesAndTheirAttributes) {
   StubProperties properties;
   properties.values["limits"] = ValueOf("{'lower': -1.5, 'inner': {'x': [1, 2]}, 'items': 4}");
-  properties.values["pi"] = Value(3.0);
+  properties.values["pi"] = PythonValue(3.0);
   EXPECT_EQ(xacro::ToText(ValueOf("limits.lower", properties)), "-1.5");
   EXPECT_EQ(xacro::ToText(ValueOf("limits.inner.x[1]", properties)), "2");
   EXPECT_EQ(xacro::ToText(ValueOf("limits.items", properties)), "4");
@@ -104,21 +104,21 @@ TEST(XacroExpressionTest, BoundsWhatAStrangerMayAskFor) {
           }(),
       "more than 100 levels");
   ExpectRefused(std::string(30'000, '1'), "at most 20000");
-  Value nested = ValueOf("[1]");
+  PythonValue nested = ValueOf("[1]");
   const auto nest = [&] {
-    for (int i = 0; i < 100; ++i) nested = Value::ListOf({nested});
+    for (int i = 0; i < 100; ++i) nested = PythonValue::ListOf({nested});
   };
   EXPECT_THAT(nest, ThrowsMessage<Mistake>(HasSubstr("more than 64 levels")));
   // Shared items print far larger than they are.
-  Value doubled = ValueOf("[1]");
-  for (int i = 0; i < 40; ++i) doubled = Value::ListOf({doubled, doubled});
+  PythonValue doubled = ValueOf("[1]");
+  for (int i = 0; i < 40; ++i) doubled = PythonValue::ListOf({doubled, doubled});
   EXPECT_THAT([&] { xacro::ToText(doubled); }, ThrowsMessage<Mistake>(HasSubstr("length")));
   EXPECT_THAT([&] { Equal(doubled, doubled); }, ThrowsMessage<Mistake>(HasSubstr("comparison")));
 }
 
 TEST(XacroExpressionTest, TakesTheTextOfAPropertyForANumberAsXacroDoes) {
   const auto literal = [](const char* text) {
-    const Value value = xacro::LiteralOf(text);
+    const PythonValue value = xacro::LiteralOf(text);
     return std::string(value.type()) + " " + xacro::ToText(value);
   };
   EXPECT_EQ(literal("1"), "int 1");

@@ -262,7 +262,7 @@ TEST(LoopGainTest, TakesNothingFromTheHeapOnceItsListsAreLongEnough) {
       {5, {0.2, 0.1, 0.9}, -1, {}, Eigen::Vector3d::UnitX(), {10.0, 1.0, 0.0}},
       {7, {0.3, 0.1, 0.9}, 2, {0.1, 0.1, 0.4}, Eigen::Vector3d::UnitY(), {0.0, 20.0, 0.0}}};
   const std::int64_t before = AllocationCount();
-  const double gain = robot::LoopGain(*model, X_WL, contacts, {}, workspace);
+  const double gain = robot::LoopGainOf(*model, X_WL, contacts, {}, workspace);
   EXPECT_EQ(AllocationCount(), before);
   EXPECT_GT(gain, 0.0);
 }

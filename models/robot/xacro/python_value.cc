@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "oca/models/robot/xacro/value.h"
+#include "oca/models/robot/xacro/python_value.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kDeepestValue = 64;
 
-int DepthOf(const Value& value) {
+int DepthOf(const PythonValue& value) {
   if (const auto* list = value.list()) return list->depth;
   if (const auto* dict = value.dict()) return dict->depth;
   return 0;
@@ -86,7 +86,7 @@ void AppendQuoted(std::string& out, const std::string& text) {
   Append(out, quoted + quote);
 }
 
-void AppendRepr(std::string& out, const Value& value) {
+void AppendRepr(std::string& out, const PythonValue& value) {
   if (value.text() != nullptr) return AppendQuoted(out, *value.text());
   if (const auto* list = value.list()) {
     Append(out, list->tuple ? "(" : "[");
@@ -120,7 +120,7 @@ struct Steps {
   }
 };
 
-bool EqualIn(const Value& a, const Value& b, Steps& steps) {
+bool EqualIn(const PythonValue& a, const PythonValue& b, Steps& steps) {
   steps.Take();
   if (a.is_number() && b.is_number()) {
     if (a.is_whole() && b.is_whole()) return a.whole() == b.whole();
@@ -131,21 +131,22 @@ bool EqualIn(const Value& a, const Value& b, Steps& steps) {
   if (list_a != nullptr && list_b != nullptr) {
     return list_a->tuple == list_b->tuple &&
            std::equal(list_a->items.begin(), list_a->items.end(), list_b->items.begin(),
-                      list_b->items.end(),
-                      [&](const Value& x, const Value& y) { return EqualIn(x, y, steps); });
+                      list_b->items.end(), [&](const PythonValue& x, const PythonValue& y) {
+                        return EqualIn(x, y, steps);
+                      });
   }
   const auto *dict_a = a.dict(), *dict_b = b.dict();
   if (dict_a != nullptr && dict_b != nullptr) {
     if (dict_a->entries.size() != dict_b->entries.size()) return false;
     return std::all_of(dict_a->entries.begin(), dict_a->entries.end(), [&](const auto& entry) {
-      const Value* const other = Find(*dict_b, entry.first);
+      const PythonValue* const other = Find(*dict_b, entry.first);
       return other != nullptr && EqualIn(entry.second, *other, steps);
     });
   }
   return a.none() && b.none();
 }
 
-bool LessIn(const Value& a, const Value& b, Steps& steps) {
+bool LessIn(const PythonValue& a, const PythonValue& b, Steps& steps) {
   steps.Take();
   if (a.is_number() && b.is_number()) {
     if (a.is_whole() && b.is_whole()) return a.whole() < b.whole();
@@ -170,16 +171,16 @@ bool LessIn(const Value& a, const Value& b, Steps& steps) {
 Mistake::Mistake(std::string_view what, std::string_view got, std::string_view expected)
     : std::runtime_error(fmt::format("{}; got {}; expected {}", what, got, expected)) {}
 
-Value Value::ListOf(Items items, bool tuple) {
+PythonValue PythonValue::ListOf(Items items, bool tuple) {
   CheckCount(items.size());
   int depth = 0;
-  for (const Value& item : items) depth = std::max(depth, DepthOf(item));
-  Value value;
+  for (const PythonValue& item : items) depth = std::max(depth, DepthOf(item));
+  PythonValue value;
   value.data_ = std::make_shared<const List>(List{std::move(items), tuple, CheckedDepth(depth)});
   return value;
 }
 
-Value Value::DictOf(Entries entries) {
+PythonValue PythonValue::DictOf(Entries entries) {
   CheckCount(entries.size());
   int depth = 0;
   std::map<std::string, std::size_t> places;
@@ -197,47 +198,47 @@ Value Value::DictOf(Entries entries) {
     }
   }
   dict.depth = CheckedDepth(depth);
-  Value value;
+  PythonValue value;
   value.data_ = std::make_shared<const Dict>(std::move(dict));
   return value;
 }
 
-const Value::List* Value::list() const {
+const PythonValue::List* PythonValue::list() const {
   const auto* const list = std::get_if<ListPtr>(&data_);
   return list == nullptr ? nullptr : list->get();
 }
 
-const Value::Dict* Value::dict() const {
+const PythonValue::Dict* PythonValue::dict() const {
   const auto* const dict = std::get_if<DictPtr>(&data_);
   return dict == nullptr ? nullptr : dict->get();
 }
 
-bool Value::is_whole() const {
+bool PythonValue::is_whole() const {
   return std::holds_alternative<std::int64_t>(data_) || boolean() != nullptr;
 }
 
-std::int64_t Value::whole() const {
+std::int64_t PythonValue::whole() const {
   return boolean() != nullptr ? (*boolean() ? 1 : 0) : std::get<std::int64_t>(data_);
 }
 
-double Value::number() const {
+double PythonValue::number() const {
   return is_float() ? std::get<double>(data_) : static_cast<double>(whole());
 }
 
-std::string_view Value::type() const {
+std::string_view PythonValue::type() const {
   constexpr std::string_view kNames[] = {"None", "bool", "int", "float", "str", "list", "dict"};
   if (list() != nullptr && list()->tuple) return "tuple";
   return kNames[data_.index()];
 }
 
-bool Value::truth() const {
+bool PythonValue::truth() const {
   if (is_number()) return number() != 0.0;
   if (text() != nullptr) return !text()->empty();
   if (list() != nullptr) return !list()->items.empty();
   return dict() != nullptr && !dict()->entries.empty();
 }
 
-const Value* Find(const Value::Dict& dict, const Value& key) {
+const PythonValue* Find(const PythonValue::Dict& dict, const PythonValue& key) {
   for (const auto& [name, value] : dict.entries) {
     if (name.text() != nullptr && key.text() != nullptr) {
       if (*name.text() == *key.text()) return &value;
@@ -248,27 +249,27 @@ const Value* Find(const Value::Dict& dict, const Value& key) {
   return nullptr;
 }
 
-bool Equal(const Value& a, const Value& b) {
+bool Equal(const PythonValue& a, const PythonValue& b) {
   Steps steps;
   return EqualIn(a, b, steps);
 }
 
-bool Less(const Value& a, const Value& b) {
+bool Less(const PythonValue& a, const PythonValue& b) {
   Steps steps;
   return LessIn(a, b, steps);
 }
 
-std::string ToText(const Value& value) {
+std::string ToText(const PythonValue& value) {
   return value.text() != nullptr ? *value.text() : Repr(value);
 }
 
-std::string Repr(const Value& value) {
+std::string Repr(const PythonValue& value) {
   std::string text;
   AppendRepr(text, value);
   return text;
 }
 
-std::string Shown(const Value& value) {
+std::string Shown(const PythonValue& value) {
   constexpr std::size_t kMostShown = 60;
   const std::string text = Repr(value);
   return text.size() <= kMostShown ? text : text.substr(0, kMostShown) + "...";

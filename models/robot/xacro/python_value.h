@@ -22,10 +22,10 @@ class Mistake : public std::runtime_error {
 
 /// A value of an expression, with the types, texts and comparisons of Python, whose whole numbers
 /// end at 64 bits. Lists, tuples and dictionaries are immutable and shared.
-class Value {
+class PythonValue {
  public:
-  using Items = std::vector<Value>;
-  using Entries = std::vector<std::pair<Value, Value>>;
+  using Items = std::vector<PythonValue>;
+  using Entries = std::vector<std::pair<PythonValue, PythonValue>>;
   struct List {
     Items items;
     bool tuple{false};
@@ -38,15 +38,15 @@ class Value {
   using ListPtr = std::shared_ptr<const List>;
   using DictPtr = std::shared_ptr<const Dict>;
 
-  Value() = default;  ///< None
-  explicit Value(bool value) : data_(value) {}
-  explicit Value(std::int64_t value) : data_(value) {}
-  explicit Value(double value) : data_(value) {}
-  explicit Value(std::string value) : data_(std::move(value)) {}
+  PythonValue() = default;  ///< None
+  explicit PythonValue(bool value) : data_(value) {}
+  explicit PythonValue(std::int64_t value) : data_(value) {}
+  explicit PythonValue(double value) : data_(value) {}
+  explicit PythonValue(std::string value) : data_(std::move(value)) {}
   /// throws Mistake if it nests deeper than 64 levels
-  static Value ListOf(Items items, bool tuple = false);
+  static PythonValue ListOf(Items items, bool tuple = false);
   /// Of entries with equal keys the last one counts. throws Mistake as ListOf
-  static Value DictOf(Entries entries);
+  static PythonValue DictOf(Entries entries);
 
   bool none() const { return std::holds_alternative<std::monostate>(data_); }
   const bool* boolean() const { return std::get_if<bool>(&data_); }
@@ -69,17 +69,17 @@ class Value {
 };
 
 /// The value of a key; nullptr if there is none.
-const Value* Find(const Value::Dict& dict, const Value& key);
+const PythonValue* Find(const PythonValue::Dict& dict, const PythonValue& key);
 
 /// As Python's == and <. throws Mistake where Python has no order
-bool Equal(const Value& a, const Value& b);
-bool Less(const Value& a, const Value& b);
+bool Equal(const PythonValue& a, const PythonValue& b);
+bool Less(const PythonValue& a, const PythonValue& b);
 
 /// As Python's str() and repr(). throws Mistake if it is longer than kMostText
-std::string ToText(const Value& value);
-std::string Repr(const Value& value);
+std::string ToText(const PythonValue& value);
+std::string Repr(const PythonValue& value);
 /// The same, cut for messages.
-std::string Shown(const Value& value);
+std::string Shown(const PythonValue& value);
 
 inline constexpr std::size_t kMostText = 1'000'000;  ///< bytes of one text
 inline constexpr std::size_t kMostItems = 100'000;   ///< of one list or dictionary
