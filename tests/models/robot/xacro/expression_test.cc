@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "tests/models/robot/xacro_expressions.h"
+#include "tests/models/robot/xacro/expressions.h"
 
 namespace oca::robot::test {
 namespace xacro_expression_test {
