@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which plots a record asks for: its metadata `oca.plots`, or what the names of its signals say.
+// Which plots a record asks for: its metadata `oca.plots`. Records of other programs have none; of those the names of
+// signals say it.
 import { columnsOf, lowest, rates, type Columns } from "./columns";
 import { activeCounts, constraintsOf } from "./constraints";
 import { upperBound, type Recording, type Topic } from "./recording";
@@ -27,6 +28,7 @@ const kTitles: Record<Role, string> = {
 const kOrder: Role[] = ["request", "delta", "joints", "distance", "speed", "constraints", "other"];
 const kReserved = /^\/(tf|log|metrics)$|^\/scene\//;
 
+/** By the name, of a signal that no hint says more of. */
 function roleOf(topic: Topic): Role {
   if (/proximit|distance/i.test(topic.name)) return "distance";
   if (/constraint|active/i.test(topic.name)) return "constraints";
@@ -43,7 +45,8 @@ function appliedFirst(a: string, b: string): number {
   return rank(a) - rank(b);
 }
 
-function guess(recording: Recording): PlotSpec[] {
+/** Of a record of another program: ours say what they show, by the roles of their systems. */
+function guessByNames(recording: Recording): PlotSpec[] {
   const specs: PlotSpec[] = [];
   for (const topic of recording.topics.values()) {
     if (kReserved.test(topic.name) || topic.schemaName.startsWith("foxglove.") || topic.length === 0) continue;
@@ -75,7 +78,7 @@ function asked(recording: Recording): PlotSpec[] {
 /** The plots of a record, the report's three first. */
 export function plotsOf(recording: Recording): PlotSpec[] {
   const wanted = asked(recording);
-  const specs = wanted.length > 0 ? wanted : guess(recording);
+  const specs = wanted.length > 0 ? wanted : guessByNames(recording);
   const limit = Number(recording.about("max_distance", "oca.parameters"));
   for (const spec of specs) {
     if (spec.role === "distance" && spec.limit === undefined && limit > 0) spec.limit = limit;
