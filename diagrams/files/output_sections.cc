@@ -182,7 +182,20 @@ class ExpectationReader {
     }
     if (!judges.empty()) return AimAtMember(judges, entry_.key.substr(dot + 1));
     const std::string port = entry_.key.substr(0, entry_.key.find('['));
-    return Fail(fmt::format(": no output '{}'{}", port, DidYouMean(port, NamesOf(outputs_))));
+    std::vector<std::string> known = NamesOf(outputs_);
+    for (const auto& [judge, output] : metrics) AddMetricsBelow(judge, output, known);
+    return Fail(fmt::format(": no output '{}'{}", port, DidYouMean(port, known)));
+  }
+
+  /// `file.metric` of all files that a judge lies in.
+  static void AddMetricsBelow(const std::string& judge, const OutputHandle& output,
+                              std::vector<std::string>& known) {
+    for (std::size_t dot = judge.find('.'); dot != std::string::npos;
+         dot = judge.find('.', dot + 1)) {
+      for (const std::string& member : *MembersOf(TypeOfPort(output))) {
+        known.push_back(judge.substr(0, dot + 1) + member);
+      }
+    }
   }
 
   bool ReadIndex(const std::string& text) {

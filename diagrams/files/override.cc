@@ -2,10 +2,12 @@
 #include "oca/diagrams/files/override.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <iterator>
 #include <memory>
 #include <utility>
 
@@ -34,6 +36,29 @@ std::vector<std::string> KeysOf(const Value& value) {
     for (const Value::Entry& entry : *value.map()) keys.push_back(entry.key);
   }
   return keys;
+}
+
+/// The sections whose entries the file names.
+constexpr const char* kNamedByFile[] = {"parameters", "systems", "models"};
+
+/// What a first key that is none may have been meant as: the entry of a section that is called so,
+/// else one of `known` or an entry that is near; if nothing is, what is known.
+std::string MeantBy(const std::string& key, const Value& root,
+                    const std::vector<std::string>& known) {
+  std::string near = DidYouMean(key, known);
+  for (const std::string section : kNamedByFile) {
+    const Value* const entries = root.Find(section);
+    if (entries == nullptr) continue;
+    const std::vector<std::string> names = KeysOf(*entries);
+    if (std::find(names.begin(), names.end(), key) != names.end()) {
+      return fmt::format("; did you mean '{}.{}'?", section, key);
+    }
+    if (!near.empty()) continue;
+    near = DidYouMean(key, names);
+    if (!near.empty()) near.insert(near.find('\'') + 1, section + ".");
+  }
+  if (!near.empty()) return near;
+  return fmt::format("; expected one of {}", fmt::join(known, ", "));
 }
 
 /// Follows the path of an override into the tree.
@@ -101,12 +126,13 @@ class Path {
         known.push_back(std::move(name));
       }
     } else {
-      const bool named_by_file =
-          keys_[0] == "parameters" || keys_[0] == "systems" || keys_[0] == "models";
+      const bool named_by_file = std::find(std::begin(kNamedByFile), std::end(kNamedByFile),
+                                           keys_[0]) != std::end(kNamedByFile);
       if (depth_ > 1 || !named_by_file) return true;
       known = KeysOf(parent);
     }
-    problems_.Add(location_, fmt::format("no '{}' there{}", key, DidYouMean(key, known)));
+    const std::string meant = depth_ == 0 ? MeantBy(key, parent, known) : DidYouMean(key, known);
+    problems_.Add(location_, fmt::format("no '{}' there{}", key, meant));
     return false;
   }
 

@@ -108,6 +108,17 @@ TEST_F(NestingProblemsTest, NamesAnOverrideThatLeadsNowhereAsItWasGiven) {
                         "systems.lag.time_constant: got -1"));
 }
 
+TEST_F(NestingProblemsTest, NamesTheMetricOfAUsedFileThatAnExpectationMayMean) {
+  const auto refusal = [&](const std::string& key) {
+    return Refusal("include: [" OCA_SOURCE_DIR "/diagrams/dual_arm.yaml]\nexpect: {'" + key +
+                   "': {at_least: 0}}\n");
+  };
+  EXPECT_THAT(refusal("lft.min_distance"),
+              HasSubstr("expect.lft.min_distance: no output 'lft.min_distance'; did you mean "
+                        "'left.min_distance'?"));
+  EXPECT_THAT(refusal("lft.plant.position[0]"), HasSubstr("did you mean 'left.plant.position'?"));
+}
+
 TEST_F(NestingProblemsTest, RefusesPortsThatTheFileDoesNotName) {
   EXPECT_THAT(Refusal(TwoStages("", "", "  - source.value -> first.gain\n")),
               AllOf(HasSubstr("d.yaml:10:5: error: connections: first: no input 'gain' of "),
