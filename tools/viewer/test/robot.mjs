@@ -57,8 +57,7 @@ function turn([x, y, z]) {
   return times(times(about(0, x), about(1, y)), about(2, z));
 }
 
-export async function testRobot({ test, browser, write, embed, page_text, errorsOf, colours }) {
-  const file = await write("turner.html", embed(page_text, await turnerRecord()));
+async function testJoints({ test, browser, errorsOf }, file) {
   await test("the links of a robot are where its joints put them", async () => {
     const { page, problems } = await openPage(browser, file);
     for (const values of [[0, 0], [0.7, 0.25], [-1.9, 0.4], [2, -0.1]]) {
@@ -92,6 +91,9 @@ export async function testRobot({ test, browser, write, embed, page_text, errors
     assert.deepEqual(await page.evaluate(() => window.oca.values), [0, 0]);
     await page.context().close();
   });
+}
+
+async function testOwnContacts({ test, browser, write, embed, page_text }, file) {
   await test("own links that touch are told, and pairs that nobody checks are not", async () => {
     const { page } = await openPage(browser, file);
     // The ball of 0.1 m meets the box of 0.1 m, 0.2 m away, once that has come 0.05 m nearer; the ball of 0.06 m above never does.
@@ -117,6 +119,9 @@ export async function testRobot({ test, browser, write, embed, page_text, errors
     assert.ok(counts.apart > 50 && counts.together > 50, JSON.stringify(counts));
     await page.context().close();
   });
+}
+
+async function testMarks({ test, browser }, file) {
   await test("warnings stand at their links, and what is pointed at shows", async () => {
     const { page } = await openPage(browser, file);
     const warnings = page.locator("#warnings .warning");
@@ -161,6 +166,9 @@ export async function testRobot({ test, browser, write, embed, page_text, errors
     assert.deepEqual(await shown(), [`${kHostile[2]} ⚠`]);
     await page.context().close();
   });
+}
+
+async function testLooks({ test, browser, errorsOf, colours }, file) {
   await test("collision shapes and visuals are shown and hidden apart", async () => {
     const { page } = await openPage(browser, file);
     const seen = () => page.evaluate(() => Object.fromEntries(["/scene/robots", "/scene/collisions"].map((topic) => [topic, window.oca.view.isOn(topic)])));
@@ -195,6 +203,15 @@ export async function testRobot({ test, browser, write, embed, page_text, errors
       }
     }
   });
+}
+
+export async function testRobot(tools) {
+  const { write, embed, page_text } = tools;
+  const file = await write("turner.html", embed(page_text, await turnerRecord()));
+  await testJoints(tools, file);
+  await testOwnContacts(tools, file);
+  await testMarks(tools, file);
+  await testLooks(tools, file);
 }
 
 /** A chain of every kind of shape (a capsule is a cylinder with two spheres), short enough that its links meet. */
