@@ -11,5 +11,9 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/oca-config.cmake
               cmake/oca_data_folder.cc
         DESTINATION ${cmake_dir})
 install(DIRECTORY models/robots models/worlds DESTINATION ${CMAKE_INSTALL_DATADIR}/oca/models)
-install(DIRECTORY diagrams/ DESTINATION ${CMAKE_INSTALL_DATADIR}/oca/diagrams
-        FILES_MATCHING PATTERN "*.yaml")
+# One by one: install(DIRECTORY) makes the folders of the sources too, empty.
+file(GLOB_RECURSE diagrams RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS diagrams/*.yaml)
+foreach(diagram ${diagrams})
+  cmake_path(GET diagram PARENT_PATH folder)
+  install(FILES ${diagram} DESTINATION ${CMAKE_INSTALL_DATADIR}/oca/${folder})
+endforeach()
