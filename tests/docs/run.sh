@@ -29,8 +29,8 @@ headings() { # PAGE -> anchors, as GitHub names them
 links() { # PAGE -> targets of links and pictures, outside code
   awk '/^ *```/ { code = !code } !code' "$1" | sed -E 's/`[^`]*`//g' | grep -oE '\]\([^) ]+\)' | sed -E 's/^\]\(//; s/\)$//'
 }
-blocks() { # PAGE LANGUAGE -> the fenced blocks of that language
-  awk -v open="^\`\`\`$2\$" '$0 ~ open { on = 1; next } /^```$/ { on = 0 } on' "$1"
+blocks() { # PAGE LANGUAGE -> the fenced blocks of that language; none: what commands print
+  awk -v open="\`\`\`$2" '/^```/ { code = !code; on = code && $0 == open; next } on' "$1"
 }
 
 check_readme_is_short() {
@@ -103,6 +103,12 @@ check_smallest_diagram_runs() {
     problem "README.md: its diagram is not diagrams/first.yaml: $(cat "$work/diff")"
   [ "$(wc -l < "$work/first.yaml")" -le 15 ] || problem "README.md: its diagram has more than 15 lines"
   "$simulator" run diagrams/first.yaml --no-progress > "$work/out" 2>&1 || problem "diagrams/first.yaml: $(cat "$work/out")"
+  local page
+  for page in README.md docs/tutorial/first_hour.md; do  # what it prints, but for how long it took
+    blocks "$page" "" | sed -n '/^first: /,/^  time  /p' | grep -v '^  time  ' > "$work/shown"
+    grep -v '^  time  ' "$work/out" | diff -u "$work/shown" - > "$work/diff" ||
+      problem "$page: shows what diagrams/first.yaml does not print: $(cat "$work/diff")"
+  done
 }
 
 check_generated_pages() {
