@@ -7,14 +7,16 @@
 #include <type_traits>
 #include <variant>
 
-#include "oca/diagrams/record/json_text.h"
+#include "oca/diagrams/record/message_values.h"
 #include "oca/models/geometry/convex_hull.h"
+#include "oca/models/json_values.h"
 
 namespace oca::record {
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using models::internal::AppendQuoted;
 
 void AppendColour(std::string& out, const Colour& colour) {
   char separator = '{';

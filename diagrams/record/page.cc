@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "oca/diagrams/files/data_folders.h"
-#include "oca/diagrams/record/json_text.h"
+#include "oca/diagrams/record/message_values.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/file_bytes.h"
 

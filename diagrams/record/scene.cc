@@ -5,10 +5,11 @@
 #include <cmath>
 #include <iterator>
 
-#include "oca/diagrams/record/json_text.h"
+#include "oca/diagrams/record/message_values.h"
 #include "oca/diagrams/record/robot_drawing.h"
 #include "oca/framework/dataflow/dynamic_port.h"
 #include "oca/models/geometry/collider.h"
+#include "oca/models/json_values.h"
 #include "oca/models/robot/kinematics.h"
 #include "oca/systems/signals/roles.h"
 
@@ -17,6 +18,8 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using models::internal::AppendJson;
+using models::internal::AppendQuoted;
 using systems::LinkForceSet;
 using systems::LinkPoses;
 using systems::ObstacleSet;

@@ -4,15 +4,17 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "oca/diagrams/record/json_text.h"
 #include "oca/diagrams/runs/signal_table.h"
 #include "oca/framework/dataflow/json_text.h"
 #include "oca/framework/dataflow/signal_shape.h"
+#include "oca/models/json_values.h"
 #include "oca/systems/signals/signals.h"
 
 namespace oca::record {
 namespace {
 
+using models::internal::AppendJson;
+using models::internal::AppendQuoted;
 using nlohmann::ordered_json;
 using systems::Proximity;
 using systems::ProximitySet;
@@ -76,8 +78,8 @@ void AppendVector(std::string& out, const SignalFormat& format, const double* va
   out += named ? "}" : "]}";
 }
 
-/// What the signal's own WriteJson says, without building a tree of it.
-void AppendProximities(std::string& out, const ProximitySet& set, bool brief) {
+/// Names and distances alone.
+void AppendBrief(std::string& out, const ProximitySet& set) {
   out += '[';
   bool first = true;
   for (const Proximity& p : set.proximities) {
@@ -88,14 +90,6 @@ void AppendProximities(std::string& out, const ProximitySet& set, bool brief) {
     AppendQuoted(out, p.obstacle.text());
     out += ",\"distance\":";
     AppendJson(out, p.distance);
-    if (!brief) {
-      out += ",\"point_on_link\":";
-      AppendList(out, p.point_on_link);
-      out += ",\"point_on_obstacle\":";
-      AppendList(out, p.point_on_obstacle);
-      out += ",\"normal\":";
-      AppendList(out, p.normal);
-    }
     out += '}';
   }
   out += ']';
@@ -120,8 +114,8 @@ void AppendSignal(std::string& out, const SignalFormat& format, const void* valu
     return;
   }
   const std::size_t start = out.size();
-  if (format.type == &TypeOf<ProximitySet>()) {
-    AppendProximities(out, *static_cast<const ProximitySet*>(value), format.brief);
+  if (format.brief && format.type == &TypeOf<ProximitySet>()) {
+    AppendBrief(out, *static_cast<const ProximitySet*>(value));
   } else {
     format.type->write_json(value, out);
   }

@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cctype>
 
-#include "oca/diagrams/record/json_text.h"
+#include "oca/models/json_values.h"
 
 namespace oca::record {
 namespace {
+
+using models::internal::AppendQuoted;
 
 bool PlainKey(const std::string& key) {
   return !key.empty() && std::isalpha(static_cast<unsigned char>(key.front())) != 0 &&

@@ -11,6 +11,7 @@
 
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/json_text.h"
+#include "oca/models/json_values.h"
 #include "oca/systems/sensing/geometry_params.h"
 #include "oca/systems/signals/json_fields.h"
 
@@ -158,6 +159,25 @@ Proximity ReadProximity(const JsonReader& json) {
   return proximity;
 }
 
+/// Without a tree: recorders write many a tick.
+void AppendProximity(const Proximity& proximity, std::string& out) {
+  using models::internal::AppendList;
+  using models::internal::AppendQuoted;
+  out += "{\"link\":";
+  AppendQuoted(out, proximity.link.text());
+  out += ",\"obstacle\":";
+  AppendQuoted(out, proximity.obstacle.text());
+  out += ",\"distance\":";
+  models::internal::AppendJson(out, proximity.distance);
+  out += ",\"point_on_link\":";
+  AppendList(out, proximity.point_on_link);
+  out += ",\"point_on_obstacle\":";
+  AppendList(out, proximity.point_on_obstacle);
+  out += ",\"normal\":";
+  AppendList(out, proximity.normal);
+  out += '}';
+}
+
 LinkForce ReadForce(const JsonReader& json) {
   json.CheckKeys({"link", "obstacle", "force", "point"});
   return {models::Name(json.At("link").Label()), models::Name(json.At("obstacle").Text()),
@@ -248,14 +268,12 @@ LinkPoses Signal<LinkPoses>::ReadJson(std::string_view text) {
 }
 
 void Signal<ProximitySet>::WriteJson(const ProximitySet& value, std::string& out) {
-  WriteList(value.proximities, out, [](const Proximity& p) -> Json {
-    return {{"link", p.link.text()},
-            {"obstacle", p.obstacle.text()},
-            {"distance", p.distance},
-            {"point_on_link", ToJson(p.point_on_link)},
-            {"point_on_obstacle", ToJson(p.point_on_obstacle)},
-            {"normal", ToJson(p.normal)}};
-  });
+  out += '[';
+  for (const Proximity& p : value.proximities) {
+    if (&p != value.proximities.data()) out += ',';
+    AppendProximity(p, out);
+  }
+  out += ']';
 }
 
 ProximitySet Signal<ProximitySet>::ReadJson(std::string_view text) {

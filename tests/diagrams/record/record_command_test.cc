@@ -65,15 +65,9 @@ TEST_F(RecordCommandTest, ARunOfARecordIsWarnedAsTheFirstOneWas) {
 TEST_F(RecordCommandTest, ExportsWhatCsvOfTheRunItselfHolds) {
   EXPECT_EQ(Run("$S run diagrams/static_test.yaml -t 2 --record $D/a.mcap --csv $D/run").status, 3);
   EXPECT_EQ(Run("$S export $D/a.mcap --csv $D/record").status, 0);
-  Run("for f in run record; do tail -n +2 $D/$f/plant.position.csv | cut -d, -f2- > $D/$f.txt; "
-      "done");
-  const Ran lines = Run("wc -l < $D/run.txt");
-  EXPECT_EQ(std::stoi(lines.out), 201);
-  // Both write the shortest digits; one says 0 where the other says 0.0.
-  const std::string compare =
-      "paste -d, $D/run.txt $D/record.txt | "
-      "awk -F, '{for (i = 1; i <= 7; ++i) if ($i != $(i + 7)) exit 1}'";
-  EXPECT_EQ(Run(compare).status, 0);
+  EXPECT_EQ(std::stoi(Run("ls $D/run/*.csv $D/run/*.jsonl | wc -l").out), 5);
+  EXPECT_EQ(std::stoi(Run("wc -l < $D/run/distance.proximities.jsonl").out), 201);
+  EXPECT_EQ(Run("for f in $D/run/*; do cmp $f $D/record/${f##*/} || exit 1; done").status, 0);
 }
 
 TEST_F(RecordCommandTest, AKilledRunLeavesAReadableFile) {

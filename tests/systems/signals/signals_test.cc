@@ -22,8 +22,8 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 constexpr const char* kProximity =
-    R"([{"link":"l","obstacle":"o","distance":-0.25,"point_on_link":[1.0,0.0,0.0],)"
-    R"("point_on_obstacle":[0.0,1.0,0.0],"normal":[0.0,0.0,1.0]}])";
+    R"([{"link":"l","obstacle":"o","distance":-0.25,"point_on_link":[1,0,0],)"
+    R"("point_on_obstacle":[0,1,0],"normal":[0,0,1]}])";
 constexpr const char* kForce =
     R"([{"link":"l","obstacle":"o","force":[1.0,2.0,3.0],"point":[0.1,0.2,0.3]}])";
 constexpr const char* kWrench =
@@ -215,7 +215,7 @@ TEST(SignalsTest, RefusesNumbersThatAreNotFinite) {
 
 TEST(SignalsTest, RefusesANormalThatIsNoUnitVector) {
   std::string text = kProximity;
-  text.replace(text.find("[0.0,0.0,1.0]"), 13, "[0.0,0.0,1.1]");
+  text.replace(text.find("[0,0,1]"), 7, "[0,0,1.1]");
   EXPECT_THAT(Refusal<ProximitySet>(text), HasSubstr("proximities[0].normal"));
 }
 

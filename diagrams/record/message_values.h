@@ -9,20 +9,15 @@
 
 namespace oca::record {
 
-// JSON appended to a string without a tree in between: a recorder writes thousands a second.
+// Values of messages for viewers, appended as JSON.
 
-/// All digits that the number has; null for NaN and infinity.
-void AppendJson(std::string& out, double number);
-/// Rounded to a millionth, without zeros at the end: enough for a picture.
+/// Rounded to a millionth, without zeros at the end: enough for a picture; null for NaN and
+/// infinity.
 void AppendShort(std::string& out, double number);
-/// Quoted and escaped.
-void AppendQuoted(std::string& out, std::string_view text);
 /// {"x":...,"y":...,"z":...}, rounded as AppendShort does; so the next one.
 void AppendXyz(std::string& out, const Eigen::Vector3d& vector);
 /// {"x":...,"y":...,"z":...,"w":...}
 void AppendQuaternion(std::string& out, const Eigen::Quaterniond& rotation);
-/// [x,y,z] in full.
-void AppendList(std::string& out, const Eigen::Vector3d& vector);
 /// {"sec":...,"nsec":...}
 void AppendTime(std::string& out, std::uint64_t nanoseconds);
 /// In base64.

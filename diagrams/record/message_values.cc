@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "oca/diagrams/record/json_text.h"
-
-#include <fmt/compile.h>
-#include <fmt/format.h>
+#include "oca/diagrams/record/message_values.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <iterator>
 
-#include "oca/models/foreign_text.h"
+#include "oca/models/json_values.h"
 
 namespace oca::record {
 namespace {
@@ -22,19 +18,10 @@ void AppendInteger(std::string& out, std::uint64_t number) {
 
 }  // namespace
 
-void AppendJson(std::string& out, double number) {
-  if (!std::isfinite(number)) {
-    out += "null";
-    return;
-  }
-  char text[40];  // fmt finds the shortest digits in less time than std::to_chars
-  out.append(text, fmt::format_to(text, FMT_COMPILE("{}"), number));
-}
-
 void AppendShort(std::string& out, double number) {
   constexpr double kLargest = 1e9;
   constexpr int kDecimals = 6;
-  if (!(std::fabs(number) < kLargest)) return AppendJson(out, number);
+  if (!(std::fabs(number) < kLargest)) return models::internal::AppendJson(out, number);
   const auto millionths = static_cast<std::uint64_t>(std::llround(std::fabs(number) * 1e6));
   if (number < 0.0 && millionths != 0) out += '-';
   AppendInteger(out, millionths / 1'000'000);
@@ -48,29 +35,6 @@ void AppendShort(std::string& out, double number) {
   }
   out += '.';
   out.append(digits, static_cast<std::size_t>(used));
-}
-
-void AppendQuoted(std::string& out, std::string_view text) {
-  if (models::internal::Utf8Prefix(text) < text.size()) {  // a name of a file, perhaps
-    return AppendQuoted(out, models::internal::AsUtf8(text));
-  }
-  const auto special = [](char c) {
-    return c == '"' || c == '\\' || static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-  };
-  out += '"';
-  for (auto at = text.begin(); at != text.end();) {
-    const auto plain = std::find_if(at, text.end(), special);
-    out.append(at, plain);
-    if (plain == text.end()) break;
-    if (*plain == '"' || *plain == '\\') {
-      out += '\\';
-      out += *plain;
-    } else {
-      fmt::format_to(std::back_inserter(out), "\\u{:04x}", static_cast<unsigned>(*plain));
-    }
-    at = plain + 1;
-  }
-  out += '"';
 }
 
 void AppendXyz(std::string& out, const Eigen::Vector3d& vector) {
@@ -93,16 +57,6 @@ void AppendQuaternion(std::string& out, const Eigen::Quaterniond& rotation) {
   out += ",\"w\":";
   AppendShort(out, rotation.w());
   out += '}';
-}
-
-void AppendList(std::string& out, const Eigen::Vector3d& vector) {
-  char separator = '[';
-  for (const double number : vector) {
-    out += separator;
-    AppendJson(out, number);
-    separator = ',';
-  }
-  out += ']';
 }
 
 void AppendTime(std::string& out, std::uint64_t nanoseconds) {
