@@ -109,8 +109,8 @@ Ranges RangesAt(const LoadedDiagram& loaded, const std::string& prefix, const Va
 
 }  // namespace
 
-record::McapTexts RangesOf(const LoadedDiagram& loaded) {
-  record::McapTexts texts;
+record::Texts RangesOf(const LoadedDiagram& loaded) {
+  record::Texts texts;
   for (const auto& [name, range] : RangesAt(loaded, "", loaded.document)) {
     // JSON has no infinity: nlohmann writes null.
     texts[name] = oca::internal::JsonText(nlohmann::json{range.lower, range.upper});

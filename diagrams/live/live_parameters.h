@@ -31,7 +31,7 @@ std::vector<std::pair<std::string, Standing>> StandingObstacles(
 std::vector<LiveParameter> LiveParametersOf(const loading::LoadedDiagram& loaded);
 /// How far parameters may go, by name, as `[lower, upper]` in JSON with null for no bound: as far
 /// as the fields of systems that are set to `${name}` and nothing else.
-record::McapTexts RangesOf(const loading::LoadedDiagram& loaded);
+record::Texts RangesOf(const loading::LoadedDiagram& loaded);
 /// The override that a change of such a parameter means.
 /// throws ConfigError if there is no such parameter.
 files::Override OverrideOf(const loading::LoadedDiagram& loaded, const LiveParameter& change);

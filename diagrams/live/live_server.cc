@@ -176,7 +176,7 @@ void LiveServer::Server::ToAll(const std::string& text) {
   for (const auto& client : clients) client->Send(text);
 }
 
-void LiveServer::Server::AddMetadata(const record::McapMetadata& metadata) {
+void LiveServer::Server::AddMetadata(const record::Metadata& metadata) {
   asio::post(io_, [this, metadata] {
     for (const auto& [key, value] : metadata.values) {
       about_[metadata.name == "oca" ? key : metadata.name + "/" + key] = value;
@@ -258,9 +258,7 @@ void LiveServer::Begin(const std::vector<record::RecordChannel>& channels) {
 void LiveServer::Write(int channel, const record::RecordSample& sample) {
   server_->Write(channel, sample);
 }
-void LiveServer::AddMetadata(const record::McapMetadata& metadata) {
-  server_->AddMetadata(metadata);
-}
+void LiveServer::AddMetadata(const record::Metadata& metadata) { server_->AddMetadata(metadata); }
 void LiveServer::ShowMetadata() { server_->ShowMetadata(); }
 void LiveServer::SetParameters(std::vector<LiveParameter> parameters) {
   server_->SetParameters(std::move(parameters));

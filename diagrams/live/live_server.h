@@ -72,7 +72,7 @@ class LiveServer final : public record::RecordSink {
   /// A second Begin with the same channels goes on with the same session.
   void Begin(const std::vector<record::RecordChannel>& channels) override;
   void Write(int channel, const record::RecordSample& sample) override;
-  void AddMetadata(const record::McapMetadata& metadata) override;
+  void AddMetadata(const record::Metadata& metadata) override;
   /// Shows what AddMetadata added to the clients of now, as Begin does. Any thread.
   void ShowMetadata();
 

@@ -66,7 +66,7 @@ class LiveServer::Server {
   std::string url() const;
   void Begin(const std::vector<record::RecordChannel>& channels);
   void Write(int channel, const record::RecordSample& sample);
-  void AddMetadata(const record::McapMetadata& metadata);
+  void AddMetadata(const record::Metadata& metadata);
   void ShowMetadata();
   void SetParameters(std::vector<LiveParameter> parameters);
   void Tell(StatusLevel level, const std::string& text);

@@ -122,7 +122,7 @@ void ExtractFiles(const McapFile& record, const fs::path& folder) {
   if (record.FindAttachment("diagram.yaml") == nullptr) {
     throw ConfigError("record: has no attachment diagram.yaml; expected a record of OCA");
   }
-  for (const McapAttachment& attachment : record.attachments()) {
+  for (const Attachment& attachment : record.attachments()) {
     const fs::path name = fs::path(attachment.name).lexically_normal();
     const bool text = models::internal::AsUtf8(attachment.name) == attachment.name &&
                       attachment.name.find('\0') == std::string::npos;

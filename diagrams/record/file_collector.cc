@@ -102,8 +102,8 @@ Value FileCollector::Rewrite(const Value& document, const Value* resolved) {
   return Value(std::move(map), document.location());
 }
 
-std::vector<McapAttachment> FileCollector::Take() {
-  std::vector<McapAttachment> attachments;
+std::vector<Attachment> FileCollector::Take() {
+  std::vector<Attachment> attachments;
   for (auto& [name, data] : files_) {
     attachments.push_back({0, name, "application/octet-stream", std::move(data)});
   }

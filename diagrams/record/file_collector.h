@@ -36,7 +36,7 @@ class FileCollector {
   /// worked out, of which parameters are left out.
   Value Rewrite(const Value& document, const Value* resolved);
   /// What has been attached.
-  std::vector<McapAttachment> Take();
+  std::vector<Attachment> Take();
   /// `packages` of the rewritten document.
   Value Packages() const;
 

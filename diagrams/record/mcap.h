@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <string>
 #include <string_view>
+
+#include "oca/diagrams/record/attachment.h"
 
 namespace oca::record {
 
@@ -14,8 +15,6 @@ enum class Compression { kNone, kLz4, kZstd };
 
 /// throws ConfigError unless `name` is none, lz4 or zstd.
 Compression ParseCompression(const std::string& name);
-
-using McapTexts = std::map<std::string, std::string>;
 
 /// How the messages of a channel are laid out; JSON Schema here.
 struct McapSchema {
@@ -31,7 +30,7 @@ struct McapChannel {
   std::uint16_t schema{0};
   std::string topic{};
   std::string encoding{};
-  McapTexts metadata{};
+  Texts metadata{};
 };
 
 /// One message; `data` lies in what it was read from. Times are ns since the epoch.
@@ -41,18 +40,6 @@ struct McapMessage {
   std::uint64_t log_time{0};
   std::uint64_t publish_time{0};
   std::string_view data{};
-};
-
-struct McapAttachment {
-  std::uint64_t log_time{0};
-  std::string name{};
-  std::string media_type{};
-  std::string data{};
-};
-
-struct McapMetadata {
-  std::string name{};
-  McapTexts values{};
 };
 
 }  // namespace oca::record

@@ -57,7 +57,7 @@ void AppendText(std::string& out, std::string_view text) {
   out += text;
 }
 
-void AppendTexts(std::string& out, const McapTexts& texts) {
+void AppendTexts(std::string& out, const Texts& texts) {
   std::string entries;
   for (const auto& [key, value] : texts) {
     AppendText(entries, models::internal::AsUtf8(key));
@@ -100,9 +100,9 @@ std::string_view ByteReader::Take(std::uint64_t size) {
   return taken;
 }
 
-McapTexts ByteReader::Texts() {
+Texts ByteReader::TextMap() {
   ByteReader entries(Text());
-  McapTexts texts;
+  Texts texts;
   while (entries.left() > 0) {
     const std::string key(entries.Text());
     texts[key] = std::string(entries.Text());

@@ -51,7 +51,7 @@ void AppendNumber(std::string& out, T number) {
   out.append(reinterpret_cast<const char*>(&number), sizeof number);
 }
 void AppendText(std::string& out, std::string_view text);
-void AppendTexts(std::string& out, const McapTexts& texts);
+void AppendTexts(std::string& out, const Texts& texts);
 void AppendRecord(std::string& out, Opcode opcode, std::string_view content);
 void AppendSchema(std::string& out, const McapSchema& schema);
 void AppendChannel(std::string& out, const McapChannel& channel);
@@ -72,7 +72,7 @@ class ByteReader {
     return number;
   }
   std::string_view Text() { return Take(Number<std::uint32_t>()); }
-  McapTexts Texts();
+  Texts TextMap();
 
  private:
   std::string_view bytes_;

@@ -72,9 +72,9 @@ class McapParser {
       case Opcode::kAttachment:
         return AddAttachment(reader, content);
       case Opcode::kMetadata: {
-        McapMetadata metadata;
+        Metadata metadata;
         metadata.name = reader.Text();
-        metadata.values = reader.Texts();
+        metadata.values = reader.TextMap();
         file_.metadata_.push_back(std::move(metadata));
         break;
       }
@@ -107,7 +107,7 @@ class McapParser {
     channel.schema = reader.Number<std::uint16_t>();
     channel.topic = reader.Text();
     channel.encoding = reader.Text();
-    channel.metadata = reader.Texts();
+    channel.metadata = reader.TextMap();
     if (known_[channel.id]) return;
     CheckNumber("channels", file_.channels_.size());
     known_[channel.id] = true;
@@ -159,7 +159,7 @@ class McapParser {
   }
 
   void AddAttachment(ByteReader& reader, std::string_view content) {
-    McapAttachment attachment;
+    Attachment attachment;
     attachment.log_time = reader.Number<std::uint64_t>();
     reader.Number<std::uint64_t>();  // time of creation
     attachment.name = reader.Text();
@@ -229,13 +229,13 @@ const McapSchema* McapFile::FindSchema(std::uint16_t id) const {
   return found == schemas_.end() ? nullptr : &*found;
 }
 
-const McapAttachment* McapFile::FindAttachment(std::string_view name) const {
+const Attachment* McapFile::FindAttachment(std::string_view name) const {
   const auto found = std::find_if(attachments_.begin(), attachments_.end(),
                                   [name](const auto& item) { return item.name == name; });
   return found == attachments_.end() ? nullptr : &*found;
 }
 
-const McapTexts* McapFile::FindMetadata(std::string_view name) const {
+const Texts* McapFile::FindMetadata(std::string_view name) const {
   const auto found = std::find_if(metadata_.rbegin(), metadata_.rend(),
                                   [name](const auto& item) { return item.name == name; });
   return found == metadata_.rend() ? nullptr : &found->values;

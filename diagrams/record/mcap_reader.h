@@ -38,15 +38,15 @@ class McapFile {
   const std::vector<McapChannel>& channels() const { return channels_; }
   /// In the order of the file.
   const std::vector<McapMessage>& messages() const { return messages_; }
-  const std::vector<McapAttachment>& attachments() const { return attachments_; }
-  const std::vector<McapMetadata>& metadata() const { return metadata_; }
+  const std::vector<Attachment>& attachments() const { return attachments_; }
+  const std::vector<Metadata>& metadata() const { return metadata_; }
 
   /// nullptr if there is none.
   const McapChannel* FindChannel(std::string_view topic) const;
   const McapSchema* FindSchema(std::uint16_t id) const;
-  const McapAttachment* FindAttachment(std::string_view name) const;
+  const Attachment* FindAttachment(std::string_view name) const;
   /// The last of that name, as it counts; nullptr if there is none.
-  const McapTexts* FindMetadata(std::string_view name) const;
+  const Texts* FindMetadata(std::string_view name) const;
   std::vector<const McapMessage*> MessagesOf(std::string_view topic) const;
 
  private:
@@ -59,8 +59,8 @@ class McapFile {
   std::vector<McapChannel> channels_;
   std::vector<McapMessage> messages_;
   std::map<std::uint16_t, std::vector<std::size_t>> by_channel_;  ///< places in messages_
-  std::vector<McapAttachment> attachments_;
-  std::vector<McapMetadata> metadata_;
+  std::vector<Attachment> attachments_;
+  std::vector<Metadata> metadata_;
   std::deque<std::string> memory_;  ///< what messages point into; a deque never moves its items
 };
 

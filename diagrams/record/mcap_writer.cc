@@ -37,7 +37,7 @@ std::uint16_t McapWriter::AddSchema(const std::string& name, const std::string& 
 }
 
 std::uint16_t McapWriter::AddChannel(const std::string& topic, const std::string& encoding,
-                                     std::uint16_t schema, const McapTexts& metadata) {
+                                     std::uint16_t schema, const Texts& metadata) {
   const auto id = static_cast<std::uint16_t>(channels_.size() + 1);
   Channel channel;
   channel.info = {id, schema, topic, encoding, metadata};
@@ -135,7 +135,7 @@ void McapWriter::WriteIndexes(std::uint64_t chunk_start, std::uint64_t chunk_len
   AppendRecord(chunk_indexes_, Opcode::kChunkIndex, content);
 }
 
-void McapWriter::AddAttachment(const McapAttachment& attachment) {
+void McapWriter::AddAttachment(const Attachment& attachment) {
   std::string content;
   AppendNumber(content, attachment.log_time);
   AppendNumber(content, attachment.log_time);
@@ -161,7 +161,7 @@ void McapWriter::AddAttachment(const McapAttachment& attachment) {
   AppendRecord(attachment_indexes_, Opcode::kAttachmentIndex, content);
 }
 
-void McapWriter::AddMetadata(const McapMetadata& metadata) {
+void McapWriter::AddMetadata(const Metadata& metadata) {
   std::string content;
   AppendText(content, metadata.name);
   AppendTexts(content, metadata.values);

@@ -33,11 +33,11 @@ class McapWriter {
   std::uint16_t AddSchema(const std::string& name, const std::string& encoding,
                           const std::string& data);
   std::uint16_t AddChannel(const std::string& topic, const std::string& encoding,
-                           std::uint16_t schema, const McapTexts& metadata = {});
+                           std::uint16_t schema, const Texts& metadata = {});
   /// `log_time` ns since the epoch. The channel must have been added.
   void Write(std::uint16_t channel, std::uint64_t log_time, std::string_view data);
-  void AddAttachment(const McapAttachment& attachment);
-  void AddMetadata(const McapMetadata& metadata);
+  void AddAttachment(const Attachment& attachment);
+  void AddMetadata(const Metadata& metadata);
   /// Writes the chunk so far and flushes the stream.
   void Flush();
   void Close();

@@ -49,7 +49,7 @@ std::vector<fs::path> SourcesOf(const loading::LoadedDiagram& loaded) {
 }
 
 void AddSources(const loading::LoadedDiagram& loaded, double duration,
-                std::vector<McapAttachment>& attachments) {
+                std::vector<Attachment>& attachments) {
   if (loaded.sources.empty()) return;
   const std::vector<fs::path> sources = SourcesOf(loaded);
   const fs::path folder = FolderAbove(sources);
@@ -127,7 +127,7 @@ class DocumentWriter {
     own_ = collector_.packages();
   }
 
-  std::vector<McapAttachment> Write(double duration) {
+  std::vector<Attachment> Write(double duration) {
     std::vector<std::pair<std::string, Value>> documents;
     documents.emplace_back("diagram.yaml", Rewrite("", loaded_.document, loaded_.resolved));
     Set(*documents.front().second.map(), "name", Value(loaded_.name, {}));
@@ -139,13 +139,13 @@ class DocumentWriter {
       documents.emplace_back(NameOf(used), Rewrite(used.path, document, used.resolved));
       collector_.SetPackages(own_);
     }
-    std::vector<McapAttachment> attachments;
+    std::vector<Attachment> attachments;
     const Value packages = collector_.Packages();
     for (auto& [name, document] : documents) {
       if (!packages.map()->empty()) Set(*document.map(), "packages", packages);
       attachments.push_back({0, name, "application/yaml", WriteYaml(document)});
     }
-    for (McapAttachment& file : collector_.Take()) attachments.push_back(std::move(file));
+    for (Attachment& file : collector_.Take()) attachments.push_back(std::move(file));
     return attachments;
   }
 
@@ -173,8 +173,8 @@ class DocumentWriter {
 
 }  // namespace
 
-std::vector<McapAttachment> FilesOf(const loading::LoadedDiagram& loaded, double duration) {
-  std::vector<McapAttachment> attachments = DocumentWriter(loaded).Write(duration);
+std::vector<Attachment> FilesOf(const loading::LoadedDiagram& loaded, double duration) {
+  std::vector<Attachment> attachments = DocumentWriter(loaded).Write(duration);
   AddSources(loaded, duration, attachments);
   return attachments;
 }

@@ -17,6 +17,6 @@ namespace oca::record {
 /// includes, as `sources/...`, and `sources.yaml`, which names it and the overrides: so that other
 /// files can be chosen from a record. Of those that a parameter could have chosen instead only the
 /// parts that come with OCA are taken. throws ConfigError if a file cannot be read any more.
-std::vector<McapAttachment> FilesOf(const loading::LoadedDiagram& loaded, double duration);
+std::vector<Attachment> FilesOf(const loading::LoadedDiagram& loaded, double duration);
 
 }  // namespace oca::record

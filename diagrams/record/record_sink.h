@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <chrono>
-#include <cstdint>
-#include <iosfwd>
-#include <map>
-#include <string>
 #include <vector>
 
-#include "oca/diagrams/record/mcap_writer.h"
+#include "oca/diagrams/record/attachment.h"
 #include "oca/diagrams/record/record_channel.h"
 
 namespace oca::record {
@@ -22,36 +17,12 @@ class RecordSink {
   /// with another diagram, whose channels these are.
   virtual void Begin(const std::vector<RecordChannel>& channels) = 0;
   virtual void Write(int channel, const RecordSample& sample) = 0;
-  virtual void AddMetadata(const McapMetadata& /*metadata*/) {}
-  virtual void AddAttachment(const McapAttachment& /*attachment*/) {}
+  virtual void AddMetadata(const Metadata& /*metadata*/) {}
+  virtual void AddAttachment(const Attachment& /*attachment*/) {}
   /// Many times a second, also while nothing is written.
   virtual void Idle() {}
   /// After the last sample of the run, on its thread.
   virtual void End() {}
-};
-
-/// Writes an MCAP stream of JSON messages; what was written is flushed every second. A channel whose
-/// topic it knows goes on.
-class McapSink final : public RecordSink {
- public:
-  /// The stream must outlive the sink.
-  McapSink(std::ostream& stream, Compression compression) : writer_(stream, compression) {}
-
-  void Begin(const std::vector<RecordChannel>& channels) override;
-  void Write(int channel, const RecordSample& sample) override;
-  void AddMetadata(const McapMetadata& metadata) override { writer_.AddMetadata(metadata); }
-  void AddAttachment(const McapAttachment& attachment) override {
-    writer_.AddAttachment(attachment);
-  }
-  void Idle() override;
-  void End() override { writer_.Close(); }
-
- private:
-  McapWriter writer_;
-  std::map<std::string, std::uint16_t> schemas_;  ///< numbers in the file, by name
-  std::map<std::string, std::uint16_t> topics_;   ///< channels of the file
-  std::vector<std::uint16_t> channels_;           ///< of the file, by those of the diagram
-  std::chrono::steady_clock::time_point flushed_{std::chrono::steady_clock::now()};
 };
 
 }  // namespace oca::record

@@ -40,7 +40,7 @@ class Recording : public runs::RunOutput, private Log {
 
   const RecorderOptions options_;
   std::vector<RecordSink*> sinks_;
-  std::vector<McapAttachment> files_;  ///< of a run that is prepared
+  std::vector<Attachment> files_;  ///< of a run that is prepared
   std::unique_ptr<RunRecorder> recorder_;
   std::uint64_t start_epoch_{0};  ///< of the present run
   std::int64_t dropped_{0};       ///< by the recorders before this one

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "oca/diagrams/record/mcap_sink.h"
 #include "oca/diagrams/record/recording.h"
 
 namespace oca::record {

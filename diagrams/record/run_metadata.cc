@@ -9,8 +9,8 @@
 
 namespace oca::record {
 
-McapTexts ParameterTexts(const loading::LoadedDiagram& loaded) {
-  McapTexts texts;
+Texts ParameterTexts(const loading::LoadedDiagram& loaded) {
+  Texts texts;
   const Value* const parameters = loaded.document.Find("parameters");
   if (parameters == nullptr || parameters->map() == nullptr) return texts;
   for (const Value::Entry& entry : *parameters->map()) {
@@ -19,19 +19,19 @@ McapTexts ParameterTexts(const loading::LoadedDiagram& loaded) {
   return texts;
 }
 
-McapTexts OverrideTexts(const std::vector<files::Override>& overrides) {
-  McapTexts texts;
+Texts OverrideTexts(const std::vector<files::Override>& overrides) {
+  Texts texts;
   for (const files::Override& change : overrides) texts[change.path] = change.value;
   return texts;
 }
 
-McapTexts WarningTexts(const std::vector<std::string>& warnings) {
+Texts WarningTexts(const std::vector<std::string>& warnings) {
   return {{"warnings", oca::internal::JsonText(nlohmann::json(warnings))}};
 }
 
 std::vector<std::string> WarningsOf(const McapFile& record) {
   std::vector<std::string> warnings;
-  const McapTexts* const texts = record.FindMetadata("oca.warnings");
+  const Texts* const texts = record.FindMetadata("oca.warnings");
   if (texts == nullptr || !texts->contains("warnings")) return warnings;
   const auto list = oca::internal::ReadJsonTree(texts->at("warnings"));
   for (const auto& warning : list) {

@@ -11,11 +11,11 @@
 namespace oca::record {
 
 /// The parameters of a diagram file by name, as YAML.
-McapTexts ParameterTexts(const loading::LoadedDiagram& loaded);
+Texts ParameterTexts(const loading::LoadedDiagram& loaded);
 /// What was overridden on the command line: path and value.
-McapTexts OverrideTexts(const std::vector<files::Override>& overrides);
+Texts OverrideTexts(const std::vector<files::Override>& overrides);
 /// What was warned of when the diagram was loaded, as metadata `oca.warnings`; and back.
-McapTexts WarningTexts(const std::vector<std::string>& warnings);
+Texts WarningTexts(const std::vector<std::string>& warnings);
 std::vector<std::string> WarningsOf(const McapFile& record);
 /// What the distances of a run do not look at (runs::BlindSpots), a JSON list.
 std::string NotSeenJson(const loading::LoadedDiagram& loaded);

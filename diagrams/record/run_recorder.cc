@@ -37,7 +37,7 @@ int CapacityFor(double duration, const Period& period) {
 }  // namespace
 
 RunRecorder::RunRecorder(const runs::RunStart& run, const RecorderOptions& options,
-                         std::vector<McapAttachment> files, std::vector<RecordSink*> sinks,
+                         std::vector<Attachment> files, std::vector<RecordSink*> sinks,
                          std::optional<std::vector<std::string>> told)
     : loaded_(run.loaded),
       options_(options),
@@ -140,9 +140,9 @@ void RunRecorder::AddScene(Groups& groups) {
   groups.push_back(std::move(group));
 }
 
-void RunRecorder::BeginSinks(std::vector<McapAttachment> files, bool tells_warnings) {
+void RunRecorder::BeginSinks(std::vector<Attachment> files, bool tells_warnings) {
   for (RecordSink* const sink : sinks_) {
-    for (McapAttachment& file : files) {
+    for (Attachment& file : files) {
       file.log_time = options_.start_epoch;
       sink->AddAttachment(file);
     }
@@ -252,16 +252,16 @@ void RunRecorder::EmitText(int channel, double time, std::string_view message) {
   Emit(channel, RecordSample(message, TimeOf(time)));
 }
 
-McapMetadata RunRecorder::MainMetadata(const std::string& outcome,
-                                       const runs::RunResult* result) const {
-  McapTexts values{{"version", Version()},
-                   {"diagram", loaded_.name},
-                   {"description", loaded_.description},
-                   {"seed", std::to_string(loaded_.simulator.seed)},
-                   {"start_epoch_ns", std::to_string(options_.start_epoch)},
-                   {"dropped_messages", std::to_string(dropped())},
-                   {"not_seen", NotSeenJson(loaded_)},
-                   {"outcome", outcome}};
+Metadata RunRecorder::MainMetadata(const std::string& outcome,
+                                   const runs::RunResult* result) const {
+  Texts values{{"version", Version()},
+               {"diagram", loaded_.name},
+               {"description", loaded_.description},
+               {"seed", std::to_string(loaded_.simulator.seed)},
+               {"start_epoch_ns", std::to_string(options_.start_epoch)},
+               {"dropped_messages", std::to_string(dropped())},
+               {"not_seen", NotSeenJson(loaded_)},
+               {"outcome", outcome}};
   if (result != nullptr) {
     values["duration"] = fmt::format("{}", result->duration);
     values["expectations"] = runs::ExpectationsJson(*result);

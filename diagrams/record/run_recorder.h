@@ -42,7 +42,7 @@ class RunRecorder {
   /// one tells.
   /// `files` are attached.
   RunRecorder(const runs::RunStart& run, const RecorderOptions& options,
-              std::vector<McapAttachment> files, std::vector<RecordSink*> sinks,
+              std::vector<Attachment> files, std::vector<RecordSink*> sinks,
               std::optional<std::vector<std::string>> told);
   ~RunRecorder();
   RunRecorder(const RunRecorder&) = delete;
@@ -80,13 +80,13 @@ class RunRecorder {
   void StoreText(int level, double time, std::string_view text);
   void WaitFor(const std::function<bool()>& room);
   void SampleScene(const Context& context);
-  void BeginSinks(std::vector<McapAttachment> files, bool tells_warnings);
+  void BeginSinks(std::vector<Attachment> files, bool tells_warnings);
   void Work();
   void HandOn(const SampleQueue::Sample& sample);
   void Emit(int channel, const RecordSample& sample);
   void EmitText(int channel, double time, std::string_view message);
   std::uint64_t TimeOf(double time) const;
-  McapMetadata MainMetadata(const std::string& outcome, const runs::RunResult* result) const;
+  Metadata MainMetadata(const std::string& outcome, const runs::RunResult* result) const;
 
   const loading::LoadedDiagram& loaded_;
   const RecorderOptions options_;

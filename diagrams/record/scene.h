@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "oca/diagrams/record/foxglove.h"
-#include "oca/diagrams/record/record_sink.h"
+#include "oca/diagrams/record/record_channel.h"
 #include "oca/diagrams/runs/signal_facts.h"
 #include "oca/systems/signals/signals.h"
 

@@ -68,7 +68,7 @@ std::string SignalName(const McapChannel& channel) {
 }
 
 std::uint64_t StartOf(const McapFile& record) {
-  const McapTexts* const main = record.FindMetadata("oca");
+  const Texts* const main = record.FindMetadata("oca");
   if (main != nullptr && main->contains("start_epoch_ns")) {
     return std::strtoull(main->at("start_epoch_ns").c_str(), nullptr, 10);
   }

@@ -236,7 +236,7 @@ std::vector<std::string> Inspect(Campaign& campaign, const loading::Blueprint& b
           if (!told) warnings.push_back(warning);
         }
         const double duration = campaign.duration.value_or(loaded.simulator.duration);
-        for (const record::McapAttachment& file : record::FilesOf(loaded, duration)) {
+        for (const record::Attachment& file : record::FilesOf(loaded, duration)) {
           hash.Add(file.name);
           hash.Add(file.data);
         }

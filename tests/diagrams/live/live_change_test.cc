@@ -9,6 +9,7 @@
 
 #include "oca/diagrams/live/live_run.h"
 #include "oca/diagrams/record/mcap_reader.h"
+#include "oca/diagrams/record/mcap_sink.h"
 #include "oca/diagrams/record/recording.h"
 #include "tests/diagrams/live/ws_client.h"
 #include "tests/temporary_folder.h"

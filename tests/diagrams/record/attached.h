@@ -10,10 +10,10 @@
 namespace oca::record::test {
 
 /// A record that has attachments alone.
-inline McapFile FileOf(const std::vector<McapAttachment>& attachments) {
+inline McapFile FileOf(const std::vector<Attachment>& attachments) {
   std::ostringstream stream;
   McapWriter writer(stream, Compression::kNone);
-  for (const McapAttachment& attachment : attachments) writer.AddAttachment(attachment);
+  for (const Attachment& attachment : attachments) writer.AddAttachment(attachment);
   writer.Close();
   return McapFile::Parse(stream.str(), "attachments");
 }

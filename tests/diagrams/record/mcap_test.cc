@@ -187,7 +187,7 @@ TEST(McapTest, HoldsOnlyUtf8) {
   std::string bytes;
   AppendTexts(bytes, {{"caf\xE9", "\x1b\xFF"}});
   ByteReader reader(bytes);
-  EXPECT_THAT(reader.Texts(),
+  EXPECT_THAT(reader.TextMap(),
               testing::ElementsAre(testing::Pair("caf\xEF\xBF\xBD", "\x1b\xEF\xBF\xBD")));
 }
 

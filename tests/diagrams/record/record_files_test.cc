@@ -120,7 +120,7 @@ expect: {}
   EXPECT_EQ(extracted.Load({{"simulator.duration", "0.5"}}).simulator.duration, 0.5);
 }
 
-std::vector<std::string> NamesOf(const std::vector<McapAttachment>& attachments) {
+std::vector<std::string> NamesOf(const std::vector<Attachment>& attachments) {
   std::vector<std::string> names;
   for (const auto& attachment : attachments) names.push_back(attachment.name);
   return names;

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "oca/diagrams/record/mcap_reader.h"
+#include "oca/diagrams/record/mcap_sink.h"
 #include "oca/diagrams/record/record.h"
 #include "oca/diagrams/record/report.h"
 #include "oca/diagrams/record/run_source.h"

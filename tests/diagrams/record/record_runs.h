@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "oca/diagrams/record/mcap_reader.h"
+#include "oca/diagrams/record/mcap_sink.h"
 #include "oca/diagrams/record/recording.h"
 #include "oca/diagrams/runs/run.h"
 

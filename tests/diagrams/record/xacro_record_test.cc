@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 using oca::test::TemporaryFolder;
 using testing::IsSupersetOf;
 
-std::vector<std::string> NamesOf(const std::vector<McapAttachment>& attachments) {
+std::vector<std::string> NamesOf(const std::vector<Attachment>& attachments) {
   std::vector<std::string> names;
   for (const auto& attachment : attachments) names.push_back(attachment.name);
   return names;

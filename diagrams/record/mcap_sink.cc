@@ -1,18 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "oca/diagrams/record/record_sink.h"
-
-#include "oca/diagrams/record/signal_json.h"
+#include "oca/diagrams/record/mcap_sink.h"
 
 namespace oca::record {
-
-std::string_view RecordSample::json() const {
-  if (json_.empty()) {
-    text_->clear();
-    AppendSignal(*text_, *format_, value_);
-    json_ = *text_;
-  }
-  return json_;
-}
 
 void McapSink::Begin(const std::vector<RecordChannel>& channels) {
   channels_.clear();
