@@ -5,12 +5,15 @@
 
 #include <utility>
 
+#include "oca/diagrams/record/mcap_sink.h"
 #include "oca/framework/dataflow/error.h"
 
 namespace oca::record {
 
 Record::Record(std::filesystem::path file, Compression compression, RecorderOptions options)
     : Recording(std::move(options)), file_(std::move(file)), compression_(compression) {}
+
+Record::~Record() { Stop(); }
 
 std::vector<runs::OutputFile> Record::Files(const loading::LoadedDiagram& /*loaded*/) const {
   return {{"record", file_}};
@@ -22,7 +25,8 @@ void Record::Begin(const runs::RunStart& run) {
     sink_.reset();
     stream_ = std::ofstream(file_, std::ios::binary | std::ios::trunc);
     if (!stream_) throw ConfigError(fmt::format("{}: cannot be written", file_.string()));
-    SetSink(sink_.emplace(stream_, compression_));
+    sink_ = std::make_unique<McapSink>(stream_, compression_);
+    SetSink(*sink_);
   }
   Recording::Begin(run);
 }

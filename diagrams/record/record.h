@@ -3,14 +3,15 @@
 
 #include <filesystem>
 #include <fstream>
-#include <optional>
+#include <memory>
 #include <vector>
 
 #include "oca/diagrams/record/mcap.h"
-#include "oca/diagrams/record/mcap_sink.h"
 #include "oca/diagrams/record/recording.h"
 
 namespace oca::record {
+
+class McapSink;
 
 /// An MCAP file of a run, for Foxglove, for `simulator view`, and to run again from itself:
 ///
@@ -20,7 +21,7 @@ class Record final : public Recording {
  public:
   explicit Record(std::filesystem::path file, Compression compression = Compression::kZstd,
                   RecorderOptions options = {});
-  ~Record() override { Stop(); }
+  ~Record() override;
 
   std::vector<runs::OutputFile> Files(const loading::LoadedDiagram& loaded) const override;
   /// throws ConfigError if the file cannot be opened.
@@ -32,7 +33,7 @@ class Record final : public Recording {
   const std::filesystem::path file_;
   const Compression compression_;
   std::ofstream stream_;
-  std::optional<McapSink> sink_;
+  std::unique_ptr<McapSink> sink_;
 };
 
 }  // namespace oca::record

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "oca/diagrams/record/record_files.h"
+#include "oca/diagrams/record/run_recorder.h"
 
 namespace oca::record {
 namespace {
@@ -20,6 +21,16 @@ std::uint64_t WallClock() {
 
 Recording::Recording(std::vector<RecordSink*> sinks, RecorderOptions options)
     : options_(std::move(options)), sinks_(std::move(sinks)) {}
+
+Recording::Recording(RecorderOptions options) : Recording({}, std::move(options)) {}
+
+Recording::~Recording() = default;
+
+std::int64_t Recording::dropped() const {
+  return dropped_ + (recorder_ ? recorder_->dropped() : 0);
+}
+
+void Recording::Stop() { recorder_.reset(); }
 
 void Recording::Prepare(const runs::RunStart& run) {
   if (options_.attach_files) files_ = FilesOf(run.loaded, run.duration);

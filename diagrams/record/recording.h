@@ -6,16 +6,21 @@
 #include <string_view>
 #include <vector>
 
-#include "oca/diagrams/record/run_recorder.h"
+#include "oca/diagrams/record/attachment.h"
+#include "oca/diagrams/record/record_sink.h"
+#include "oca/diagrams/record/recorder_options.h"
 #include "oca/diagrams/runs/run_output.h"
 
 namespace oca::record {
+
+class RunRecorder;
 
 /// A run into sinks: whatever the diagram that it goes on with, it is one recording.
 class Recording : public runs::RunOutput, private Log {
  public:
   /// The sinks must outlive the run.
   explicit Recording(std::vector<RecordSink*> sinks, RecorderOptions options = {});
+  ~Recording() override;
 
   /// Reads what is attached. throws ConfigError if a file cannot be read any more.
   void Prepare(const runs::RunStart& run) override;
@@ -26,13 +31,13 @@ class Recording : public runs::RunOutput, private Log {
   Log* log() override { return this; }
 
   /// Samples that found no room in the last run.
-  std::int64_t dropped() const { return dropped_ + (recorder_ ? recorder_->dropped() : 0); }
+  std::int64_t dropped() const;
 
  protected:
-  explicit Recording(RecorderOptions options) : Recording({}, std::move(options)) {}
+  explicit Recording(RecorderOptions options);
   void SetSink(RecordSink& sink) { sinks_ = {&sink}; }
   /// Ends the thread that writes, if it still does: before what it writes to goes.
-  void Stop() { recorder_.reset(); }
+  void Stop();
 
  private:
   bool enabled(LogLevel level) const override { return level != LogLevel::kDebug; }

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <utility>
 
+#include "oca/diagrams/record/mcap_sink.h"
 #include "oca/diagrams/record/page.h"
 #include "oca/framework/dataflow/error.h"
 
@@ -22,6 +23,8 @@ RecorderOptions Brief(RecorderOptions options) {
 Report::Report(std::filesystem::path file, RecorderOptions options)
     : Recording(Brief(std::move(options))), file_(std::move(file)) {}
 
+Report::~Report() { Stop(); }
+
 std::vector<runs::OutputFile> Report::Files(const loading::LoadedDiagram& /*loaded*/) const {
   return {{"report", file_}};
 }
@@ -36,7 +39,8 @@ void Report::Begin(const runs::RunStart& run) {
     Stop();
     sink_.reset();
     bytes_ = std::ostringstream();
-    SetSink(sink_.emplace(bytes_, Compression::kZstd));
+    sink_ = std::make_unique<McapSink>(bytes_, Compression::kZstd);
+    SetSink(*sink_);
   }
   Recording::Begin(run);
 }

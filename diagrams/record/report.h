@@ -2,15 +2,16 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
+#include <memory>
 #include <sstream>
 #include <string>
 #include <vector>
 
-#include "oca/diagrams/record/mcap_sink.h"
 #include "oca/diagrams/record/recording.h"
 
 namespace oca::record {
+
+class McapSink;
 
 /// One HTML file of a run, which opens in a browser offline: the page with the record inside. Where
 /// the page is looked for, says LoadPage.
@@ -20,7 +21,7 @@ namespace oca::record {
 class Report final : public Recording {
  public:
   explicit Report(std::filesystem::path file, RecorderOptions options = {});
-  ~Report() override { Stop(); }
+  ~Report() override;
 
   std::vector<runs::OutputFile> Files(const loading::LoadedDiagram& loaded) const override;
   /// throws ConfigError if there is no page.
@@ -33,7 +34,7 @@ class Report final : public Recording {
   const std::filesystem::path file_;
   std::string page_;
   std::ostringstream bytes_;
-  std::optional<McapSink> sink_;
+  std::unique_ptr<McapSink> sink_;
 };
 
 }  // namespace oca::record

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "oca/diagrams/record/record_sink.h"
+#include "oca/diagrams/record/recorder_options.h"
 #include "oca/diagrams/record/sample_queue.h"
 #include "oca/diagrams/record/scene.h"
 #include "oca/diagrams/runs/run_output.h"
@@ -19,14 +20,6 @@
 #include "oca/framework/dataflow/log.h"
 
 namespace oca::record {
-
-struct RecorderOptions {
-  /// Told of as those of the command line; else those that the diagram was loaded with.
-  std::optional<std::vector<files::Override>> overrides{};
-  std::uint64_t start_epoch{0};  ///< ns; 0: the wall clock's
-  bool attach_files{true};       ///< diagram and models, to run the record again
-  bool brief{false};             ///< for a picture: of proximities only names and distance
-};
 
 /// Records a run of one diagram into sinks: the scene, the signals of section `record` at their
 /// rates, those that plots of the run need, the log and the metrics.
