@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <nlohmann/json.hpp>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "oca/diagrams/foresight/foresight.h"
+#include "oca/diagrams/foresight/reference_length.h"
 #include "oca/diagrams/loading/loader.h"
 #include "oca/diagrams/runs/blind_spots.h"
 #include "oca/framework/dataflow/error.h"
@@ -16,7 +16,7 @@
 #include "oca/models/error.h"
 #include "oca/models/planning/clairvoyant.h"
 #include "oca/models/planning/first_sight.h"
-#include "oca/models/planning/shortest_path.h"
+#include "oca/models/planning/motion_way.h"
 #include "tools/simulator/commands.h"
 #include "tools/simulator/terminal.h"
 
@@ -51,58 +51,8 @@ ordered_json Describe(const robot::RobotModel& model, const planning::Clairvoyan
   return json;
 }
 
-/// How the motion of a plan gets to the end of the request.
-struct Way {
-  double length{0.0};            // of the joints, 2-norm
-  std::optional<double> time{};  // s; from which on it is at the goal
-};
-
-Way WayOf(const planning::ClairvoyantTask& task, const planning::BandCurve& curve,
-          Eigen::Index size) {
-  constexpr double kStep = 0.01;  // s
-  const auto at = [&](double time) {
-    Eigen::VectorXd q(size);
-    task.request(time, 0, q);
-    if (!curve.empty()) curve.Add(time, 0, q);
-    return q;
-  };
-  Eigen::VectorXd goal(size);
-  task.request(task.duration, 0, goal);
-  Way way;
-  Eigen::VectorXd last = at(0.0);
-  const int steps = static_cast<int>(std::lround(task.duration / kStep));
-  for (int k = 0; k <= steps; ++k) {
-    const double time = k == steps ? task.duration : kStep * k;
-    const Eigen::VectorXd q = at(time);
-    way.length += (q - last).norm();
-    last = q;
-    const bool there = (q - goal).cwiseAbs().maxCoeff() <= kArrived;
-    way.time = !there ? std::nullopt : way.time ? way.time : std::optional(time);
-  }
-  return way;
-}
-
-/// The least of ten searches among what stands; null where something moves, or none was found.
-ordered_json ReferenceLength(const foresight::Foresight& scene, double seconds) {
-  constexpr int kSearches = 10;
-  std::vector<robot::PlacedBody> bodies;
-  for (const planning::BandBody& body : scene.bodies()) {
-    if (!body.stands) return nullptr;
-    bodies.push_back({body.collider, body.pose(0.0)});
-  }
-  robot::Clearance clearance(scene.model(), scene.own_links(), bodies);
-  for (const auto& [link, body] : scene.ignored()) clearance.Ignore(link, body);
-  const Eigen::VectorXd goal = scene.request().Evaluate(scene.duration(), 0);
-  ordered_json least;
-  for (std::uint64_t seed = 0; seed < kSearches; ++seed) {
-    const auto path =
-        planning::ShortestPath(clearance, scene.start(), goal,
-                               {.rrt = {.seed = seed, .margin = 0.001}, .seconds = seconds});
-    if (!path) continue;
-    const double length = planning::PathLength(*path);
-    if (least.is_null() || length < least.get<double>()) least = length;
-  }
-  return least;
+ordered_json OrNull(const std::optional<double>& number) {
+  return number ? ordered_json(*number) : ordered_json();
 }
 
 /// `first`: of several, which all have the same warnings to tell.
@@ -129,14 +79,14 @@ ordered_json Plan(const PlanArguments& arguments, const files::Catalogue& catalo
   const Seconds search = std::chrono::steady_clock::now() - search_start;
   ordered_json json{{"seed", loaded.simulator.seed}};
   json.update(Describe(*scene.model(), plan));
-  const Way way = WayOf(task, plan.curve, scene.start().size());
+  const planning::MotionWay way = planning::WayOf(task, plan.curve, scene.start().size(), kArrived);
   json["path_length"] = way.length;
-  json["time_to_goal"] = way.time ? ordered_json(*way.time) : ordered_json();
+  json["time_to_goal"] = OrNull(way.time);
   if (arguments.reference) {
-    json["reference_length"] = ReferenceLength(scene, *arguments.reference);
+    json["reference_length"] = OrNull(foresight::ReferenceLength(scene, *arguments.reference));
   }
   const planning::FirstSight sight = planning::LookAtFirstSight(scene.model(), task);
-  json["first_sight"] = sight.time ? ordered_json(*sight.time) : ordered_json(nullptr);
+  json["first_sight"] = OrNull(sight.time);
   json["too_late"] = sight.too_late;
   json["model"] = scene.model_name();
   json["judge"] = scene.judge();
