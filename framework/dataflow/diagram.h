@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -98,6 +99,9 @@ class Diagram final : public System {
   std::string PathOf(const InputHandle& input) const;
   /// The output that drives an input; none if nothing does or if it comes from outside.
   std::optional<OutputHandle> DriverOf(const InputHandle& input) const;
+  /// What drives the inputs of a leaf, in their order; without those that nothing drives, or that
+  /// come from outside.
+  std::vector<Connection> DriversOf(const System& leaf) const;
   /// The input of the root through which an input comes from outside; none if it does not.
   std::optional<InputHandle> ExportOf(const InputHandle& input) const;
   /// The inputs of leaves that an output drives.
@@ -105,6 +109,10 @@ class Diagram final : public System {
   /// All that a port depends on.
   Upstream UpstreamOf(const OutputHandle& output, Through through) const;
   Upstream UpstreamOf(const InputHandle& input, Through through) const;
+  /// The leaves `from`, what drives their inputs, what drives those, and so on, each once; nothing
+  /// that lies behind one that `ends` holds for, which is itself among them.
+  std::vector<const System*> LeavesUpstream(std::vector<const System*> from,
+                                            const std::function<bool(const System&)>& ends) const;
   /// The length of a Vector, as Build settled it; 0 for a port of another type.
   int SizeOf(const OutputHandle& output) const;
   int SizeOf(const InputHandle& input) const;
