@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <concepts>
 #include <functional>
 #include <map>
 #include <memory>
@@ -176,6 +177,12 @@ class DiagramBuilder {
     const S& reference = *system;
     AddSystem(std::move(name), std::move(system));
     return reference;
+  }
+  /// The same with all parameters at their defaults: Add<Integrator>("integrator").
+  template <class S>
+  requires(!std::default_initializable<S> && std::default_initializable<typename S::Params> &&
+           std::constructible_from<S, const typename S::Params&>) const S& Add(std::string name) {
+    return Add<S>(std::move(name), typename S::Params{});
   }
   const System& AddSystem(std::string name, std::unique_ptr<System> system);
 
