@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <exception>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "oca/diagrams/foresight/motion_ahead.h"
@@ -161,13 +163,16 @@ class Probe {
         [this](const System& system) { return &system == loop_.kinematics; });
     own_ = diagram.LeavesUpstream({loop_.mapping}, GivesMotion);
     Problems problems;
+    std::set<std::string> names{"loop_gain_"};  // that of the gain
     for (const auto& block : loaded.systems) {
       const System* const original = diagram.FindSystem(block.name);
       if (std::find(needed.begin(), needed.end(), original) == needed.end()) continue;
       auto copy = block.row->Make(block.params, block.name, *block.models, problems);
       problems.Throw();
-      copies_.emplace_back(original,
-                           &builder_.AddSystem(loading::ExportedName(block.name), std::move(copy)));
+      // Two files that are used may each have one of that name.
+      std::string name = block.name.substr(block.name.rfind('.') + 1);
+      while (!names.insert(name).second) name += '_';
+      copies_.emplace_back(original, &builder_.AddSystem(name, std::move(copy)));
     }
     for (const auto& [original, copy] : copies_) {
       if (original == loop_.kinematics) continue;

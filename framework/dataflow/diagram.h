@@ -28,7 +28,8 @@ class Wiring;
 /// nothing at run time. Only a root diagram makes Contexts.
 ///
 /// A path is dotted and goes through nesting: `arm.filter` is the system `filter` in the diagram
-/// `arm`, `arm.filter.velocities` a port of it, and `velocities` alone a port of this diagram.
+/// `arm`, `arm.filter.velocities` a port of it, and `velocities` alone a port of this diagram. An
+/// input of a diagram may have the path of an output that drives it elsewhere, `plant.position`.
 ///
 /// Whoever wants to know how it is wired asks it. The answers speak of leaves, the systems that
 /// are no diagrams, whatever nesting lies between; a nested diagram answers through its root, which
@@ -196,7 +197,8 @@ class DiagramBuilder {
   }
   /// For wiring known only at run time; a difference in type is found at Build.
   void ConnectPorts(const OutputHandle& from, const InputHandle& to);
-  /// Makes an input, or several that share a name, an input of the diagram.
+  /// Makes an input, or several that share a name, an input of the diagram. The name may be a path,
+  /// which then leads to no other port inside (Build finds it).
   /// `size` settles the length of a Vector input that the systems leave open.
   void ExportInput(std::string name, const InputHandle& input, int size = -1);
   void ExportOutput(std::string name, const OutputHandle& output);
