@@ -182,7 +182,21 @@ class ExpectationReader {
     }
     if (!judges.empty()) return AimAtMember(judges, entry_.key.substr(dot + 1));
     const std::string port = entry_.key.substr(0, entry_.key.find('['));
-    return Fail(fmt::format(": no output '{}'{}", port, DidYouMean(port, NamesOf(outputs_))));
+    std::vector<std::string> known = NamesOf(outputs_);
+    AddMetricsBelow(metrics, known);
+    return Fail(fmt::format(": no output '{}'{}", port, DidYouMean(port, known)));
+  }
+
+  /// `file.metric` of each file that is used and has a judge, `left.min_distance`.
+  static void AddMetricsBelow(const NamedOutputs& metrics, std::vector<std::string>& names) {
+    for (const auto& [judge, output] : metrics) {
+      for (std::size_t dot = judge.find('.'); dot != std::string::npos;
+           dot = judge.find('.', dot + 1)) {
+        for (const std::string& member : *MembersOf(TypeOfPort(output))) {
+          names.push_back(judge.substr(0, dot + 1) + member);
+        }
+      }
+    }
   }
 
   bool ReadIndex(const std::string& text) {

@@ -36,6 +36,21 @@ std::vector<std::string> KeysOf(const Value& value) {
   return keys;
 }
 
+/// The section that names what a key is of, where names are the file's own; empty if none does or
+/// the key is a section itself.
+std::string SectionWith(const Value& root, const std::string& key) {
+  for (const Section& section : Sections()) {
+    if (key == section.key) return "";
+  }
+  for (const char* section : {"parameters", "systems", "models"}) {
+    const Value* const entries = root.Find(section);
+    if (entries == nullptr || entries->Find(key) == nullptr) continue;
+    const std::vector<std::string> used = UsedFilesOf(root);
+    return std::find(used.begin(), used.end(), key) == used.end() ? section : "";
+  }
+  return "";
+}
+
 /// Follows the path of an override into the tree.
 class Path {
  public:
@@ -89,6 +104,11 @@ class Path {
     const std::string& key = keys_[depth_];
     std::vector<std::string> known;
     if (depth_ == 0) {
+      if (const std::string section = SectionWith(parent, key); !section.empty()) {
+        problems_.Add(location_,
+                      fmt::format("no '{}' there; did you mean '{}.{}'?", key, section, key));
+        return false;
+      }
       for (const Section& section : Sections()) known.emplace_back(section.key);
       if (std::find(known.begin(), known.end(), key) != known.end()) return true;
       for (std::string& name : UsedFilesOf(parent)) {

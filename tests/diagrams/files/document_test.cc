@@ -254,6 +254,9 @@ TEST_F(OverrideTest, AnUnknownPathNamesTheNearest) {
   EXPECT_THAT(ProblemOf("models.arn.urdf=x"), HasSubstr("did you mean 'arm'?"));
   EXPECT_THAT(ProblemOf("paramters.alpha=1"), HasSubstr("did you mean 'parameters'?"));
   EXPECT_THAT(ProblemOf("simulater.duration=1"), HasSubstr("did you mean 'simulator'?"));
+  EXPECT_THAT(ProblemOf("beta=1"), HasSubstr("no 'beta' there; did you mean 'parameters.beta'?"));
+  EXPECT_THAT(ProblemOf("limiter.enabled=1"), HasSubstr("did you mean 'systems.limiter'?"));
+  EXPECT_THAT(ProblemOf("arm.urdf=x"), HasSubstr("did you mean 'models.arm'?"));
   EXPECT_THAT(ProblemOf("systems.limiter.type.x=1"), HasSubstr("expected a key of a map"));
   EXPECT_THAT(ProblemOf("parameters..alpha=1"), HasSubstr("error"));
 }

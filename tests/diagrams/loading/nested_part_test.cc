@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ports of files that others use, by path, in a part.
+// Ports and metrics of files that others use, by path: in a part, and in `expect`.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -55,6 +55,23 @@ TEST(PartOfTwoArmsTest, EveryPortOfAPartOfTwoArmsKeepsItsPath) {
     EXPECT_THROW(part.diagram->GetInput<Vector>(of + "_plant_position"), WiringError);
     EXPECT_THROW(part.diagram->GetOutput<Vector>(of + "_limiter_limited_delta"), WiringError);
   }
+}
+
+TEST_F(NestedPartTest, AMisspeltMetricOfAFileThatIsUsedIsToldTheNearest) {
+  const auto refused = [&](const std::string& key) {
+    return [this, key] {
+      LoadDiagram(folder.Write("d.yaml", "include: [" OCA_SOURCE_DIR "/diagrams/dual_arm.yaml]\n"
+                                         "expect: {" +
+                                             key + ": {at_least: 0}}\n"));
+    };
+  };
+  using testing::ThrowsMessage;
+  EXPECT_THAT(refused("lft.min_distance"),
+              ThrowsMessage<ConfigError>(HasSubstr("expect.lft.min_distance: no output "
+                                                   "'lft.min_distance'; did you mean "
+                                                   "'left.min_distance'?")));
+  EXPECT_THAT(refused("left.min_distnce"),
+              ThrowsMessage<ConfigError>(HasSubstr("did you mean 'min_distance'?")));
 }
 
 }  // namespace nested_part_test
