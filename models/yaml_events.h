@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cstddef>
-#include <stdexcept>
 #include <string>
 #include <string_view>
+
+#include "oca/framework/dataflow/error_base.h"
 
 namespace oca::models::internal {
 
@@ -16,9 +17,8 @@ struct YamlMark {
 };
 
 /// A text that is no YAML, or not within bounds.
-class YamlError : public std::runtime_error {
- public:
-  YamlError(const YamlMark& at, const std::string& what) : std::runtime_error(what), mark(at) {}
+struct YamlError : Error {
+  YamlError(const YamlMark& at, const std::string& what) : Error(what), mark(at) {}
   const YamlMark mark;
 };
 

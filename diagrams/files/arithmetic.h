@@ -3,9 +3,10 @@
 
 #include <map>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <utility>
+
+#include "oca/framework/dataflow/error_base.h"
 
 namespace oca::files {
 
@@ -22,10 +23,9 @@ struct ArithmeticResult {
 };
 
 /// What is wrong with an expression.
-class ArithmeticError : public std::runtime_error {
- public:
+struct ArithmeticError : Error {
   ArithmeticError(const std::string& what, std::string unknown_name)
-      : std::runtime_error(what), unknown(std::move(unknown_name)) {}
+      : Error(what), unknown(std::move(unknown_name)) {}
   const std::string unknown;  ///< a name that has no number; empty: something else is wrong
 };
 

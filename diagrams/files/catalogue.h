@@ -25,8 +25,6 @@ struct CatalogueRow {
   std::shared_ptr<const void> example_params;  ///< of a small valid instance
   std::function<std::unique_ptr<System>(const void* params, const systems::ModelSet& models)> build;
   bool needs_models;
-  /// Its parameter `obstacles` is that of an ObstacleSource: what goals are to be clear of.
-  bool says_obstacles{false};
 
   /// Parameters as a file gives them, as `build` takes them; nullptr, with problems, if they are
   /// wrong. `where` is their path in the file.
@@ -84,11 +82,9 @@ class Catalogue {
   Catalogue& Add(const std::string& type) {
     using P = typename S::Params;
     constexpr bool kNeedsModels = std::constructible_from<S, const P&, const systems::ModelSet&>;
-    CatalogueRow row = RowOf<P>(
+    return AddRow(RowOf<P>(
         type, S::kDoc, S::Example(), kNeedsModels,
-        [](const P& params, const systems::ModelSet& models) { return Make<S>(params, models); });
-    row.says_obstacles = requires { requires S::kSaysObstacles; };
-    return AddRow(std::move(row));
+        [](const P& params, const systems::ModelSet& models) { return Make<S>(params, models); }));
   }
   /// Adds what `make` makes of parameters, as a lambda that calls MakeBlock; `example` are those of
   /// a small valid instance. The texts of `doc` must outlive the catalogue.
@@ -134,8 +130,7 @@ class Catalogue {
             [make = std::move(make)](const void* params, const systems::ModelSet& models) {
               return make(*static_cast<const P*>(params), models);
             },
-            needs_models,
-            false};
+            needs_models};
   }
 
   std::vector<Row> rows_;

@@ -13,7 +13,7 @@
 
 namespace oca::files {
 
-class ArithmeticError;
+struct ArithmeticError;
 
 /// What the expressions of a file came to. Who resolves the file again, with other parameters,
 /// takes over what has not changed and uses no parameter that has, and shares lists and maps of it.

@@ -13,6 +13,7 @@
 #include "oca/diagrams/files/model_section.h"
 #include "oca/framework/dataflow/explain.h"
 #include "oca/framework/dataflow/nearest.h"
+#include "oca/systems/commands/pose_goal.h"
 
 namespace oca::foresight {
 namespace {
@@ -25,11 +26,14 @@ Value::Map Without(const Value& map, std::initializer_list<std::string_view> key
   return rest;
 }
 
-/// Whether a system of a type says by its parameters where obstacles are.
+using Around = decltype(systems::PoseGoalParams::around)::value_type;
+
+/// Whether a system of a type says by its parameters where obstacles are: they are what a goal
+/// takes as `around`.
 bool SaysObstacles(const files::Catalogue& catalogue, const std::string& type) {
   const auto& rows = catalogue.rows();
   return std::any_of(rows.begin(), rows.end(), [&](const files::Catalogue::Row& row) {
-    return row->type == type && row->says_obstacles;
+    return row->type == type && row->fields == &FieldsOf<Around>;
   });
 }
 

@@ -30,8 +30,8 @@ bool AsksForObstacles(const Value::Map& params);
 
 /// Tells a goal with a clearance (systems::PoseGoalParams) in the parameters of a system what to
 /// keep clear of: its `around` becomes the parameters of all in `systems`, a section of that name,
-/// that say where obstacles are (CatalogueRow::says_obstacles). Parameters without one, and a goal
-/// that names what is around it, stay as they are.
+/// that say where obstacles are: whose parameters are what `around` lists. Parameters without one,
+/// and a goal that names what is around it, stay as they are.
 void TellGoal(const Value::Map& systems, const files::Catalogue& catalogue, Value::Map& params);
 
 }  // namespace oca::foresight

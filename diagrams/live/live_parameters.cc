@@ -124,11 +124,10 @@ std::vector<std::pair<std::string, Standing>> StandingObstacles(const LoadedDiag
   for (const auto& [path, system, holds] : diagram.FindRoles<systems::HoldsObstacles>()) {
     const bool movable = holds->offsets.system != nullptr;
     for (const auto& standing : holds->standing) {
-      found.emplace_back(
-          fmt::format("{}.{}.position", path, standing.id),
-          Standing{loading::OverridePath(path) + "." + standing.parameter, standing.position,
-                   movable ? loading::ExportedName(diagram.PathOf(holds->offsets)) : "",
-                   static_cast<std::size_t>(standing.first)});
+      found.emplace_back(fmt::format("{}.{}.position", path, standing.id),
+                         Standing{loading::OverridePath(path) + "." + standing.parameter,
+                                  standing.position, movable ? diagram.PathOf(holds->offsets) : "",
+                                  static_cast<std::size_t>(standing.first)});
     }
   }
   return found;

@@ -7,7 +7,6 @@
 #include <string>
 #include <variant>
 
-#include "oca/diagrams/loading/loaded_diagram.h"
 #include "oca/framework/dataflow/dynamic_port.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/schedule.h"
@@ -36,12 +35,6 @@ Assembly::Assembly(const Value& root, const Level& level, const SystemSources& s
       systems_(root, level, sources, construction, builder, problems),
       connections_(root, level, systems_, construction, builder, problems) {}
 
-void Assembly::ExportOutputs() {
-  for (const auto& [name, output] : systems_.Outputs()) {
-    builder_.ExportOutput(ExportedName(name), output);
-  }
-}
-
 void Assembly::ExportOffsets() {
   for (const auto& [name, system] : systems_.built()) {
     const auto* const holds = system->role<systems::HoldsObstacles>();
@@ -49,14 +42,13 @@ void Assembly::ExportOffsets() {
     const auto index = static_cast<std::size_t>(holds->offsets.index);
     const std::string port = name + "." + holds->offsets.system->inputs()[index].name;
     if (construction_.connections.contains(port)) continue;
-    builder_.ExportInput(ExportedName(port), holds->offsets);
+    builder_.ExportInput(port, holds->offsets);
   }
 }
 
 std::unique_ptr<Diagram> Assembly::Build(bool movable) {
   std::unique_ptr<Diagram> diagram;
   try {
-    if (!construction_.part.whole()) ExportOutputs();
     if (movable) ExportOffsets();
     diagram = builder_.Build();
     diagram->schedule().CheckStart(diagram->MakeContext(), false);

@@ -32,7 +32,6 @@ class Assembly {
   files::NamedOutputs Metrics();
 
  private:
-  void ExportOutputs();
   void ExportOffsets();
 
   const Value& root_;

@@ -23,13 +23,12 @@ class EarlierResolutions;
 struct BuildOptions {
   /// The named systems alone, by path, and all in a used file that is named, for a program that
   /// takes the place of the others, as a robot's control loop does with the plant; the whole file
-  /// is checked all the same. Where a system outside drives one inside, the diagram exports an
-  /// input with the name of that output, `plant.position` as `plant_position`; every output inside
-  /// is exported in the same way. What the file records and expects is left out. Without it, all
-  /// systems.
+  /// is checked all the same. Every port keeps its path: where a system outside drives one inside,
+  /// the diagram has an input with the path of that output, `plant.position`. What the file records
+  /// and expects is left out. Without it, all systems.
   std::optional<std::vector<std::string>> part{};
   /// Obstacles can be moved: each system that holds obstacles (HoldsObstacles) whose `offsets`
-  /// nothing drives has them exported as `NAME_offsets`, which must be fixed before a run.
+  /// nothing drives has them exported as `NAME.offsets`, which must be fixed before a run.
   bool movable{false};
 };
 

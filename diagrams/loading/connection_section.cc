@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "oca/diagrams/loading/connection_pattern.h"
-#include "oca/diagrams/loading/loaded_diagram.h"
 #include "oca/framework/dataflow/dynamic_port.h"
 #include "oca/framework/dataflow/error.h"
 
@@ -183,21 +182,16 @@ void ConnectionSection::ConnectPorts(const OutputAt& from, const InputAt& to,
   construction_.open.erase(to.path);
 }
 
-/// Exports an input of the part under the name of the output outside that drives it.
+/// Exports an input of the part under the path of the output outside that drives it.
 void ConnectionSection::Import(const OutputAt& from, const InputAt& to, const Location& location) {
   const SignalType& got = TypeOfPort(from.handle);
   const SignalType& expected = TypeOfPort(to.handle);
-  const std::string name = ExportedName(from.path);
-  const auto [imported, fresh] = construction_.imports.emplace(name, from.path);
-  if (!fresh && imported->second != from.path) {
-    problems_.Add(location, fmt::format("part: {} and {} would both become the input {}",
-                                        imported->second, from.path, name));
-  } else if (&got != &expected) {
+  if (&got != &expected) {
     problems_.Add(location,
                   fmt::format("{} -> {}: type; got {}; expected {}", PathIn(level_.path, from.path),
                               PathIn(level_.path, to.path), got.name, expected.name));
   } else {
-    construction_.root.ExportInput(name, to.handle);
+    construction_.root.ExportInput(from.path, to.handle);
   }
 }
 

@@ -44,9 +44,8 @@ class Construction {
   EarlierResolutions& earlier;
   DiagramBuilder& root;  ///< of the diagram as a whole
 
-  std::map<std::string, std::string> imports{};  ///< inputs of a part: the outputs they stand for
-  std::map<std::string, Place> systems{};        ///< those that could be made, by path
-  std::map<std::string, Place> connections{};    ///< by the path of the input
+  std::map<std::string, Place> systems{};      ///< those that could be made, by path
+  std::map<std::string, Place> connections{};  ///< by the path of the input
   /// Inputs that a file leaves to the one that uses it: where the use stands, and what it calls
   /// them, by path.
   struct Open {

@@ -13,11 +13,6 @@ const LoadedDiagram::Block& LoadedDiagram::BlockOf(const System& system) const {
                        [&](const Block& block) { return block.name == path; });
 }
 
-std::string ExportedName(std::string port) {
-  std::replace(port.begin(), port.end(), '.', '_');
-  return port;
-}
-
 std::string OverridePath(const std::string& path) {
   const std::size_t name = path.rfind('.') + 1;  // 0 if there is no dot
   return path.substr(0, name) + "systems." + path.substr(name);

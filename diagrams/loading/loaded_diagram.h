@@ -60,9 +60,6 @@ struct LoadedDiagram {
   const Block& BlockOf(const System& system) const;
 };
 
-/// The name under which a part exports a port: `plant_position` for `plant.position`.
-std::string ExportedName(std::string port);
-
 /// Where overrides find a system, by its path: `systems.plant`, `left.systems.plant`.
 std::string OverridePath(const std::string& path);
 

@@ -9,9 +9,10 @@
 namespace oca::loading {
 
 void ToldOnce::Add(const std::string& use, const Diagnostic& diagnostic) {
-  const std::string line = diagnostic.ToString();
-  const auto same = std::find_if(told_.begin(), told_.end(),
-                                 [&](const auto& told) { return told.first.ToString() == line; });
+  const auto same = std::find_if(told_.begin(), told_.end(), [&](const auto& told) {
+    return told.first.what == diagnostic.what &&  // most differ here, before all is written out
+           told.first.ToString() == diagnostic.ToString();
+  });
   if (same == told_.end()) {
     told_.push_back({diagnostic, {use}});
   } else if (std::find(same->second.begin(), same->second.end(), use) == same->second.end()) {

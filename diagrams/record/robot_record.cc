@@ -177,9 +177,8 @@ ordered_json RobotJson(const std::shared_ptr<const RobotModel>& model, const Rob
     const robot::Joint& joint = model->joints()[static_cast<std::size_t>(j)];
     const int i = joint.position_index;
     if (i < 0) continue;
-    const bool slides = joint.type == robot::JointType::kPrismatic;
     json["positions"].push_back({{"joint", joint.name.text()},
-                                 {"unit", slides ? "m" : "rad"},
+                                 {"unit", robot::PositionUnit(joint)},
                                  {"start", start[i]},
                                  {"lower", Limit(model->lower_limits()[i])},
                                  {"upper", Limit(model->upper_limits()[i])},

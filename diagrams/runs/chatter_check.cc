@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <exception>
-#include <iterator>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "oca/diagrams/foresight/motion_ahead.h"
@@ -89,31 +90,6 @@ std::optional<Loop> LoopOf(const Diagram& diagram, const System& mapping, const 
   return loop;
 }
 
-using Drivers = std::vector<std::pair<OutputHandle, InputHandle>>;
-
-Drivers DriversOf(const Diagram& diagram, const System& system) {
-  Drivers drivers;
-  for (int i = 0; i < std::ssize(system.inputs()); ++i) {
-    const InputHandle input{{&system, i}};
-    if (const auto driver = diagram.DriverOf(input)) drivers.emplace_back(*driver, input);
-  }
-  return drivers;
-}
-
-/// The systems and all that they compute from, but what is behind those that `ends` holds for.
-template <class Ends>
-std::vector<const System*> Upstream(const Diagram& diagram, std::vector<const System*> systems,
-                                    const Ends& ends) {
-  for (std::size_t i = 0; i < systems.size(); ++i) {
-    if (ends(*systems[i])) continue;
-    for (const auto& [from, to] : DriversOf(diagram, *systems[i])) {
-      const bool known = std::find(systems.begin(), systems.end(), from.system) != systems.end();
-      if (!known) systems.push_back(from.system);
-    }
-  }
-  return systems;
-}
-
 /// Whether a robot's motion comes from it: what is behind belongs to the loop of that robot.
 bool GivesMotion(const System& system) {
   return system.role<Kinematics>() != nullptr || system.role<systems::Plant>() != nullptr;
@@ -182,22 +158,25 @@ class Probe {
  private:
   void Copy(const loading::LoadedDiagram& loaded) {
     const Diagram& diagram = *loaded.diagram;
-    const std::vector<const System*> needed =
-        Upstream(diagram, {loop_.mapping, loop_.kinematics},
-                 [this](const System& system) { return &system == loop_.kinematics; });
-    own_ = Upstream(diagram, {loop_.mapping}, GivesMotion);
+    const std::vector<const System*> needed = diagram.LeavesUpstream(
+        {loop_.mapping, loop_.kinematics},
+        [this](const System& system) { return &system == loop_.kinematics; });
+    own_ = diagram.LeavesUpstream({loop_.mapping}, GivesMotion);
     Problems problems;
+    std::set<std::string> names{"loop_gain_"};  // that of the gain
     for (const auto& block : loaded.systems) {
       const System* const original = diagram.FindSystem(block.name);
       if (std::find(needed.begin(), needed.end(), original) == needed.end()) continue;
       auto copy = block.row->Make(block.params, block.name, *block.models, problems);
       problems.Throw();
-      copies_.emplace_back(original,
-                           &builder_.AddSystem(loading::ExportedName(block.name), std::move(copy)));
+      // Two files that are used may each have one of that name.
+      std::string name = block.name.substr(block.name.rfind('.') + 1);
+      while (!names.insert(name).second) name += '_';
+      copies_.emplace_back(original, &builder_.AddSystem(name, std::move(copy)));
     }
     for (const auto& [original, copy] : copies_) {
       if (original == loop_.kinematics) continue;
-      for (const auto& [from, to] : DriversOf(diagram, *original)) {
+      for (const auto& [from, to] : diagram.DriversOf(*original)) {
         builder_.ConnectPorts({{&CopyOf(from.system), from.index}}, {{copy, to.index}});
       }
     }

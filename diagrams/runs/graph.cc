@@ -21,13 +21,11 @@ struct Edge {
 std::vector<Edge> EdgesOf(const Diagram& diagram) {
   std::vector<Edge> edges;
   for (const Diagram::Leaf& leaf : diagram.systems()) {
-    const auto& inputs = leaf.system->inputs();
-    for (int i = 0; i < std::ssize(inputs); ++i) {
-      const auto driver = diagram.DriverOf({{leaf.system, i}});
-      if (!driver) continue;
-      edges.push_back({diagram.PathOf(*driver->system),
-                       driver->system->outputs()[static_cast<std::size_t>(driver->index)].name,
-                       leaf.path, inputs[static_cast<std::size_t>(i)].name, ShowsState(*driver)});
+    for (const auto& [from, to] : diagram.DriversOf(*leaf.system)) {
+      edges.push_back({diagram.PathOf(*from.system),
+                       from.system->outputs()[static_cast<std::size_t>(from.index)].name, leaf.path,
+                       to.system->inputs()[static_cast<std::size_t>(to.index)].name,
+                       ShowsState(from)});
     }
   }
   return edges;

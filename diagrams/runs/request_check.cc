@@ -16,6 +16,7 @@
 #include "oca/models/counted.h"
 #include "oca/models/error.h"
 #include "oca/models/robot/clearance.h"
+#include "oca/models/robot/joint_limits.h"
 #include "oca/systems/signals/roles.h"
 
 namespace oca::runs {
@@ -82,7 +83,7 @@ class RequestJudge {
   const char* UnitOf(Index joint) const {
     const auto& of = model_.joints()[static_cast<std::size_t>(
         model_.FindJoint(model_.position_names()[static_cast<std::size_t>(joint)].text()))];
-    return of.type == robot::JointType::kPrismatic ? "m" : "rad";
+    return robot::PositionUnit(of);
   }
 
   void JudgeStart() {

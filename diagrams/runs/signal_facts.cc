@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oca/diagrams/runs/signal_facts.h"
 
+#include "oca/framework/dataflow/dynamic_port.h"
+
 namespace oca::runs {
 
 SignalFacts::SignalFacts(const loading::LoadedDiagram& loaded) : loaded_(loaded) {
@@ -13,10 +15,8 @@ std::vector<OutputHandle> SignalFacts::VectorsAt(const System& system) const {
   for (const auto& info : system.outputs()) {
     if (info.type == &kVectorType) vectors.push_back(system.FindOutput(info.name));
   }
-  for (std::size_t i = 0; i < system.inputs().size(); ++i) {
-    if (system.inputs()[i].type != &kVectorType) continue;
-    const auto driver = loaded_.diagram->DriverOf({{&system, static_cast<int>(i)}});
-    if (driver) vectors.push_back(*driver);
+  for (const auto& [from, to] : loaded_.diagram->DriversOf(system)) {
+    if (&TypeOfPort(from) == &kVectorType) vectors.push_back(from);
   }
   return vectors;
 }

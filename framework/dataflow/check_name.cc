@@ -18,4 +18,12 @@ void CheckName(const std::string& name, const char* what) {
   }
 }
 
+void CheckPath(const std::string& path, const char* what) {
+  for (std::size_t from = 0; from <= path.size();) {
+    const std::size_t dot = std::min(path.find('.', from), path.size());
+    CheckName(path.substr(from, dot - from), what);
+    from = dot + 1;
+  }
+}
+
 }  // namespace oca::internal

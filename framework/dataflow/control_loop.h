@@ -17,8 +17,8 @@ namespace oca {
 /// integrator, no thread, and after Initialize neither an exception nor the heap.
 ///
 ///     ControlLoop loop(*diagram, Period(1, 1000));
-///     const auto q = diagram->GetInput<Vector>("plant_position");
-///     const auto delta = diagram->GetOutput<Vector>("limiter_limited_delta");
+///     const auto q = diagram->GetInput<Vector>("plant.position");
+///     const auto delta = diagram->GetOutput<Vector>("limiter.limited_delta");
 ///     loop.Watch(delta);
 ///     ... Set every input once ...
 ///     loop.Initialize();

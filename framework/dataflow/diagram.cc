@@ -5,6 +5,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
+#include <optional>
 #include <utility>
 
 #include "oca/framework/dataflow/check_name.h"
@@ -25,6 +27,17 @@ auto InSystemOf(const std::string& path, const Find& find) {
   } catch (const WiringError& error) {
     throw WiringError(fmt::format("{}: {}", path.substr(0, path.rfind('.')), error.what()));
   }
+}
+
+/// An input that a diagram, or one nested in it, exports; its own name may have dots.
+std::optional<InputHandle> FindExported(const Diagram& diagram, const std::string& path) {
+  for (int i = 0; i < std::ssize(diagram.inputs()); ++i) {
+    if (diagram.inputs()[i].name == path) return InputHandle{{&diagram, i}};
+  }
+  const std::size_t dot = path.find('.');
+  if (dot == std::string::npos) return std::nullopt;
+  const auto* nested = dynamic_cast<const Diagram*>(diagram.FindSystem(path.substr(0, dot)));
+  return nested == nullptr ? std::nullopt : FindExported(*nested, path.substr(dot + 1));
 }
 
 /// Of all systems inside, nested diagrams included.
@@ -64,6 +77,7 @@ std::pair<const System*, std::string> Diagram::SplitPath(const std::string& path
 }
 
 InputHandle Diagram::FindInput(const std::string& path) const {
+  if (const auto exported = FindExported(*this, path)) return *exported;
   const auto found = SplitPath(path, "input");
   if (found.first == this) return System::FindInput(found.second);
   return InSystemOf(path, [&] { return found.first->FindInput(found.second); });
@@ -129,7 +143,7 @@ void DiagramBuilder::ConnectPorts(const OutputHandle& from, const InputHandle& t
 }
 
 void DiagramBuilder::ExportInput(std::string name, const InputHandle& input, int size) {
-  internal::CheckName(name, "input");
+  internal::CheckPath(name, "input");
   if (input.system == nullptr) {
     throw WiringError(fmt::format("exported input '{}': its port belongs to no system", name));
   }
@@ -142,7 +156,7 @@ void DiagramBuilder::ExportInput(std::string name, const InputHandle& input, int
   }
   System::InputInfo info = input.system->inputs().at(input.index);
   info.name = name;
-  diagram_->AddInput(std::move(info));
+  diagram_->inputs_.push_back(std::move(info));
   exported.push_back({std::move(name), {input}, size});
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <concepts>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -26,7 +28,8 @@ class Wiring;
 /// nothing at run time. Only a root diagram makes Contexts.
 ///
 /// A path is dotted and goes through nesting: `arm.filter` is the system `filter` in the diagram
-/// `arm`, `arm.filter.velocities` a port of it, and `velocities` alone a port of this diagram.
+/// `arm`, `arm.filter.velocities` a port of it, and `velocities` alone a port of this diagram. An
+/// input of a diagram may have the path of an output that drives it elsewhere, `plant.position`.
 ///
 /// Whoever wants to know how it is wired asks it. The answers speak of leaves, the systems that
 /// are no diagrams, whatever nesting lies between; a nested diagram answers through its root, which
@@ -98,6 +101,9 @@ class Diagram final : public System {
   std::string PathOf(const InputHandle& input) const;
   /// The output that drives an input; none if nothing does or if it comes from outside.
   std::optional<OutputHandle> DriverOf(const InputHandle& input) const;
+  /// What drives the inputs of a leaf, in their order; without those that nothing drives, or that
+  /// come from outside.
+  std::vector<Connection> DriversOf(const System& leaf) const;
   /// The input of the root through which an input comes from outside; none if it does not.
   std::optional<InputHandle> ExportOf(const InputHandle& input) const;
   /// The inputs of leaves that an output drives.
@@ -105,6 +111,10 @@ class Diagram final : public System {
   /// All that a port depends on.
   Upstream UpstreamOf(const OutputHandle& output, Through through) const;
   Upstream UpstreamOf(const InputHandle& input, Through through) const;
+  /// The leaves `from`, what drives their inputs, what drives those, and so on, each once; nothing
+  /// that lies behind one that `ends` holds for, which is itself among them.
+  std::vector<const System*> LeavesUpstream(std::vector<const System*> from,
+                                            const std::function<bool(const System&)>& ends) const;
   /// The length of a Vector, as Build settled it; 0 for a port of another type.
   int SizeOf(const OutputHandle& output) const;
   int SizeOf(const InputHandle& input) const;
@@ -169,6 +179,12 @@ class DiagramBuilder {
     AddSystem(std::move(name), std::move(system));
     return reference;
   }
+  /// The same with all parameters at their defaults: Add<Integrator>("integrator").
+  template <class S>
+  requires(!std::default_initializable<S> && std::default_initializable<typename S::Params> &&
+           std::constructible_from<S, const typename S::Params&>) const S& Add(std::string name) {
+    return Add<S>(std::move(name), typename S::Params{});
+  }
   const System& AddSystem(std::string name, std::unique_ptr<System> system);
 
   template <class T>
@@ -181,7 +197,8 @@ class DiagramBuilder {
   }
   /// For wiring known only at run time; a difference in type is found at Build.
   void ConnectPorts(const OutputHandle& from, const InputHandle& to);
-  /// Makes an input, or several that share a name, an input of the diagram.
+  /// Makes an input, or several that share a name, an input of the diagram. The name may be a path,
+  /// which then leads to no other port inside (Build finds it).
   /// `size` settles the length of a Vector input that the systems leave open.
   void ExportInput(std::string name, const InputHandle& input, int size = -1);
   void ExportOutput(std::string name, const OutputHandle& output);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a Diagram answers of its wiring.
+#include <algorithm>
 #include <iterator>
 
 #include "oca/framework/dataflow/diagram.h"
@@ -52,6 +53,15 @@ std::optional<OutputHandle> Diagram::DriverOf(const InputHandle& input) const {
   return OutputHandle{{wiring().leaves()[driver.leaf].system, driver.output}};
 }
 
+std::vector<Diagram::Connection> Diagram::DriversOf(const System& leaf) const {
+  std::vector<Connection> drivers;
+  for (int i = 0; i < std::ssize(leaf.inputs()); ++i) {
+    const InputHandle input{{&leaf, i}};
+    if (const auto driver = DriverOf(input)) drivers.push_back({*driver, input});
+  }
+  return drivers;
+}
+
 std::optional<InputHandle> Diagram::ExportOf(const InputHandle& input) const {
   const Wiring::Driver& driver = FindDriver(wiring(), input);
   if (driver.exported < 0) return std::nullopt;
@@ -78,6 +88,18 @@ Upstream Diagram::UpstreamOf(const OutputHandle& output, Through through) const 
 Upstream Diagram::UpstreamOf(const InputHandle& input, Through through) const {
   TargetOf(wiring(), input);
   return Upstream::Of(wiring(), input, through);
+}
+
+std::vector<const System*> Diagram::LeavesUpstream(
+    std::vector<const System*> from, const std::function<bool(const System&)>& ends) const {
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    if (ends(*from[i])) continue;
+    for (const Connection& connection : DriversOf(*from[i])) {
+      const System* const driver = connection.from.system;
+      if (std::find(from.begin(), from.end(), driver) == from.end()) from.push_back(driver);
+    }
+  }
+  return from;
 }
 
 int Diagram::SizeOf(const OutputHandle& output) const {

@@ -13,7 +13,8 @@ std::span<const char* const> EnumNames(IntegratorKind) {
 
 void Tolerances::Describe(Fields<Tolerances>& fields) {
   fields.Add("relative", &Tolerances::relative, "", "error a step, relative to the state")
-      .Above(0.0);
+      .Above(0.0)
+      .AtMost(1.0);
   fields.Add("absolute", &Tolerances::absolute, "", "error a step, in the unit of the state")
       .Above(0.0);
 }

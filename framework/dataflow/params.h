@@ -166,12 +166,13 @@ void ThrowProblems(const std::vector<std::string>& problems);
 
 /// The parameters, if they are what their Describe says: constructors ask it, since a struct filled
 /// in C++ has passed no reader. What Describe cannot say, how fields go together, is theirs to
-/// check. throws ConfigError with all problems, a line each
+/// check. `where` is empty or the path of the struct. throws ConfigError with all problems, a line
+/// each
 template <ParamsStruct P>
-const P& Validated(const P& params) {
+const P& Validated(const P& params, const std::string& where = "") {
   std::vector<std::string> problems;
   const P defaults{};
-  CheckFields(FieldsOf<P>(), &params, &defaults, "", problems);
+  CheckFields(FieldsOf<P>(), &params, &defaults, where, problems);
   internal::ThrowProblems(problems);
   return params;
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <utility>
 
 namespace oca {
 
@@ -11,8 +10,11 @@ class PerComponent {
  public:
   PerComponent(double scalar = 0.0)  // NOLINT: a number is a parameter
       : values_(Eigen::VectorXd::Constant(1, scalar)), scalar_(true) {}
-  PerComponent(Eigen::VectorXd values)  // NOLINT: a vector is a parameter
-      : values_(std::move(values)), scalar_(false) {}
+  /// A column, of fixed length or worked out: Eigen::Vector3d(1, 2, 3), Eigen::VectorXd::Zero(3).
+  template <class Derived>
+  PerComponent(const Eigen::MatrixBase<Derived>& values)  // NOLINT: a column is a parameter
+      requires(Derived::ColsAtCompileTime == 1)
+      : values_(values), scalar_(false) {}
 
   bool scalar() const { return scalar_; }
   const Eigen::VectorXd& values() const { return values_; }

@@ -86,6 +86,7 @@ void Wiring::Connect(const Diagram::Connection& connection, const std::string& p
 void Wiring::ExportAll(const Diagram& root) {
   for (const Diagram::ExportedInput& exported : root.exported_inputs()) {
     exported_.emplace_back();
+    CheckPathOf(exported);
     for (const InputHandle& input : exported.to) {
       const std::vector<Target> targets = TargetsOf(input);
       if (targets.empty()) {
@@ -105,6 +106,25 @@ void Wiring::ExportAll(const Diagram& root) {
         }
       }
     }
+  }
+}
+
+/// A name that is a path leads to none but its own port inside.
+void Wiring::CheckPathOf(const Diagram::ExportedInput& exported) {
+  const std::size_t dot = exported.name.rfind('.');
+  const System* const inside =
+      dot == std::string::npos ? nullptr : root_.FindSystem(exported.name.substr(0, dot));
+  if (inside == nullptr) return;
+  for (const InputHandle& input : exported.to) {
+    if (input.system == inside &&
+        inside->inputs()[input.index].name == exported.name.substr(dot + 1)) {
+      continue;
+    }
+    problems_.push_back(
+        {{fmt::format("exported input '{}': got another port than the one inside "
+                      "with that path; expected another name",
+                      exported.name)}});
+    return;
   }
 }
 

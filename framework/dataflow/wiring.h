@@ -64,6 +64,7 @@ class Wiring {
   void ConnectAll(const Diagram& diagram, const std::string& prefix);
   void Connect(const Diagram::Connection& connection, const std::string& prefix);
   void ExportAll(const Diagram& root);
+  void CheckPathOf(const Diagram::ExportedInput& exported);
   void CheckExportedOutputs();
   void Drive(const Target& target, const Driver& driver);
   void CheckUnconnected();

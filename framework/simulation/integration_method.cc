@@ -9,17 +9,12 @@
 #include <vector>
 
 #include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/params.h"
 #include "oca/framework/dataflow/schedule.h"
 #include "oca/framework/simulation/sundials_method.h"
 
 namespace oca {
 namespace {
-
-void CheckPositive(double value, const char* name) {
-  if (!(value > 0.0)) {
-    throw ConfigError(fmt::format("simulator: {}; got {}; expected > 0", name, value));
-  }
-}
 
 /// Explicit Runge-Kutta with equal steps no longer than `fixed_step` between two events.
 class FixedStepIntegrator : public IntegrationMethod {
@@ -174,11 +169,7 @@ class TableauIntegrator final : public FixedStepIntegrator {
 
 std::unique_ptr<IntegrationMethod> MakeIntegrationMethod(const Schedule& schedule,
                                                          const IntegratorOptions& options) {
-  CheckPositive(options.relative_tolerance, "relative_tolerance");
-  CheckPositive(options.absolute_tolerance, "absolute_tolerance");
-  CheckPositive(options.max_step, "max_step");
-  CheckPositive(options.fixed_step, "fixed_step");
-  CheckPositive(options.max_steps, "max_steps");
+  Validated(options, "simulator");
   switch (options.integrator) {
     case IntegratorKind::kFixedRk4:
       return std::make_unique<TableauIntegrator<4>>(schedule, options, kRk4);

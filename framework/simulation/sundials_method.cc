@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/params.h"
 #include "oca/framework/simulation/stiffness.h"
 #include "oca/framework/simulation/sundials_vector.h"
 
@@ -58,10 +59,7 @@ void SundialsMethod::SetTolerances(const IntegratorOptions& options) {
     const auto found = options.tolerances.find(schedule_.PathOf(*derivative.system));
     if (found == options.tolerances.end()) continue;
     used.push_back(found->first);
-    if (!(found->second.relative > 0.0) || !(found->second.absolute > 0.0)) {
-      throw ConfigError(fmt::format("simulator: tolerances of {}; got {} and {}; expected > 0",
-                                    found->first, found->second.relative, found->second.absolute));
-    }
+    Validated(found->second, "simulator_tolerances." + found->first);
     const std::size_t begin =
         (derivative.out.offset - schedule_.derivative_offset) / sizeof(double);
     std::fill_n(relative_.begin() + begin, derivative.out.size, found->second.relative);

@@ -12,6 +12,7 @@
 
 #include "oca/models/error.h"
 #include "oca/models/nearest_name.h"
+#include "oca/models/robot/joint_limits.h"
 
 namespace oca::robot {
 namespace {
@@ -100,8 +101,6 @@ class GroupReader {
   std::set<int> joints_;
 };
 
-const char* UnitOf(const Joint& joint) { return joint.type == JointType::kPrismatic ? "m" : "rad"; }
-
 /// Works out where the positions of a robot are held.
 class Holder {
  public:
@@ -155,7 +154,7 @@ class Holder {
     const double upper = robot_.upper_limits()[column];
     if (std::isfinite(position) && position >= lower && position <= upper) return;
     throw models::ModelError(fmt::format("{}: got {} {}{}; expected {:.9g} to {:.9g}, its limits",
-                                         where, position, UnitOf(LeaderOf(column)), of, lower,
+                                         where, position, PositionUnit(LeaderOf(column)), of, lower,
                                          upper));
   }
 

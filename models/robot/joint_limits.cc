@@ -53,8 +53,6 @@ std::string RangeText(double lower, double upper) {
   return fmt::format("[{:.9g}, {:.9g}]", lower, upper);
 }
 
-const char* UnitOf(const Joint& joint) { return joint.type == JointType::kPrismatic ? "m" : "rad"; }
-
 bool Below(double a, double b) {
   return a < b - kLimitRounding * std::max(std::fabs(a), std::isfinite(b) ? std::fabs(b) : 0.0);
 }
@@ -72,8 +70,8 @@ void Bind(models::Name robot, const Joint& mimic, const KinematicStep& step, con
         "robot '{}' joint '{}': mimic; got {} times the position of '{}' plus {}, which is outside "
         "its own limits {} {} wherever '{}' may stand, {} {}; expected limits that both can keep",
         robot.text(), mimic.name.text(), m, leader.name.text(), step.offset,
-        RangeText(mimic.lower_limit, mimic.upper_limit), UnitOf(mimic), leader.name.text(),
-        RangeText(before.lower, before.upper), UnitOf(leader)));
+        RangeText(mimic.lower_limit, mimic.upper_limit), PositionUnit(mimic), leader.name.text(),
+        RangeText(before.lower, before.upper), PositionUnit(leader)));
   }
   if (limits.upper < limits.lower) {
     limits.lower = limits.upper = 0.5 * limits.lower + 0.5 * limits.upper;
@@ -113,7 +111,7 @@ void WarnOfMimics(const RobotModel& model, std::vector<std::string>& lines) {
     const double acceleration = model.acceleration_limits()[column];
     const double jerk = model.jerk_limits()[column];
     std::vector<std::string> bounds;
-    const char* unit = UnitOf(leader);
+    const char* unit = PositionUnit(leader);
     if (Below(own.lower, lower) || Below(upper, own.upper)) {
       bounds.push_back(fmt::format("{} {}", RangeText(lower, upper), unit));
     }
@@ -154,7 +152,7 @@ void WarnOfRanges(const RobotModel& model, std::vector<std::string>& lines) {
       continue;
     }
     lines.push_back(fmt::format("joint '{}': range {} {}, wider than {}; it is kept, but {}",
-                                joint.name.text(), RangeText(lower, upper), UnitOf(joint),
+                                joint.name.text(), RangeText(lower, upper), PositionUnit(joint),
                                 joint.type == JointType::kPrismatic ? "100 m" : "100 turns",
                                 DrawnRange(model, i)
                                     ? "where postures are drawn they are drawn from one turn"
@@ -163,6 +161,10 @@ void WarnOfRanges(const RobotModel& model, std::vector<std::string>& lines) {
 }
 
 }  // namespace
+
+const char* PositionUnit(const Joint& joint) {
+  return joint.type == JointType::kPrismatic ? "m" : "rad";
+}
 
 std::vector<PositionLimits> LimitsOfPositions(models::Name robot, const std::vector<Joint>& joints,
                                               const std::vector<KinematicStep>& steps) {
@@ -283,7 +285,7 @@ std::string ImpossibleState(const RobotModel& model, const Eigen::Ref<const Eige
     if (q[i] >= lower && q[i] <= upper) continue;
     const Joint& joint = LeaderOf(model.joints(), i);
     return fmt::format("position of joint '{}'; got {} {}; expected {:g} to {:g}, {}",
-                       joint.name.text(), q[i], UnitOf(joint), lower, upper, kPossibleRule);
+                       joint.name.text(), q[i], PositionUnit(joint), lower, upper, kPossibleRule);
   }
   return "";
 }

@@ -27,6 +27,9 @@ inline constexpr double kFarthestSlideBeyond = 10.0;              // m
 inline constexpr char kPossibleRule[] =
     "no joint more than 2 pi rad or 10 m beyond its limits, nor beyond 1e6";
 
+/// Of a joint's position, for messages: m of a slider, else rad.
+const char* PositionUnit(const Joint& joint);
+
 /// What one entry of q may do, infinite where nothing is given.
 struct PositionLimits {
   double lower{-kUnlimited};

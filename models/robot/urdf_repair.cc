@@ -11,6 +11,7 @@
 #include <set>
 #include <utility>
 
+#include "oca/framework/dataflow/edit_distance.h"
 #include "oca/models/nearest_name.h"
 #include "oca/models/robot/xml_numbers.h"
 
@@ -96,7 +97,7 @@ class Repair {
         if (!name.starts_with("xmlns")) unknown.push_back(name);
       } else if (known != KnownAttributes().end() &&
                  std::count(known->second.begin(), known->second.end(), name) == 0 &&
-                 models::EditDistance(name, models::NearestName(name, known->second)) > 2) {
+                 oca::internal::EditDistance(name, models::NearestName(name, known->second)) > 2) {
         unknown.push_back(name);
       }
     }

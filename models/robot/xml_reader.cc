@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <set>
 
+#include "oca/framework/dataflow/edit_distance.h"
 #include "oca/models/counted.h"
 #include "oca/models/error.h"
 #include "oca/models/nearest_name.h"
@@ -87,7 +88,7 @@ void XmlReader::CheckChildren(const TiXmlElement& element, const Names& once,
     const std::string& name = e->ValueStr();
     if (!Contains(known, name)) {
       const std::string nearest = models::NearestName(name, known);
-      if (models::EditDistance(name, nearest) > 2) continue;
+      if (oca::internal::EditDistance(name, nearest) > 2) continue;
       Fail(*e, fmt::format("unknown element in <{}>", element.ValueStr()), name, nearest);
     }
     if (Contains(once, name) && !seen.insert(name).second) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "oca/systems/basics/require.h"
+#include "oca/systems/signals/roles.h"
 
 namespace oca::systems {
 namespace {
@@ -32,7 +33,18 @@ Saturation::Saturation(const Params& params)
       size_(DeclareSize({{"lower", &lower_}, {"upper", &upper_}})),
       unit_(DeclareUnit()),
       in(DeclareInput<Vector>("in", {size_, unit_})),
-      out(DeclareOutput<Vector, &Saturation::CalcOut>("out", {size_, unit_}, in)) {}
+      out(DeclareOutput<Vector, &Saturation::CalcOut>("out", {size_, unit_}, in)) {
+  const auto declare = [this](Limits::Shown shown, const std::optional<PerComponent>& bound) {
+    if (!bound) return;
+    const Eigen::VectorXd& values = bound->values();
+    DeclareRole(Limits{.shown = shown,
+                       .signal = in,
+                       .bound = {values.begin(), values.end()},
+                       .how = "cut to its bound"});
+  };
+  declare(Limits::Shown::kBelow, params.lower);
+  declare(Limits::Shown::kAbove, params.upper);
+}
 
 void Saturation::CalcOut(VectorView in_value, MutableVectorView out_value) const {
   for (Eigen::Index i = 0; i < in_value.size(); ++i) {

@@ -24,7 +24,7 @@ struct Posture {
   Posture(robot::NamedPositions joints) : said(std::move(joints)) {}  // NOLINT
   template <class Derived>
   Posture(const Eigen::MatrixBase<Derived>& numbers)  // NOLINT
-      : said(PerComponent(Eigen::VectorXd(numbers))) {}
+      : said(PerComponent(numbers)) {}
 
   /// nullptr if a robot must say what is meant.
   const PerComponent* numbers() const { return std::get_if<PerComponent>(&said); }

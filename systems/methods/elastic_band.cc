@@ -8,6 +8,7 @@
 #include "oca/framework/dataflow/context.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/log.h"
+#include "oca/models/robot/joint_limits.h"
 #include "oca/models/robot/robot_model.h"
 #include "oca/systems/basics/require.h"
 #include "oca/systems/basics/shared_params.h"
@@ -308,9 +309,7 @@ const char* ElasticBand::UnitOf(models::Name joint) const {
   const auto at = std::find(names.begin(), names.end(), joint);
   if (at == names.end()) return "m";
   const int number = model_->FindJoint(at->text());
-  const bool slides =
-      model_->joints()[static_cast<std::size_t>(number)].type == robot::JointType::kPrismatic;
-  return slides ? "m" : "rad";
+  return robot::PositionUnit(model_->joints()[static_cast<std::size_t>(number)]);
 }
 
 double ElasticBand::BeginOf(double time, const BandMemory& memory) const {

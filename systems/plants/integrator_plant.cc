@@ -2,7 +2,10 @@
 #include "oca/systems/plants/integrator_plant.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "oca/framework/dataflow/error.h"
 #include "oca/systems/basics/require.h"
@@ -40,6 +43,14 @@ IntegratorPlant::Params Checked(IntegratorPlant::Params params) {
     RequireOrdered("initial_position", StartOf(params), "upper", *params.upper);
   }
   return params;
+}
+
+/// A joint at its stop is beyond the last number before it.
+Limits StopOf(const PerComponent& stop, Limits::Shown shown, const Output<Vector>& position) {
+  const double inside = shown == Limits::Shown::kBelow ? kInfinity : -kInfinity;
+  std::vector<double> bound;
+  for (const double at : stop.values()) bound.push_back(std::nextafter(at, inside));
+  return {.shown = shown, .signal = position, .bound = std::move(bound), .how = "at its stop"};
 }
 
 }  // namespace
@@ -91,6 +102,8 @@ IntegratorPlant::IntegratorPlant(const Params& params)
   DeclareRole(Boundary{"the joints"});
   DeclareRole(Plant{.command = command, .position = position, .velocity = velocity});
   DeclareRole(Plots{.id = "speed", .title = "Joint speeds", .signal = velocity});
+  if (params_.lower) DeclareRole(StopOf(*params_.lower, Limits::Shown::kBelow, position));
+  if (params_.upper) DeclareRole(StopOf(*params_.upper, Limits::Shown::kAbove, position));
 }
 
 ContinuousState IntegratorPlant::DeclareVelocity() {

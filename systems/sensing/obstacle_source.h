@@ -38,8 +38,6 @@ class ObstacleSource final : public System {
       "holds obstacles that stand or move by script",
       "pose = motion(s) for appear <= s < disappear, s = period floor(t / period)",
       "Jain, Sixt, Exner 2016, Algorithm 1"};
-  /// The parameter `obstacles` of this type says where they are before it is made.
-  static constexpr bool kSaysObstacles = true;
   struct Frame {
     std::string name{};
     PoseParams pose{};

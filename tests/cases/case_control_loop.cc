@@ -63,10 +63,10 @@ int RunObstacle(const std::string& kind) {
                                       "mapping",    "relaxation", "limiter"};
   const auto avoidance = oca::loading::Blueprint(File()).Build(
       {{"parameters.max_distance", "2"}, {"parameters.sensing_distance", "2"}}, {.part = part});
-  const auto q = avoidance.diagram->GetInput<Vector>("plant_position");
-  const auto obstacles = avoidance.diagram->GetInput<ObstacleSet>("obstacles_obstacles");
+  const auto q = avoidance.diagram->GetInput<Vector>("plant.position");
+  const auto obstacles = avoidance.diagram->GetInput<ObstacleSet>("obstacles.obstacles");
   const auto near =
-      avoidance.diagram->GetOutput<oca::systems::ProximitySet>("distance_proximities");
+      avoidance.diagram->GetOutput<oca::systems::ProximitySet>("distance.proximities");
   ControlLoop loop(*avoidance.diagram, oca::Period(1, 100));
   loop.Watch(near);
   ObstacleSet scene{{Box(0.9, "box")}};
@@ -91,12 +91,12 @@ int RunJoint(const std::string& method, double radians) {
     if (!outside) part.push_back(block.name);
   }
   const auto loaded = blueprint.Build(overrides, {.part = part});
-  const auto q = loaded.diagram->GetInput<Vector>("plant_position");
-  const auto obstacles = loaded.diagram->GetInput<ObstacleSet>("obstacles_obstacles");
+  const auto q = loaded.diagram->GetInput<Vector>("plant.position");
+  const auto obstacles = loaded.diagram->GetInput<ObstacleSet>("obstacles.obstacles");
   ControlLoop loop(*loaded.diagram, oca::Period(1, 100));
-  loop.Watch(loaded.diagram->GetOutput<Vector>("servo_command"));
+  loop.Watch(loaded.diagram->GetOutput<Vector>("servo.command"));
   for (const auto& input : loaded.diagram->inputs()) {
-    if (input.type != &oca::kVectorType || input.name == "plant_position") continue;
+    if (input.type != &oca::kVectorType || input.name == "plant.position") continue;
     if (!loop.Set(loaded.diagram->GetInput<Vector>(input.name), Eigen::VectorXd::Zero(7)).ok()) {
       return 1;
     }

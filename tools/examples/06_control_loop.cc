@@ -15,9 +15,9 @@ int main(int argc, char** argv) {
     const oca::loading::Blueprint file(argc > 1 ? argv[1] : "diagrams/first.yaml");
     const auto whole = file.Build();
     const auto part = file.Build({}, {.part = oca::loading::InsideOf(*whole.diagram)});
-    const auto measured = part.diagram->GetInput<oca::Vector>("plant_position");
-    const auto seen = part.diagram->GetInput<ObstacleSet>("obstacles_obstacles");
-    const auto command = part.diagram->GetOutput<oca::Vector>("servo_command");  // rad/s
+    const auto measured = part.diagram->GetInput<oca::Vector>("plant.position");
+    const auto seen = part.diagram->GetInput<ObstacleSet>("obstacles.obstacles");
+    const auto command = part.diagram->GetOutput<oca::Vector>("servo.command");  // rad/s
 
     const oca::Context start = whole.diagram->MakeContext();
     const auto plant = whole.diagram->GetOutput<oca::Vector>("plant.position");

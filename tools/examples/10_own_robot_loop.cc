@@ -25,9 +25,9 @@ int main(int argc, char** argv) try {
   const std::vector<oca::files::Override> faster{{"parameters.rate", "1000"}};
   const auto whole = file.Build(faster);
   const auto part = file.Build(faster, {.part = oca::loading::InsideOf(*whole.diagram)});
-  const auto joints = part.diagram->GetInput<oca::Vector>("plant_position");
-  const auto camera = part.diagram->GetInput<ObstacleSet>("obstacles_obstacles");
-  const auto command = part.diagram->GetOutput<oca::Vector>("servo_command");
+  const auto joints = part.diagram->GetInput<oca::Vector>("plant.position");
+  const auto camera = part.diagram->GetInput<ObstacleSet>("obstacles.obstacles");
+  const auto command = part.diagram->GetOutput<oca::Vector>("servo.command");
   const oca::Context start = whole.diagram->MakeContext();
   Robot robot{whole.diagram->GetOutput<oca::Vector>("plant.position").Eval(start)};
   ObstacleSet scene = whole.diagram->GetOutput<ObstacleSet>("obstacles.obstacles").Eval(start);

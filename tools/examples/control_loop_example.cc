@@ -76,14 +76,9 @@ const Role& TheOne(const oca::loading::LoadedDiagram& whole, const char* what) {
                            what + "; expected one");
 }
 
-/// The name under which the part exports an output, or the input that it drives.
-std::string NameOf(const oca::Diagram& whole, const oca::OutputHandle& output) {
-  return oca::loading::ExportedName(whole.PathOf(output));
-}
-
-/// The same of what drives an input.
-std::string NameOf(const oca::Diagram& whole, const oca::InputHandle& input) {
-  if (const auto driver = whole.DriverOf(input)) return NameOf(whole, *driver);
+/// The path of what drives an input.
+std::string DriverOf(const oca::Diagram& whole, const oca::InputHandle& input) {
+  if (const auto driver = whole.DriverOf(input)) return whole.PathOf(*driver);
   throw std::runtime_error(whole.PathOf(input) + ": driver; got none; expected one");
 }
 
@@ -113,10 +108,10 @@ int Run(const Arguments& arguments) {
   const auto& judge = TheOne<Judges>(whole, "judges");
   const auto part = blueprint.Build(arguments.overrides, {.part = oca::loading::InsideOf(all)});
   const oca::Diagram& diagram = *part.diagram;
-  const auto measured = diagram.GetInput<Vector>(NameOf(all, plant.position));
-  const auto obstacles = diagram.GetInput<ObstacleSet>(NameOf(all, camera.obstacles));
-  const auto command = diagram.GetOutput<Vector>(NameOf(all, plant.command));  // joint velocities
-  const auto delta = diagram.GetOutput<Vector>(NameOf(all, judge.delta));
+  const auto measured = diagram.GetInput<Vector>(all.PathOf(plant.position));
+  const auto obstacles = diagram.GetInput<ObstacleSet>(all.PathOf(camera.obstacles));
+  const auto command = diagram.GetOutput<Vector>(DriverOf(all, plant.command));  // joint velocities
+  const auto delta = diagram.GetOutput<Vector>(DriverOf(all, judge.delta));
 
   const oca::Context start_of_all = all.MakeContext();
   Eigen::VectorXd q = oca::Typed<Vector>(plant.position).Eval(start_of_all);

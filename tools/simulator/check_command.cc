@@ -18,8 +18,7 @@ namespace {
 std::size_t CountConnections(const Diagram& diagram) {
   std::size_t count = 0;
   for (const Diagram::Leaf& leaf : diagram.systems()) {
-    const int inputs = static_cast<int>(leaf.system->inputs().size());
-    for (int i = 0; i < inputs; ++i) count += diagram.DriverOf({{leaf.system, i}}) ? 1 : 0;
+    count += diagram.DriversOf(*leaf.system).size();
   }
   return count;
 }

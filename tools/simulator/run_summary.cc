@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "oca/diagrams/runs/blind_spots.h"
+#include "oca/models/robot/joint_limits.h"
 #include "oca/models/robot/robot_model.h"
 #include "tools/simulator/terminal.h"
 
@@ -76,8 +77,7 @@ std::string NotSeenLine(const loading::LoadedDiagram& loaded) {
 const char* UnitOfJoint(const loading::LoadedDiagram& loaded, models::Name joint) {
   for (const auto& named : loaded.models.all()) {
     for (const robot::Joint& each : named.second->joints()) {
-      if (each.name != joint) continue;
-      return each.type == robot::JointType::kPrismatic ? "m" : "rad";
+      if (each.name == joint) return robot::PositionUnit(each);
     }
   }
   return "rad";

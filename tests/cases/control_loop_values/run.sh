@@ -8,7 +8,7 @@ grep -x "Set: ok" good
 nearest=$(tail -n 1 good)
 refused() {
   "$loop" obstacle "$1" > out || { echo "$1: exit $?"; exit 1; }
-  grep "^Set: input obstacles_obstacles at t = 0 s: .*$2" out || { echo "$1:"; cat out; exit 1; }
+  grep "^Set: input obstacles.obstacles at t = 0 s: .*$2" out || { echo "$1:"; cat out; exit 1; }
   grep -qx "Tick: ok" out && grep -qxF "$nearest" out || { echo "$1:"; cat out; exit 1; }
 }
 refused empty_body "obstacle 1: body; got none"

@@ -5,7 +5,7 @@ loop=$OCA_BUILD/tests/cases/case_control_loop
 [ -x "$loop" ] || { echo "not built: case_control_loop"; exit 1; }
 for radians in 1e3 1e6 1e15 -1e15 1e300 nan; do
   timeout 60 "$loop" joint recommended $radians > out
-  grep "^Set: input plant_position at t = .*got" out
+  grep "^Set: input plant.position at t = .*got" out
   if [ "$radians" != nan ]; then grep -q "joint 'lwr4_joint_4'" out; fi
   tail -n 1 out | awk '{ exit $4 > 2000 }'
 done

@@ -223,7 +223,7 @@ TEST_F(ForeignFileTest, PartsAndMovableDiagramsTakeItToo) {
   EXPECT_EQ(blueprint.Build({}, {.movable = true}).systems.size(), 2u);
   const loading::LoadedDiagram part =
       blueprint.Build({}, {.part = std::vector<std::string>{"foreign"}});
-  EXPECT_EQ(part.diagram->inputs().front().name, "source_value");
+  EXPECT_EQ(part.diagram->inputs().front().name, "source.value");
 }
 
 }  // namespace catalogue_test

@@ -256,6 +256,8 @@ TEST_F(OverrideTest, AnUnknownPathNamesTheNearest) {
   EXPECT_THAT(ProblemOf("simulater.duration=1"), HasSubstr("did you mean 'simulator'?"));
   EXPECT_THAT(ProblemOf("alpha.x=1"),
               HasSubstr("no 'alpha' there; did you mean 'parameters.alpha'?"));
+  EXPECT_THAT(ProblemOf("limiter.enabled=1"), HasSubstr("did you mean 'systems.limiter'?"));
+  EXPECT_THAT(ProblemOf("arm.urdf=x"), HasSubstr("did you mean 'models.arm'?"));
   EXPECT_THAT(ProblemOf("limitr.enabled=1"), HasSubstr("did you mean 'systems.limiter'?"));
   EXPECT_THAT(ProblemOf("zzz=1"), HasSubstr("no 'zzz' there; expected one of name, description, "));
   EXPECT_THAT(ProblemOf("systems.limiter.type.x=1"), HasSubstr("expected a key of a map"));

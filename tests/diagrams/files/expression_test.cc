@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "oca/diagrams/files/arithmetic.h"
+#include "oca/framework/dataflow/error_base.h"
 #include "tests/diagrams/files/yaml_text.h"
 
 namespace oca::files {
@@ -310,6 +312,11 @@ TEST(ExpressionTest, AParameterThatNothingUsesIsNamedWithItsNearest) {
               HasSubstr("parameters.raech: nothing uses it; did you mean 'reach'?"));
   EXPECT_THAT(expressions.Unused({"raech"}), testing::IsEmpty());
   EXPECT_EQ(expressions.Unused({"raeching"}).size(), 1u);
+}
+
+TEST(ArithmeticTest, WhatIsWrongIsAnErrorLikeAllOthers) {
+  EXPECT_THROW(Calculate("1 +", {}), Error);
+  EXPECT_THROW(Calculate("a + 1", {}), Error);
 }
 
 }  // namespace expression_test

@@ -4,8 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <memory>
+
 #include "oca/diagrams/foresight/motion_ahead.h"
 #include "oca/diagrams/foresight/obstacles_ahead.h"
+#include "oca/systems/sensing/obstacle_source.h"
 #include "tests/diagrams/files/yaml_text.h"
 
 namespace oca::foresight {
@@ -95,6 +98,23 @@ TEST(TreeSourceTest, TellsAGoalWithAClearanceTheObstaclesOfTheFile) {
   EXPECT_EQ(source.Find("type"), nullptr);
   EXPECT_NE(source.Find("period"), nullptr);
   EXPECT_EQ(*files::At(source.Find("obstacles")->list()->front(), "id").string(), "ball");
+}
+
+TEST(TreeSourceTest, TellsItTheObstaclesOfOtherTypesWithTheSameParameters) {
+  const files::YamlText tree(
+      "systems: {lidar: {type: Lidar, obstacles: [{id: box}]}, gain: {type: Gain, gain: 2}}\n");
+  auto catalogue = files::Catalogue::Standard();
+  using Params = systems::ObstacleSource::Params;
+  catalogue.Add<Params>(
+      "Lidar", systems::ObstacleSource::kDoc, systems::ObstacleSource::Example(),
+      [](const Params& params) { return std::make_unique<systems::ObstacleSource>(params); });
+  files::YamlText text("goal: {clearance: 0.1}");
+  TellGoal(*files::At(tree.value, "systems").map(), catalogue, *text.value.map());
+  const Value around = files::At(text.value, "goal", "around");
+  ASSERT_NE(around.list(), nullptr);
+  ASSERT_EQ(around.list()->size(), 1u);
+  EXPECT_EQ(*files::At(around.list()->front().Find("obstacles")->list()->front(), "id").string(),
+            "box");
 }
 
 TEST(TreeSourceTest, TellsNothingToAGoalThatNamesThemOrWithoutClearance) {

@@ -323,12 +323,12 @@ TEST(BlueprintTest, BuildsPartsAndMovableDiagrams) {
   const LoadedDiagram whole = blueprint.Build();
   const LoadedDiagram part = blueprint.Build({}, {.part = InsideOf(*whole.diagram)});
   EXPECT_LT(part.systems.size(), whole.systems.size());
-  EXPECT_NO_THROW(part.diagram->GetInput<Vector>("plant_position"));
+  EXPECT_NO_THROW(part.diagram->GetInput<Vector>("plant.position"));
   EXPECT_THAT(part.record, IsEmpty());
   const LoadedDiagram movable = blueprint.Build({}, {.movable = true});
   const auto& inputs = movable.diagram->exported_inputs();
   ASSERT_EQ(inputs.size(), 1u);
-  EXPECT_EQ(inputs.front().name, "obstacles_offsets");
+  EXPECT_EQ(inputs.front().name, "obstacles.offsets");
   EXPECT_THAT(whole.diagram->exported_inputs(), IsEmpty());
 }
 

@@ -27,7 +27,6 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-using testing::UnorderedElementsAre;
 
 class NestingTest : public nested_files::NestedFiles {};
 
@@ -174,23 +173,6 @@ TEST_F(NestingTest, WritesTablesByTheWholePathWithColumnsByThePort) {
   std::string header;
   std::getline(table, header);
   EXPECT_EQ(header, "time,out[0],out[1]");
-}
-
-TEST_F(NestingTest, BuildsAPartThatIsInsideOfAUse) {
-  const Blueprint blueprint(folder.Write("d.yaml", TwoStages()));
-  const auto part = [&](std::vector<std::string> names) {
-    const LoadedDiagram loaded = blueprint.Build({}, {.part = std::move(names)});
-    std::vector<std::string> ports;
-    for (const auto& input : loaded.diagram->exported_inputs()) ports.push_back(input.name);
-    for (const auto& output : loaded.diagram->exported_outputs()) ports.push_back(output.first);
-    return ports;
-  };
-  EXPECT_THAT(part({"second"}), ElementsAre("first_lag_out", "second_gain_out", "second_lag_out"));
-  EXPECT_THAT(part({"first.lag", "second.gain"}),
-              UnorderedElementsAre("first_gain_out", "first_lag_out", "second_gain_out"));
-  EXPECT_THAT([&] { part({"first.gian"}); },
-              testing::ThrowsMessage<ConfigError>(
-                  HasSubstr("part: no system 'first.gian'; did you mean 'first.gain'?")));
 }
 
 TEST_F(NestingTest, AFileAloneHasThePortsThatItsConnectionsName) {

@@ -26,9 +26,9 @@ const std::vector<files::Override> kFast{{"parameters.rate", "1000"}};
 struct Part {
   explicit Part(const std::vector<files::Override>& overrides)
       : loaded(loading::Blueprint(kStaticTest).Build(overrides, {.part = kAvoidance})),
-        q(loaded.diagram->GetInput<Vector>("plant_position")),
-        obstacles(loaded.diagram->GetInput<ObstacleSet>("obstacles_obstacles")),
-        delta(loaded.diagram->GetOutput<Vector>("limiter_limited_delta")) {}
+        q(loaded.diagram->GetInput<Vector>("plant.position")),
+        obstacles(loaded.diagram->GetInput<ObstacleSet>("obstacles.obstacles")),
+        delta(loaded.diagram->GetOutput<Vector>("limiter.limited_delta")) {}
   loading::LoadedDiagram loaded;
   Input<Vector> q;
   Input<ObstacleSet> obstacles;
@@ -113,10 +113,10 @@ TEST(EmbeddingTest, ABrokenSensorIsRefusedByNameAndTheDeltaStays) {
   const Eigen::VectorXd delta = loop.Get(part.delta);
   Eigen::VectorXd broken = samples.back().q;
   broken[3] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_STREQ(loop.Set(part.q, broken).port(), "plant_position");
+  EXPECT_STREQ(loop.Set(part.q, broken).port(), "plant.position");
   ObstacleSet lost = samples.back().obstacles;
   lost.obstacles[0].X_WO.translation().x() = std::numeric_limits<double>::infinity();
-  EXPECT_STREQ(loop.Set(part.obstacles, lost).port(), "obstacles_obstacles");
+  EXPECT_STREQ(loop.Set(part.obstacles, lost).port(), "obstacles.obstacles");
   EXPECT_FALSE(loop.Set(part.q, broken.head(6)).ok());
   EXPECT_EQ(loop.Get(part.delta), delta);
   EXPECT_TRUE(loop.Tick().ok());
@@ -127,9 +127,9 @@ TEST(BuildPartTest, ExportsWhatCrossesItsBorderAndNothingElse) {
   std::vector<std::string> inputs, systems;
   for (const auto& input : part.loaded.diagram->inputs()) inputs.push_back(input.name);
   for (const auto& block : part.loaded.systems) systems.push_back(block.name);
-  EXPECT_THAT(inputs, testing::UnorderedElementsAre("plant_position", "obstacles_obstacles"));
+  EXPECT_THAT(inputs, testing::UnorderedElementsAre("plant.position", "obstacles.obstacles"));
   EXPECT_THAT(systems, testing::UnorderedElementsAreArray(kAvoidance));
-  EXPECT_NO_THROW(part.loaded.diagram->GetOutput<Vector>("mapping_delta"));
+  EXPECT_NO_THROW(part.loaded.diagram->GetOutput<Vector>("mapping.delta"));
   EXPECT_TRUE(part.loaded.record.empty());
 }
 

@@ -56,5 +56,15 @@ TEST(DiagramHeaderTest, AddTakesParametersInBracesAndWhatTheConstructorTakesBesi
   EXPECT_EQ(third.out.Eval(context)[0], -10.75);
 }
 
+TEST(DiagramHeaderTest, AddTakesTheDefaultsIfNoParametersAreGiven) {
+  DiagramBuilder builder;
+  const auto& twice = builder.Add<Double>("twice");
+  builder.ExportInput("in", twice.in);
+  const auto diagram = builder.Build();
+  Context context = diagram->MakeContext();
+  diagram->GetInput<Vector>("in").Fix(context, Eigen::VectorXd::Constant(1, 3.0));
+  EXPECT_EQ(twice.out.Eval(context)[0], 6.0);
+}
+
 }  // namespace diagram_header_test
 }  // namespace oca

@@ -103,6 +103,30 @@ TEST_F(DiagramQuestionsTest, SaysWhoDrivesAnInput) {
   EXPECT_EQ(diagram_->ExportOf(In("sum.in0")), std::nullopt);
 }
 
+TEST_F(DiagramQuestionsTest, SaysWhatDrivesALeafInputByInput) {
+  const auto of_filter = diagram_->DriversOf(*diagram_->FindSystem("cell.arm.filter"));
+  ASSERT_EQ(of_filter.size(), 1u);
+  EXPECT_EQ(of_filter[0].from, Out("source.value"));
+  EXPECT_EQ(of_filter[0].to, In("cell.arm.filter.in"));
+  const auto of_sum = diagram_->DriversOf(*diagram_->FindSystem("sum"));
+  ASSERT_EQ(of_sum.size(), 1u);  // the other comes from outside
+  EXPECT_EQ(of_sum[0].to, In("sum.in0"));
+  EXPECT_TRUE(diagram_->DriversOf(*diagram_->FindSystem("source")).empty());
+}
+
+TEST_F(DiagramQuestionsTest, WalksUpFromLeafToLeafToWhereItIsToEnd) {
+  const auto leaf = [&](const char* path) { return diagram_->FindSystem(path); };
+  const auto never = [](const System&) { return false; };
+  EXPECT_THAT(
+      diagram_->LeavesUpstream({leaf("sum")}, never),
+      ElementsAre(leaf("sum"), leaf("cell.arm.delay"), leaf("cell.arm.filter"), leaf("source")));
+  const auto at_filter = [&](const System& system) { return &system == leaf("cell.arm.filter"); };
+  EXPECT_THAT(diagram_->LeavesUpstream({leaf("sum")}, at_filter),
+              ElementsAre(leaf("sum"), leaf("cell.arm.delay"), leaf("cell.arm.filter")));
+  EXPECT_THAT(diagram_->LeavesUpstream({leaf("cell.arm.filter"), leaf("sum")}, at_filter),
+              ElementsAre(leaf("cell.arm.filter"), leaf("sum"), leaf("cell.arm.delay")));
+}
+
 TEST_F(DiagramQuestionsTest, SaysWhoReadsAnOutput) {
   EXPECT_THAT(diagram_->ReadersOf(Out("source.value")),
               ElementsAre(In("cell.arm.filter.in"), In("cell.arm.other.in")));

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 
 #include <limits>
+#include <memory>
+#include <string>
 
 #include "tests/framework/dataflow/blocks.h"
 
@@ -201,6 +203,43 @@ TEST(WiringTest, OnlyAnExportedInputCanBeFixed) {
 TEST(WiringTest, AnEmptyDiagramIsADiagram) {
   const auto diagram = DiagramBuilder().Build();
   EXPECT_EQ(diagram->MakeContext().time(), 0.0);
+}
+
+/// A map whose input a diagram exports by a name that is a path.
+std::unique_ptr<Diagram> Imports(const std::string& name) {
+  DiagramBuilder builder;
+  const auto& map = builder.Add<blocks::Map>("map", [](double x) { return 2.0 * x; });
+  builder.Add<blocks::Source>("source", Vec({1.0}));
+  builder.ExportInput(name, map.in);
+  return builder.Build();
+}
+
+TEST(ExportedPathTest, IsFoundAsItIsWrittenThroughNestingToo) {
+  const auto diagram = Imports("left.plant.position");
+  Context context = diagram->MakeContext();
+  diagram->GetInput<Vector>("left.plant.position").Fix(context, Vec({3.0}));
+  EXPECT_EQ(diagram->GetOutput<Vector>("map.out").Eval(context)[0], 6.0);
+  EXPECT_EQ(diagram->PathOf(diagram->FindInput("left.plant.position")), "left.plant.position");
+
+  DiagramBuilder builder;
+  const System& part = builder.AddSystem("part", Imports("left.plant.position"));
+  builder.ExportInput("q", part.FindInput("left.plant.position"));
+  const auto root = builder.Build();
+  EXPECT_EQ(root->FindInput("part.left.plant.position"), part.FindInput("left.plant.position"));
+  EXPECT_EQ(root->ExportOf(root->FindInput("part.left.plant.position")), root->FindInput("q"));
+}
+
+TEST(ExportedPathTest, LeadsToNoOtherPortInside) {
+  EXPECT_NO_THROW(Imports("map.in"));
+  for (const char* taken : {"map.out", "map.other", "source.value"}) {
+    EXPECT_THAT([&] { Imports(taken); }, testing::ThrowsMessage<WiringError>(
+                                             HasSubstr(std::string("exported input '") + taken +
+                                                       "': got another port than the one inside")))
+        << taken;
+  }
+  for (const char* none : {"", ".", "a.", ".a", "a..b", "a b.c"}) {
+    EXPECT_THROW(Imports(none), WiringError) << none;
+  }
 }
 
 }  // namespace wiring_test

@@ -217,6 +217,7 @@ TEST(IntegratorOrderTest, TolerancesCanBeSetForOneSystem) {
   EXPECT_THROW(steps({{"zero", {1e-10, 1e-12}}}), ConfigError);
   EXPECT_THROW(steps({{"ode", {0.0, 1e-12}}}), ConfigError);
   EXPECT_THROW(steps({{"ode", {1e-10, -1.0}}}), ConfigError);
+  EXPECT_THROW(steps({{"ode", {2.0, 1e-12}}}), ConfigError);  // as of all systems: at most 1
 }
 
 }  // namespace integrator_test

@@ -247,6 +247,10 @@ TEST(SimulatorTest, RefusesIntegratorOptionsOutOfBounds) {
     EXPECT_THROW(Simulator(*diagram, {.fixed_step = bad}), ConfigError);
   }
   EXPECT_THROW(Simulator(*diagram, {.max_steps = 0}), ConfigError);
+  EXPECT_THAT([&] { Simulator(*diagram, {.relative_tolerance = 2.0}); },
+              testing::ThrowsMessage<ConfigError>("simulator.relative_tolerance: got 2; expected "
+                                                  "in (0, 1]"));
+  EXPECT_NO_THROW(Simulator(*diagram, {.relative_tolerance = 1.0}));
   EXPECT_THROW(Simulator(*diagram, {.tolerances = {{"system", {1e-6, 1e-9}}}}), ConfigError);
   EXPECT_NO_THROW(Simulator(*diagram, {.max_steps = 1}));
 }

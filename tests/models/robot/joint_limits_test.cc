@@ -45,6 +45,12 @@ class Chain {
   std::vector<Joint> joints;
 };
 
+TEST(JointLimitsTest, APositionIsInMetresOfASliderAndElseInRadians) {
+  EXPECT_STREQ(PositionUnit({.type = JointType::kPrismatic}), "m");
+  EXPECT_STREQ(PositionUnit({.type = JointType::kRevolute}), "rad");
+  EXPECT_STREQ(PositionUnit({.type = JointType::kContinuous}), "rad");
+}
+
 TEST(JointLimitsTest, AMimicBindsItsLeader) {
   Chain chain(2);
   chain.joints[0].acceleration_limit = 9.0;

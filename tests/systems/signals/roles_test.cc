@@ -3,10 +3,13 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "oca/framework/dataflow/diagram.h"
 #include "oca/framework/dataflow/dynamic_port.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/systems/basics/gain.h"
+#include "oca/systems/basics/saturation.h"
 #include "oca/systems/fields/attractive_field.h"
 #include "oca/systems/fields/delta_limiter.h"
 #include "oca/systems/fields/delta_overlay.h"
@@ -78,6 +81,26 @@ TEST(RolesTest, ALimiterOfTheDeltaSaysItsBoundOfEachJoint) {
   params.max_joint_velocity = Eigen::VectorXd(Eigen::Vector2d(0.5, 2.0));
   EXPECT_EQ(LimitOf(DeltaLimiter(params)), "rate out limited_delta 0.50 2.00");
   EXPECT_EQ(DeltaLimiter(params).role<Limits>()->period, params.period);
+}
+
+TEST(RolesTest, ASaturationShowsByItsInputWhatItCutsOnEachSideThatItHas) {
+  EXPECT_EQ(LimitOf(Saturation({.lower = -0.5})), "below in in -0.5");
+  EXPECT_EQ(LimitOf(Saturation({.upper = Eigen::Vector2d(0.25, 2.0)})), "above in in 0.25 2.00");
+  EXPECT_EQ(LimitOf(Saturation({.lower = -1.0, .upper = 1.0})), "2 limits");
+  EXPECT_EQ(LimitOf(Saturation({})), "0 limits");
+}
+
+TEST(RolesTest, JointsWithStopsShowByTheirPositionWhereTheyStandAtOne) {
+  EXPECT_EQ(LimitOf(IntegratorPlant({})), "0 limits");
+  EXPECT_EQ(LimitOf(IntegratorPlant({.lower = -1.0, .upper = 1.0})), "2 limits");
+  const IntegratorPlant above({.upper = Eigen::Vector2d(0.1, 2.5)});
+  EXPECT_EQ(LimitOf(above), "above out position 0.10 2.50");
+  const auto& upper = above.role<Limits>()->bound;
+  EXPECT_LT(upper[0], 0.1);  // at the stop is above
+  EXPECT_EQ(std::nextafter(upper[0], 1.0), 0.1);
+  const IntegratorPlant below({.lower = -0.25});
+  EXPECT_EQ(LimitOf(below), "below out position -0.2");
+  EXPECT_GT(below.role<Limits>()->bound[0], -0.25);
 }
 
 TEST(RolesTest, WhatIsSwitchedOffLimitsNothing) {
