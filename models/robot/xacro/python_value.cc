@@ -169,7 +169,7 @@ bool LessIn(const PythonValue& a, const PythonValue& b, Steps& steps) {
 }  // namespace
 
 Mistake::Mistake(std::string_view what, std::string_view got, std::string_view expected)
-    : std::runtime_error(fmt::format("{}; got {}; expected {}", what, got, expected)) {}
+    : Error(fmt::format("{}; got {}; expected {}", what, got, expected)) {}
 
 PythonValue PythonValue::ListOf(Items items, bool tuple) {
   CheckCount(items.size());

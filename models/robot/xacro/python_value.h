@@ -3,21 +3,22 @@
 
 #include <cstdint>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include "oca/framework/dataflow/error_base.h"
+
 namespace oca::robot::xacro {
 
 /// What is wrong with an expression or an element; who knows the place adds it.
-class Mistake : public std::runtime_error {
+class Mistake : public Error {
  public:
   /// "what; got X; expected Y"
   Mistake(std::string_view what, std::string_view got, std::string_view expected);
-  explicit Mistake(const std::string& text) : std::runtime_error(text) {}
+  explicit Mistake(const std::string& text) : Error(text) {}
 };
 
 /// A value of an expression, with the types, texts and comparisons of Python, whose whole numbers
