@@ -38,8 +38,8 @@ struct Rules {
 /// First what a person would ask for, then what arms can that hang, or are short on a long rail.
 constexpr Rules kRules[] = {{true, 0.35, 0.85, 0.45, 1.0 / 8.0},
                             {false, 0.35, 0.85, 0.45, 1.0 / 8.0},
-                            {true, 0.15, 1.0, 0.25, 1.0 / 16.0},
-                            {false, 0.15, 1.0, 0.25, 1.0 / 16.0}};
+                            {true, 0.02, 1.0, 0.25, 1.0 / 16.0},
+                            {false, 0.02, 1.0, 0.25, 1.0 / 16.0}};
 
 /// One call of ProposeMotions.
 class MotionSearch {
