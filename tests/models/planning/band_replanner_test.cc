@@ -94,7 +94,9 @@ TEST_F(BandReplannerTest, LooksAgainBeforeASlowRequestLeavesItsHorizon) {
     least = std::min(least, clearance.Nearest(1.0).distance);
     const BandSituation now{time, slow, obstacles_, q};
     replanner_.Plan(now, time + 0.02, std::nullopt, memory_);
-    if (memory_.next.end() < end) EXPECT_LE(memory_.next_until.all, memory_.next.end()) << time;
+    if (memory_.next.end() < end) {
+      EXPECT_LE(memory_.next_until.all, memory_.next.end()) << time;
+    }
   }
   EXPECT_LT(least_requested, 0.0);
   EXPECT_GT(least, 0.04);
