@@ -198,6 +198,7 @@ void BandReplanner::GiveWay(const BandSituation& now, const BandPlan& found,
     memory.Unblock();
   } else if (failed) {
     memory.rest = memory.search.nearest();
+    memory.search.AimAtNearest();
     const bool contact = found.goal_room <= 0.0;
     memory.block = contact ? BandBlock::kContact : BandBlock::kWay;
     memory.block_link = contact ? found.goal_link : found.rest_link;

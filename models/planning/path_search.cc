@@ -69,6 +69,7 @@ void PathSearch::MoveStart(robot::Clearance& clearance, const VectorXd& start, l
     evaluations += motion.evaluations();
     if (nearest_ == 0) nearest_ = trees_.from_start.last();
     Note(0, levels_.least_gain);
+    if (state_ == State::kFound) path_ = PathToNearest();
     return;
   }
   evaluations += motion.evaluations();
@@ -78,6 +79,16 @@ void PathSearch::MoveStart(robot::Clearance& clearance, const VectorXd& start, l
   if (state_ == State::kFound || state_ == State::kExhausted) state_ = State::kSearching;
   since_ = 0;
   level_nodes_ = trees_.from_goal.size();
+}
+
+void PathSearch::AimAtNearest() {
+  goal_ = trees_.from_start.q(nearest_);
+  goal_clear_ = true;
+  trees_.from_goal = SearchTree(goal_);
+  nearest_distance_ = 0.0;
+  path_ = PathToNearest();
+  if (path_.size() == 1) path_.push_back(goal_);  // it is where it starts
+  state_ = State::kFound;
 }
 
 void PathSearch::Note(int node, double least_gain) {

@@ -50,6 +50,10 @@ class PathSearch {
   /// Looks at about `most` configurations; adds what it looked at to `evaluations`.
   void Continue(robot::Clearance& clearance, long most, long& evaluations);
 
+  /// After kExhausted: from now on the nearest position reached is the goal, and the path there, which
+  /// was proved, is found.
+  void AimAtNearest();
+
   /// At the end of kFound: from the start to the goal.
   const std::vector<Eigen::VectorXd>& path() const { return path_; }
   /// The level that the search is at, m.

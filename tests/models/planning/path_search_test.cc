@@ -103,6 +103,19 @@ TEST(PathSearchTest, EndsNearAGoalThatIsWalledIn) {
   EXPECT_LT(search.nearest_distance(), 1.1 * least);
   EXPECT_EQ(search.nearest_distance(), (search.nearest() - kGoal).norm());
   ExpectClear(clearance, search.PathToNearest(), 0.01);
+  // What was reached is a goal to which the way is known, from another start too.
+  const VectorXd nearest = search.nearest();
+  search.AimAtNearest();
+  EXPECT_TRUE(search.IsFor(nearest));
+  ASSERT_EQ(search.state(), State::kFound);
+  EXPECT_EQ(search.path().front(), kStart);
+  EXPECT_EQ(search.path().back(), nearest);
+  const VectorXd beside = kStart + VectorXd(Eigen::Vector2d(0.01, -0.01));
+  search.MoveStart(clearance, beside, looks);
+  ASSERT_EQ(search.state(), State::kFound);
+  EXPECT_EQ(search.path().front(), beside);
+  EXPECT_EQ(search.path().back(), nearest);
+  ExpectClear(clearance, search.path(), 0.01);
 }
 
 TEST(PathSearchTest, EndsNearAGoalThatIsInContact) {
