@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "oca/models/geometry/ply_header.h"
+#include "oca/models/geometry/polygon.h"
 #include "oca/models/table_text.h"
 
 namespace oca::geometry::internal {
@@ -19,8 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
-
-constexpr std::size_t kMostTriangles = 10'000'000;
 
 /// The numbers behind the header, element after element, each on a line of its own if it is text.
 class Body {
