@@ -201,15 +201,11 @@ TriangleMesh ReadPly(const fs::path& file, std::string_view text, PlyPart part) 
   }
   TriangleMesh mesh;
   Body body(file, header, text);
-  int left = part == PlyPart::kMesh ? 2 : 1;
   for (const PlyElement& element : header.elements) {
-    if (left == 0) break;
     if (element.name == "vertex") {
       ReadVertices(file, element, body, mesh);
-      --left;
     } else if (element.name == "face" && part == PlyPart::kMesh) {
       ReadFaces(file, element, *vertices, body, mesh);
-      --left;
     } else {
       Skip(element, body);
     }
