@@ -51,6 +51,7 @@ void CheckScale(const fs::path& file, const Vector3d& scale) {
 void DropUnused(TriangleMesh* mesh) {
   std::vector<int> index(mesh->vertices.size(), -1);
   std::vector<Vector3d> used;
+  used.reserve(mesh->vertices.size());
   for (auto& triangle : mesh->triangles) {
     for (int& v : triangle) {
       if (index[v] < 0) {

@@ -26,7 +26,7 @@ class ObjText {
   TriangleMesh Read() {
     if (text_.find('\0') != text_.npos) Refuse("is no OBJ file", "a zero byte", "text");
     ForEachLine([&](std::string_view line) {
-      if (KeyOf(line) == "v") AddVertex(models::internal::Words(line));
+      if (KeyOf(line) == "v") AddVertex(line);
     });
     std::int64_t before = 0;  // vertices, of the line
     ForEachLine([&](std::string_view line) {
@@ -74,7 +74,8 @@ class ObjText {
     line_ = 0;
   }
 
-  void AddVertex(const std::vector<std::string_view>& words) {
+  void AddVertex(std::string_view line) {
+    const auto words = models::internal::Words(models::internal::TakeTableLine(file_, line_, line));
     if (words.size() < 4) {
       Refuse("vertex", fmt::format("{} numbers", words.size() - 1), "3, x, y and z");
     }
@@ -101,12 +102,11 @@ class ObjText {
 
   void AddFace(std::string_view line, std::int64_t before) {
     corners_.clear();
-    auto words = models::internal::Words(line);
-    words.erase(words.begin());
+    const auto words = models::internal::Words(models::internal::TakeTableLine(file_, line_, line));
     if (mesh_.triangles.size() + words.size() > kMostTriangles) {
       Refuse("triangles", "more", fmt::format("at most {}", kMostTriangles));
     }
-    for (const std::string_view word : words) corners_.push_back(Corner(word, before));
+    for (std::size_t i = 1; i < words.size(); ++i) corners_.push_back(Corner(words[i], before));
     AddPolygon(corners_, mesh_);
   }
 

@@ -81,8 +81,7 @@ PcdHeader ReadPcdHeader(const fs::path& file, std::string_view& rest) {
   PcdHeader header;
   int& line = header.lines;
   while (!rest.empty()) {
-    const auto words = models::internal::Words(models::internal::TakeLine(rest));
-    ++line;
+    const auto words = models::internal::Words(models::internal::TakeTableLine(file, ++line, rest));
     if (words.empty() || words[0].starts_with('#')) continue;
     const std::vector<std::string_view> values(words.begin() + 1, words.end());
     const std::string_view first = values.empty() ? "none" : values[0];
@@ -174,8 +173,7 @@ std::vector<Vector3d> ReadText(const fs::path& file, const PcdHeader& header, co
       models::internal::RefuseText(file, line, "ends too early", fmt::format("{} points", i),
                                    fmt::format("{}", header.points));
     }
-    const auto words = models::internal::Words(models::internal::TakeLine(rest));
-    ++line;
+    const auto words = models::internal::Words(models::internal::TakeTableLine(file, ++line, rest));
     if (words.size() != layout.columns) {
       models::internal::RefuseText(file, line, "no point", fmt::format("{} values", words.size()),
                                    fmt::format("{}", layout.columns));

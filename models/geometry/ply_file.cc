@@ -33,9 +33,8 @@ class Body {
     index_ = index;
     if (!header_.text) return;
     if (rest_.empty()) RefuseEnd();
-    words_ = models::internal::Words(models::internal::TakeLine(rest_));
+    words_ = models::internal::Words(models::internal::TakeTableLine(file_, ++line_, rest_));
     next_ = 0;
-    ++line_;
   }
 
   double Take(const Scalar& scalar) {
@@ -51,6 +50,9 @@ class Body {
     if (!number) Refuse("no number", models::internal::Shown(word), "numbers");
     return *number;
   }
+
+  /// How many elements may follow, that take `least` bytes each at least.
+  std::uint64_t Room(std::uint64_t least) const { return rest_.size() / least; }
 
   /// How long a list is.
   std::uint64_t TakeCount(const Scalar& scalar) {
@@ -123,6 +125,7 @@ void ReadVertices(const fs::path& file, const PlyElement& element, Body& body, T
     models::internal::RefuseText(file, 0, "has no coordinates", "other properties of a vertex",
                                  "x, y and z");
   }
+  mesh.vertices.reserve(std::min(element.count, body.Room(3)));
   for (std::uint64_t i = 0; i < element.count; ++i) {
     Vector3d point;
     body.Begin(element, i);

@@ -97,6 +97,12 @@ TEST(ObjFileTest, PolygonsWithOneCornerInwardsAreCoveredAndNoMore) {
   EXPECT_NEAR(Area(angle), 3.0, 1e-12);
 }
 
+// Its words would take eight times its room.
+TEST(ObjFileTest, RefusesALineTooLong) {
+  EXPECT_EQ(RefusalOf(kVertices + ("f" + std::string(10'000'000, ' '))),
+            "a.obj:4: a line too long; got 10000001 characters; expected at most 10000000");
+}
+
 TEST(ObjFileTest, APolygonTakesTimeInProportionToItsCorners) {
   // 300,000 corners, for which a search for ears takes minutes.
   constexpr int kCorners = 300'000;
