@@ -136,6 +136,16 @@ const std::array<Reason, 30> kReasons{
      {YAML::ErrorMsg::MULTIPLE_TAGS, kTwice},
      {YAML::ErrorMsg::MULTIPLE_ANCHORS, kTwice}}};
 
+/// Where it is wrong: at the end of the text, whose column yaml-cpp loses, or before it.
+YamlMark PlaceOf(std::string_view text, const YAML::Exception& error) {
+  YamlMark at = MarkOf(error.mark);
+  if (at.offset < text.size()) return at;
+  at.line = 1 + static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+  at.column = static_cast<int>(text.size() - (text.rfind('\n') + 1)) + 1;  // npos + 1 is 0
+  at.offset = text.size();
+  return at;
+}
+
 /// In words of this project.
 std::string ReasonOf(std::string_view text, const YAML::Exception& error) {
   const std::size_t at = std::min(MarkOf(error.mark).offset, text.size());
@@ -168,7 +178,7 @@ void ReadYamlEvents(std::string_view text, YamlEvents& events) {
     while (parser.HandleNextDocument(forwarder)) {
     }
   } catch (const YAML::Exception& error) {
-    throw YamlError(MarkOf(error.mark), ReasonOf(text, error));
+    throw YamlError(PlaceOf(text, error), ReasonOf(text, error));
   }
 }
 

@@ -139,7 +139,9 @@ TEST(YamlReaderTest, SaysInItsOwnWordsWhatIsNoYaml) {
                 "on this line, of at most 1024 characters"));
   EXPECT_THAT(problems("a: b: c\n"), HasSubstr("got a colon where no key ends"));
   EXPECT_THAT(problems("systems: {k: {type: Con"),
-              HasSubstr("no YAML; got a { that nothing closes; expected } or a comma"));
+              starts("f.yaml:1:24: error: no YAML; got a { that nothing closes; expected } or a"));
+  EXPECT_THAT(problems("a: 1\nb: {c: 1\n"), starts("f.yaml:3:1: error: no YAML; got a {"));
+  EXPECT_THAT(problems("a: {b: 1\nc: 2}\n"), HasSubstr("f.yaml:2:"));
   EXPECT_THAT(problems("a: [1, 2\n"), HasSubstr("got a [ that nothing closes"));
   EXPECT_THAT(problems("%YAML 9.9\n---\na: 1\n"),
               HasSubstr("no YAML; got a directive %; expected %YAML 1.2, %TAG or none"));
