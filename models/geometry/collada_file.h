@@ -12,8 +12,8 @@ namespace oca::geometry::internal {
 /// those of instances too, skins at rest. Unit and transforms are applied, the up axis is not.
 /// Materials, pictures, animations, cameras and lights are passed over.
 ///
-/// throws ModelError `file:line: ...`: as ColladaTree and ColladaMeshes do, no scene, a reference to
-///        another file or to nothing, a node that contains itself, more than 20,000 nodes or
+/// throws ModelError `file:line: ...`: as ColladaTree and ColladaMeshes do, no scene, a reference
+///        to another file or to nothing, a node that contains itself, more than 20,000 nodes or
 ///        ColladaMeshes::kMost triangles with what instances repeat, a transform of other numbers
 /// source Khronos 2008, COLLADA - Digital asset schema release 1.4.1
 TriangleMesh ReadCollada(const std::filesystem::path& file, std::string_view text);

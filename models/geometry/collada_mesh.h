@@ -16,8 +16,8 @@ namespace oca::geometry::internal {
 /// many as `count` if it is not 0, more than 20 million
 std::vector<double> ColladaNumbers(const ColladaTree& tree, int element, std::size_t count);
 
-/// The triangles of the geometries of a Collada file: of <triangles>, <polylist>, <polygons> without
-/// their holes, <trifans> and <tristrips>.
+/// The triangles of the geometries of a Collada file: of <triangles>, <polylist>, <polygons>
+/// without their holes, <trifans> and <tristrips>.
 class ColladaMeshes {
  public:
   static constexpr std::size_t kMost = 4'000'000;  ///< triangles, and vertices, of a file
@@ -30,7 +30,7 @@ class ColladaMeshes {
   int Resolve(int from, std::string_view attribute, std::string_view kind, int near = 0) const;
   /// The same; -1 if there is none.
   int Find(std::string_view id, std::string_view kind, int near = 0) const;
-  /// Of a <geometry>, read once, in its own frame. Vertices that no triangle uses may be among them.
+  /// Of a <geometry>, read once, in its own frame. Vertices that no triangle uses may be there.
   /// throws ModelError `file:line: ...`
   const TriangleMesh& Of(int geometry);
 

@@ -24,8 +24,8 @@ constexpr char kTriangles[] =
     "<triangles count='1'><input semantic='NORMAL' source='#n' offset='0'/><input "
     "semantic='VERTEX' source='#v' offset='1'/>\n<p>9 0 9 1 9 2</p></triangles>";
 
-/// A unit square of which `primitives` are the faces, on line 4; `nodes` in the scene on line 6, and
-/// `libraries` on line 5.
+/// A unit square of which `primitives` are the faces, on line 4; behind it `libraries`, and `nodes`
+/// in the scene.
 std::string Text(const std::string& primitives = kTriangles,
                  const std::string& nodes = "<instance_geometry url='#g'/>",
                  const std::string& libraries = "") {
