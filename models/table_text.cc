@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kGaps = " \t\r";
 constexpr std::string_view kBlanks = " \t";
+constexpr std::size_t kLongestTableLine = 10'000'000;
 
 }  // namespace
 
@@ -59,6 +60,13 @@ std::string_view TakeLine(std::string_view& rest) {
   rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
   if (line.ends_with('\r')) line.remove_suffix(1);
   return line;
+}
+
+std::string_view TakeTableLine(const fs::path& file, int line, std::string_view& rest) {
+  const std::string_view taken = TakeLine(rest);
+  if (taken.size() <= kLongestTableLine) return taken;
+  RefuseText(file, line, "a line too long", fmt::format("{} characters", taken.size()),
+             fmt::format("at most {}", kLongestTableLine));
 }
 
 bool IsBlank(char c) { return c == ' ' || c == '\t'; }

@@ -37,6 +37,10 @@ std::optional<std::uint64_t> ToCount(std::string_view word, std::uint64_t most);
 /// Takes the first line off `rest`, without its line end.
 std::string_view TakeLine(std::string_view& rest);
 
+/// The same of line number `line` of a file, which Words may cut: its words take many times its
+/// room. throws ModelError if it is longer than 10 million characters
+std::string_view TakeTableLine(const std::filesystem::path& file, int line, std::string_view& rest);
+
 /// throws ModelError "file:line: what; got X; expected Y"; without the line if it is 0
 [[noreturn]] void RefuseText(const std::filesystem::path& file, int line, std::string_view what,
                              std::string_view got, std::string_view expected);

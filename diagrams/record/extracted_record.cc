@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -120,8 +121,13 @@ std::vector<fs::path> SourcesIn(const fs::path& folder, const fs::path& main) {
 
 void ExtractFiles(const McapFile& record, const fs::path& folder) {
   if (record.FindAttachment("diagram.yaml") == nullptr) {
-    throw ConfigError("record: has no attachment diagram.yaml; expected a record of OCA");
+    throw ConfigError(
+        record.complete()
+            ? "record: has no attachment diagram.yaml; expected a record of OCA"
+            : fmt::format("record: {}; got no attachment diagram.yaml before it; expected one",
+                          record.problem()));
   }
+  std::set<fs::path> names;
   for (const Attachment& attachment : record.attachments()) {
     const fs::path name = fs::path(attachment.name).lexically_normal();
     const bool text = models::internal::AsUtf8(attachment.name) == attachment.name &&
@@ -131,6 +137,10 @@ void ExtractFiles(const McapFile& record, const fs::path& folder) {
           "record: attachment; got '{}'; expected a name of a file, in UTF-8, that stays "
           "below its folder",
           attachment.name));
+    }
+    if (!names.insert(name).second) {
+      throw ConfigError(fmt::format("record: attachment; got '{}' twice; expected each name once",
+                                    name.string()));
     }
     const fs::path file = folder / name;
     std::error_code error;

@@ -10,7 +10,8 @@
 namespace oca::record {
 
 /// Writes the attachments of a record into a folder, from which `diagram.yaml` can be run.
-/// throws ConfigError if there is no such attachment, or a name that would leave the folder.
+/// throws ConfigError if there is no such attachment, two of one name, or a name that would leave
+/// the folder.
 void ExtractFiles(const McapFile& record, const std::filesystem::path& folder);
 
 /// The files of a record in a temporary folder of its own, gone with this.

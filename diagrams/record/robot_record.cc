@@ -27,6 +27,7 @@ namespace {
 using nlohmann::ordered_json;
 using robot::RobotModel;
 
+constexpr std::size_t kMostOwnPairs = 200'000;  // of some 600 links; the page looks at all at once
 const Colour kOverlay(0.94, 0.54, 0.11, 0.38);
 
 struct LinkWarning {
@@ -159,8 +160,21 @@ std::pair<double, double> SliderRange(const RobotModel& model, int position, dou
           std::min(model.upper_limits()[position], start + kHalf)};
 }
 
+/// The pairs of own links whose contacts the page marks; none, with a warning, of too many.
+ordered_json OwnPairs(const std::shared_ptr<const RobotModel>& model,
+                      std::vector<LinkWarning>& warnings) {
+  const robot::Clearance clearance(model, true, {});
+  const auto& pairs = clearance.own_pairs();
+  if (pairs.size() <= kMostOwnPairs) return pairs;
+  warnings.push_back({fmt::format("contacts of own links are not marked: got {} pairs; expected "
+                                  "at most {}",
+                                  pairs.size(), kMostOwnPairs),
+                      {}});
+  return ordered_json::array();
+}
+
 ordered_json RobotJson(const std::shared_ptr<const RobotModel>& model, const RobotSource& source,
-                       const Eigen::VectorXd& start, const std::vector<LinkWarning>& warnings) {
+                       const Eigen::VectorXd& start, std::vector<LinkWarning>& warnings) {
   ordered_json json{{"name", model->name().text()},
                     {"file", source.file},
                     {"srdf", source.srdf.empty() ? ordered_json() : ordered_json(source.srdf)},
@@ -168,7 +182,7 @@ ordered_json RobotJson(const std::shared_ptr<const RobotModel>& model, const Rob
                     {"links", ordered_json::array()},
                     {"joints", ordered_json::array()},
                     {"positions", ordered_json::array()},
-                    {"own_pairs", robot::Clearance(model, true, {}).own_pairs()},
+                    {"own_pairs", OwnPairs(model, warnings)},
                     {"disabled_pairs", model->disabled_pairs().size()},
                     {"warnings", ordered_json::array()}};
   for (const auto& link : model->links()) json["links"].push_back(LinkJson(*model, link));

@@ -85,7 +85,10 @@ Grid ReadPgm(const fs::path& file, std::string_view rest) {
     models::internal::RefuseText(file, 0, "cells", fmt::format("{}", count),
                                  fmt::format("at most {}", kMostCells));
   }
-  const std::uint64_t brightest = std::max<std::uint64_t>(take("largest grey value", 65'535), 1);
+  const std::uint64_t brightest = take("largest grey value", 65'535);
+  if (brightest == 0) {
+    models::internal::RefuseText(file, 0, "largest grey value", "0", "1 to 65535");
+  }
   const auto white = static_cast<double>(brightest);
   if (magic == "P2") {
     for (std::uint64_t i = 0; i < count; ++i) {

@@ -20,7 +20,8 @@ struct TriangleMesh {
 /// users draw in the frame of the link. `scale` multiplies x, y, z; a negative one mirrors and the
 /// triangles keep their outer side.
 /// throws ModelError naming the file: missing, empty or above 100 MB; unknown extension; content
-///        that is no such mesh; no triangle; a vertex or the scale not finite; zero scale
+///        that is no such mesh, with its line; no triangle; a vertex or the scale not finite; zero
+///        scale
 TriangleMesh LoadMesh(const std::filesystem::path& file,
                       const Eigen::Vector3d& scale = Eigen::Vector3d::Ones());
 

@@ -28,6 +28,7 @@ enum class Data { kText, kBinary, kCompressed };
 struct PcdHeader {
   std::vector<std::string_view> names, sizes, types, counts;
   std::uint64_t points{0};
+  std::optional<std::uint64_t> width, height;  // of the grid that the points make
   Data data{Data::kText};
   int lines{0};
 };
@@ -53,13 +54,34 @@ Data DataOf(const fs::path& file, int line, std::string_view word) {
                                "ascii, binary or binary_compressed");
 }
 
+std::uint64_t CountOf(const fs::path& file, int line, std::string_view what,
+                      std::string_view word) {
+  const auto count = models::internal::ToCount(word, kMostPoints);
+  if (count) return *count;
+  models::internal::RefuseText(file, line, what, models::internal::Shown(word),
+                               fmt::format("0 to {}", kMostPoints));
+}
+
+void CheckGrid(const fs::path& file, const PcdHeader& header) {
+  if (!header.width || !header.height || *header.width * *header.height == header.points) return;
+  models::internal::RefuseText(
+      file, header.lines, "number of points", fmt::format("{}", header.points),
+      fmt::format("WIDTH times HEIGHT, {} times {}", *header.width, *header.height));
+}
+
+/// Behind the points of a header, whatever their number is, no other one may follow.
+void CheckEnd(const fs::path& file, const PcdHeader& header, bool more) {
+  if (!more) return;
+  models::internal::RefuseText(file, 0, "goes on behind its points", "more points",
+                               fmt::format("{}", header.points));
+}
+
 /// Takes the header off `rest`.
 PcdHeader ReadPcdHeader(const fs::path& file, std::string_view& rest) {
   PcdHeader header;
   int& line = header.lines;
   while (!rest.empty()) {
-    const auto words = models::internal::Words(models::internal::TakeLine(rest));
-    ++line;
+    const auto words = models::internal::Words(models::internal::TakeTableLine(file, ++line, rest));
     if (words.empty() || words[0].starts_with('#')) continue;
     const std::vector<std::string_view> values(words.begin() + 1, words.end());
     const std::string_view first = values.empty() ? "none" : values[0];
@@ -72,17 +94,16 @@ PcdHeader ReadPcdHeader(const fs::path& file, std::string_view& rest) {
     } else if (words[0] == "COUNT") {
       header.counts = values;
     } else if (words[0] == "POINTS") {
-      const auto points = models::internal::ToCount(first, kMostPoints);
-      if (!points) {
-        models::internal::RefuseText(file, line, "number of points", models::internal::Shown(first),
-                                     fmt::format("0 to {}", kMostPoints));
-      }
-      header.points = *points;
+      header.points = CountOf(file, line, "number of points", first);
+    } else if (words[0] == "WIDTH") {
+      header.width = CountOf(file, line, "width", first);
+    } else if (words[0] == "HEIGHT") {
+      header.height = CountOf(file, line, "height", first);
     } else if (words[0] == "DATA") {
       header.data = DataOf(file, line, first);
+      CheckGrid(file, header);
       return header;
-    } else if (words[0] != "VERSION" && words[0] != "WIDTH" && words[0] != "HEIGHT" &&
-               words[0] != "VIEWPOINT") {
+    } else if (words[0] != "VERSION" && words[0] != "VIEWPOINT") {
       models::internal::RefuseText(file, line, "header", models::internal::Shown(words[0]),
                                    "a line of the PCD format");
     }
@@ -152,8 +173,7 @@ std::vector<Vector3d> ReadText(const fs::path& file, const PcdHeader& header, co
       models::internal::RefuseText(file, line, "ends too early", fmt::format("{} points", i),
                                    fmt::format("{}", header.points));
     }
-    const auto words = models::internal::Words(models::internal::TakeLine(rest));
-    ++line;
+    const auto words = models::internal::Words(models::internal::TakeTableLine(file, ++line, rest));
     if (words.size() != layout.columns) {
       models::internal::RefuseText(file, line, "no point", fmt::format("{} values", words.size()),
                                    fmt::format("{}", layout.columns));
@@ -170,6 +190,7 @@ std::vector<Vector3d> ReadText(const fs::path& file, const PcdHeader& header, co
     }
     points.push_back(point);
   }
+  CheckEnd(file, header, rest.find_first_not_of(" \t\r\n") != rest.npos);
   return points;
 }
 
@@ -195,6 +216,7 @@ std::vector<Vector3d> ReadBinary(const fs::path& file, const PcdHeader& header,
         file, 0, "ends too early", fmt::format("{} points", there),
         fmt::format("{} points of {} bytes", header.points, layout.record));
   }
+  CheckEnd(file, header, there > header.points);
   return Decoded(layout, header.points, [&](const Coordinate& coordinate, std::uint64_t i) {
     return rest.data() + i * layout.record + coordinate.offset;
   });

@@ -12,7 +12,8 @@ namespace oca::geometry::internal {
 /// content of the file.
 ///
 /// throws ModelError `file:line: ...`, or without a line for what is behind a binary header: no
-///        PCD, a field of no scalar type, no x, y, z, fewer points than announced, damaged data
+///        PCD, a field of no scalar type, no x, y, z, fewer or more points than announced or than
+///        WIDTH times HEIGHT, damaged data
 /// source Point Cloud Library, The PCD file format
 std::vector<Eigen::Vector3d> ReadPcd(const std::filesystem::path& file, std::string_view text);
 

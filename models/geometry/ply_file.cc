@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "oca/models/geometry/ply_header.h"
+#include "oca/models/geometry/polygon.h"
 #include "oca/models/table_text.h"
 
 namespace oca::geometry::internal {
@@ -19,8 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
-
-constexpr std::size_t kMostTriangles = 10'000'000;
 
 /// The numbers behind the header, element after element, each on a line of its own if it is text.
 class Body {
@@ -34,9 +33,8 @@ class Body {
     index_ = index;
     if (!header_.text) return;
     if (rest_.empty()) RefuseEnd();
-    words_ = models::internal::Words(models::internal::TakeLine(rest_));
+    words_ = models::internal::Words(models::internal::TakeTableLine(file_, ++line_, rest_));
     next_ = 0;
-    ++line_;
   }
 
   double Take(const Scalar& scalar) {
@@ -52,6 +50,9 @@ class Body {
     if (!number) Refuse("no number", models::internal::Shown(word), "numbers");
     return *number;
   }
+
+  /// How many elements may follow, that take `least` bytes each at least.
+  std::uint64_t Room(std::uint64_t least) const { return rest_.size() / least; }
 
   /// How long a list is.
   std::uint64_t TakeCount(const Scalar& scalar) {
@@ -124,6 +125,7 @@ void ReadVertices(const fs::path& file, const PlyElement& element, Body& body, T
     models::internal::RefuseText(file, 0, "has no coordinates", "other properties of a vertex",
                                  "x, y and z");
   }
+  mesh.vertices.reserve(std::min(element.count, body.Room(3)));
   for (std::uint64_t i = 0; i < element.count; ++i) {
     Vector3d point;
     body.Begin(element, i);
@@ -202,15 +204,11 @@ TriangleMesh ReadPly(const fs::path& file, std::string_view text, PlyPart part) 
   }
   TriangleMesh mesh;
   Body body(file, header, text);
-  int left = part == PlyPart::kMesh ? 2 : 1;
   for (const PlyElement& element : header.elements) {
-    if (left == 0) break;
     if (element.name == "vertex") {
       ReadVertices(file, element, body, mesh);
-      --left;
     } else if (element.name == "face" && part == PlyPart::kMesh) {
       ReadFaces(file, element, *vertices, body, mesh);
-      --left;
     } else {
       Skip(element, body);
     }

@@ -90,8 +90,7 @@ PlyHeader ReadPlyHeader(const fs::path& file, std::string_view& rest) {
     models::internal::RefuseText(file, 1, "is no PLY file", "another start", "ply");
   }
   while (!rest.empty()) {
-    const Line words = models::internal::Words(models::internal::TakeLine(rest));
-    ++line;
+    const Line words = models::internal::Words(models::internal::TakeTableLine(file, ++line, rest));
     if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
     if (words[0] == "end_header") return header;
     if (words[0] == "format") {

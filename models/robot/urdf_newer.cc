@@ -35,6 +35,8 @@ class Rewriter {
     if (version != nullptr && std::string(version) == "1.1") {
       root.SetAttribute("version", "1.0");
       newer_.changed = true;
+    } else if (version != nullptr && std::string(version) != "1.0") {
+      errors_.Try([&] { xml_.Fail(root, "version", version, "1.0 or 1.1"); });
     }
     for (auto* e = root.FirstChildElement("joint"); e != nullptr;
          e = e->NextSiblingElement("joint")) {

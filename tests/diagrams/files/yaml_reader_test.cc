@@ -128,6 +128,30 @@ TEST(YamlReaderTest, RefusesQuotesThatAreNotClosed) {
   EXPECT_NE(YamlText("a: \"open\nb: \"closed\"\n").problems, "");
 }
 
+TEST(YamlReaderTest, SaysInItsOwnWordsWhatIsNoYaml) {
+  const auto starts = [](const std::string& text) { return testing::StartsWith(text); };
+  const auto problems = [](const std::string& text) { return YamlText(text).problems; };
+  EXPECT_THAT(problems("systems:\n\ta: {type: Constant}\n"),
+              starts("f.yaml:2:3: error: no YAML; got a tab before the text of a line; expected"));
+  EXPECT_THAT(
+      problems("a: 1\n" + std::string(1025, 'k') + ": 2\n"),
+      HasSubstr("no YAML; got a colon where no key ends; expected 'key: value' with the key "
+                "on this line, of at most 1024 characters"));
+  EXPECT_THAT(problems("a: b: c\n"), HasSubstr("got a colon where no key ends"));
+  EXPECT_THAT(problems("systems: {k: {type: Con"),
+              starts("f.yaml:1:24: error: no YAML; got a { that nothing closes; expected } or a"));
+  EXPECT_THAT(problems("a: 1\nb: {c: 1\n"), starts("f.yaml:3:1: error: no YAML; got a {"));
+  EXPECT_THAT(problems("a: {b: 1\nc: 2}\n"), HasSubstr("f.yaml:2:"));
+  EXPECT_THAT(problems("a: [1, 2\n"), HasSubstr("got a [ that nothing closes"));
+  EXPECT_THAT(problems("%YAML 9.9\n---\na: 1\n"),
+              HasSubstr("no YAML; got a directive %; expected %YAML 1.2, %TAG or none"));
+  EXPECT_THAT(problems("a: 1\n b: 2\n"), HasSubstr("no YAML; got "));
+  EXPECT_THAT(problems("a:\n  - 1\n b: 2\n"), HasSubstr("no YAML; got a line that belongs to no"));
+  EXPECT_THAT(problems("a: \"\\q\"\n"), HasSubstr("no YAML; got a backslash"));
+  EXPECT_THAT(problems("a: @b\n"), HasSubstr("no YAML; got a character that begins no value"));
+  EXPECT_THAT(problems("a: *\n"), HasSubstr("no YAML; got no name behind & or *"));
+}
+
 TEST(YamlReaderTest, FindsOpenQuotesBehindTextThatIsNotAscii) {
   EXPECT_EQ(YamlText("a: Grüße\nb: 'closed'\n").problems, "");
   EXPECT_THAT(YamlText("a: Grüße\nb: 'open\n").problems, HasSubstr("f.yaml:2:4"));

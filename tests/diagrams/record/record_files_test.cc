@@ -248,6 +248,35 @@ TEST(RecordFilesTest, RefusesAttachmentsThatWouldLeaveTheFolder) {
   }
 }
 
+TEST(RecordFilesTest, RefusesTwoAttachmentsOfOneName) {
+  for (const char* name : {"diagram.yaml", "a/../diagram.yaml"}) {
+    try {
+      ExtractedRecord(test::FileOf({{0, "diagram.yaml", "", "a"}, {0, name, "", "b"}}));
+      ADD_FAILURE() << name;
+    } catch (const ConfigError& error) {
+      EXPECT_STREQ(error.what(),
+                   "record: attachment; got 'diagram.yaml' twice; expected each name once");
+    }
+  }
+}
+
+TEST(RecordFilesTest, SaysWhyARecordHasNoDiagram) {
+  std::ostringstream stream;
+  McapWriter writer(stream, Compression::kNone);
+  writer.AddAttachment({0, "diagram.yaml", "", "systems: {}"});
+  writer.Close();
+  std::string bytes = stream.str();
+  ++bytes[bytes.find("systems")];
+  try {
+    ExtractedRecord(McapFile::Parse(bytes, "changed"));
+    ADD_FAILURE();
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), testing::MatchesRegex(
+                                  "record: breaks off at byte [0-9]+: attachment: wrong CRC; got "
+                                  "no attachment diagram.yaml before it; expected one"));
+  }
+}
+
 TEST(RecordFilesTest, RefusesARecordWithoutADiagram) {
   EXPECT_THROW(ExtractedRecord{test::FileOf({})}, ConfigError);
 }

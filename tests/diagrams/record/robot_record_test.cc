@@ -157,6 +157,25 @@ TEST_F(RobotRecordTest, NamesThePairsThatAreChecked) {
   EXPECT_EQ(Message("/robot")["srdf"], options.srdf.string());
 }
 
+TEST_F(RobotRecordTest, TellsOfMorePairsThanThePageLooksAt) {
+  const auto chain = [&](int links) {
+    std::string urdf = "<robot name='chain'>";
+    for (int i = 0; i < links; ++i) {
+      const std::string number = std::to_string(i);
+      urdf += "<link name='l" + number +
+              "'><collision><geometry><sphere radius='0.1'/></geometry></collision></link>";
+      if (i == 0) continue;
+      urdf += "<joint name='j" + number + "' type='continuous'><parent link='l" +
+              std::to_string(i - 1) + "'/><child link='l" + number + "'/></joint>";
+    }
+    return Make(urdf + "</robot>").warnings;
+  };
+  EXPECT_THAT(chain(600), testing::Not(testing::Contains(HasSubstr("contacts of own links"))));
+  // 640 * 639 / 2, without the 639 of adjacent ones
+  EXPECT_THAT(chain(640), testing::Contains("contacts of own links are not marked: got 203841 "
+                                            "pairs; expected at most 200000"));
+}
+
 TEST_F(RobotRecordTest, PutsWarningsAtTheLinksThatTheySpeakOf) {
   const RobotRecord record = Make(Arm("finger"));
   const json warnings = Message("/robot")["warnings"];

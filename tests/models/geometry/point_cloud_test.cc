@@ -95,6 +95,29 @@ TEST_F(PointCloudTest, ReadsPcdAndLeavesOutWhatTheCameraDidNotSee) {
               ElementsAre(kFirst, Vector3d::Zero()));
 }
 
+TEST_F(PointCloudTest, RefusesPcdWhosePointsAreNotAsManyAsItSays) {
+  const std::string fields = "FIELDS x y z\nSIZE 1 1 1\nTYPE I I I\n";
+  EXPECT_THAT(
+      Refusal("a.pcd",
+              fields + "WIDTH 3\nHEIGHT 2\nPOINTS 5\nDATA binary\n" + std::string(15, '\1')),
+      HasSubstr("a.pcd:7: number of points; got 5; expected WIDTH times HEIGHT, 3 times 2"));
+  const std::string head = fields + "POINTS 2\nDATA ";
+  EXPECT_EQ(Points("a.pcd", head + "binary\n123456\r\n").size(), 2u);
+  EXPECT_THAT(Refusal("a.pcd", head + "binary\n123456789"),
+              HasSubstr("goes on behind its points; got more points; expected 2"));
+  EXPECT_EQ(Points("a.pcd", head + "ascii\n1 2 3\n4 5 6\n\n").size(), 2u);
+  EXPECT_THAT(Refusal("a.pcd", head + "ascii\n1 2 3\n4 5 6\n7 8 9\n"),
+              HasSubstr("goes on behind its points"));
+}
+
+TEST_F(PointCloudTest, RefusesPlyThatEndsWithinWhatIsNoPoint) {
+  const std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float "
+      "z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n1 2 3\n3 0 0 0\n";
+  EXPECT_THAT(Refusal("a.ply", text), HasSubstr("ends too early; got 1 of element face"));
+  EXPECT_EQ(Points("a.ply", text + "3 0 0 0\n").size(), 1u);
+}
+
 std::string CompressedPcd(const std::string& packed, std::uint32_t size) {
   return "FIELDS x rgb _ z y\nSIZE 4 1 1 4 4\nTYPE F U U F F\nCOUNT 1 3 8 1 1\nPOINTS 3\nDATA "
          "binary_compressed\n" +
@@ -151,7 +174,7 @@ TEST_F(PointCloudTest, RefusesHeadersWhoseNumbersDoNotFit) {
                           const std::string& types, const std::string& counts) {
     return Refusal("a.pcd", "FIELDS x y z" + fields + "\nSIZE 4 4 4" + sizes + "\nTYPE F F F" +
                                 types + "\nCOUNT 1 1 1" + counts + "\nPOINTS 1\nDATA binary\n" +
-                                std::string(4096, '\0'));
+                                std::string(12, '\0'));
   };
   EXPECT_EQ(pcd("", "", "", ""), "accepted");
   // 2^32 bytes and those of x, y and z before: a record of 12 bytes in 32 bits.
@@ -290,6 +313,8 @@ TEST_F(PointCloudTest, RefusesWhatIsNoHeightmap) {
   EXPECT_THAT(MapRefusal("map.pgm", "P6 1 1 255\nx"), HasSubstr("kind of PGM; got P6"));
   EXPECT_THAT(MapRefusal("map.pgm", "P5 2 2 255\nxxx"), HasSubstr("ends too early"));
   EXPECT_THAT(MapRefusal("map.pgm", "P2 2 1 9\n4 10\n"), HasSubstr("grey value; got 10"));
+  EXPECT_THAT(MapRefusal("map.pgm", "P2 2 1 0\n0 0\n"),
+              HasSubstr("largest grey value; got 0; expected 1 to 65535"));
   EXPECT_THAT(MapRefusal("map.pgm", "P5 2 1 100\n\x64\x65"), HasSubstr("got 101 as pixel 1"));
   EXPECT_THAT(MapRefusal("map.pgm", "P5 10000 10000 255\nx"), HasSubstr("cells; got 100000000"));
   std::string steps;
