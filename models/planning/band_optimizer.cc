@@ -6,6 +6,7 @@
 #include <iterator>
 #include <limits>
 
+#include "oca/models/geometry/obstacle.h"
 #include "oca/models/planning/smooth_step.h"
 
 namespace oca::planning {
@@ -33,15 +34,12 @@ bool Moves(std::span<const BandBody> bodies) {
                      [](const BandBody& body) { return !body.stands; });
 }
 
-BandOptimizer::BandOptimizer(std::shared_ptr<const robot::RobotModel> model,
-                             const BandSettings& settings, bool self_collision,
+BandOptimizer::BandOptimizer(const robot::Clearance& arm, const BandSettings& settings,
                              const robot::OwnRanges& own)
-    : model_(std::move(model)),
-      settings_(settings),
-      self_collision_(self_collision),
-      clearance_(model_, self_collision) {
+    : settings_(settings), clearance_(arm) {
   clearance_.KeepOwn(own, settings_.clear_distance);
-  const Eigen::Index n = model_->num_positions();
+  const Eigen::Index n = model().num_positions();
+  ahead_.resize(n, BatchClearance::kLanes);
   q_.setZero(n);
   row_.setZero(n);
   H_.setZero(n, n);
@@ -51,18 +49,24 @@ BandOptimizer::BandOptimizer(std::shared_ptr<const robot::RobotModel> model,
   }
 }
 
-void BandOptimizer::Place(const Sample& sample, const Eigen::VectorXd& x) {
+void BandOptimizer::Visit(const Sample& sample, int lane, double reach) {
   ++evaluations_;
-  q_ = sample.request[0] + x;
-  clearance_.MoveTo(q_);
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (!bodies_[b].stands) {
-      clearance_.MoveBody(static_cast<int>(b), poses_[sample.first_pose + b]);
-      if (bodies_[b].covariance) {
-        clearance_.SetCovariance(static_cast<int>(b), bodies_[b].covariance(sample.time));
-      }
-    }
+  q_ = ahead_.col(lane);
+  pairs_.clear();
+  places_.clear();
+  for (const BatchClearance::Candidate& candidate : candidates_) {
+    if ((candidate.lanes >> lane & 1u) != 0) places_.push_back(candidate.pair);
   }
+  if (places_.empty()) return;
+  ++exact_looks_;
+  clearance_.MoveTo(q_);
+  for (const int b : moving_) {
+    const auto body = static_cast<std::size_t>(b);
+    clearance_.MoveBody(b, poses_[static_cast<std::size_t>(sample.first_pose) + body]);
+    if (bodies_[body].covariance)
+      clearance_.SetCovariance(b, bodies_[body].covariance(sample.time));
+  }
+  clearance_.Collect(reach, places_, pairs_);
 }
 
 int BandOptimizer::Variable(int control) const {
@@ -76,7 +80,7 @@ void BandOptimizer::Prepare(const BandCurve& curve, const BandRequest& request,
   left_.clear();
   returns_ = false;
   bodies_.assign(bodies.begin(), bodies.end());
-  something_near_ = !bodies_.empty() || self_collision_;
+  something_near_ = !bodies_.empty() || clearance_.self_collision();
   std::vector<robot::PlacedBody> placed;
   from = std::max(from, curve.start());
   for (const BandBody& body : bodies_) placed.push_back(body.At(from));
@@ -84,6 +88,11 @@ void BandOptimizer::Prepare(const BandCurve& curve, const BandRequest& request,
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     for (const int link : bodies_[b].ignored) clearance_.Ignore(link, static_cast<int>(b));
   }
+  moving_.clear();
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (!bodies_[b].stands) moving_.push_back(static_cast<int>(b));
+  }
+  batch_.reset();
   num_controls_ = static_cast<int>(curve.controls().cols());
   FixEnd(end_fixed);
   AddSamples(curve, request, from);
@@ -101,6 +110,7 @@ void BandOptimizer::AddSamples(const BandCurve& curve, const BandRequest& reques
   samples_.clear();
   checks_.clear();
   poses_.clear();
+  balls_.clear();
   std::vector<double> times = curve.times();
   times.erase(times.begin(), std::prev(std::upper_bound(times.begin(), times.end() - 1, from)));
   times.front() = from;
@@ -121,17 +131,29 @@ void BandOptimizer::AddSamples(const BandCurve& curve, const BandRequest& reques
 
 BandOptimizer::Sample BandOptimizer::MakeSample(const BandCurve& curve, const BandRequest& request,
                                                 double time, double weight) {
-  Sample sample{time, weight, curve.BasisAt(time), static_cast<int>(poses_.size()), {}};
+  Sample sample{time,
+                weight,
+                curve.BasisAt(time),
+                static_cast<int>(poses_.size()),
+                static_cast<int>(balls_.size()),
+                {}};
   for (int d = 0; d < 3; ++d) {
     sample.request[d].resize(curve.size());
     request(time, d, sample.request[d]);
   }
-  for (const BandBody& body : bodies_) poses_.push_back(body.pose(time));
+  for (const BandBody& body : bodies_) {
+    poses_.push_back(body.pose(time));
+    if (body.stands) continue;
+    double radius = body.collider->bounding_radius();
+    if (body.covariance) {
+      radius += geometry::kConfidence * std::sqrt(std::max(body.covariance(time).trace(), 0.0));
+    }
+    balls_.push_back({poses_.back() * body.collider->centre(), radius});
+  }
   return sample;
 }
 
 void BandOptimizer::AddClearance(bool rows) {
-  clearance_.Collect(settings_.margin, pairs_);
   for (const robot::NearPair& pair : pairs_) {
     const double wanted =
         Flies(pair) ? settings_.margin : std::min(settings_.margin, LeftByGoal(pair));
@@ -153,11 +175,11 @@ BandOptimizer::Range BandOptimizer::RangeOf(Eigen::Index joint, int derivative,
                                             double share) const {
   if (derivative > 0) {
     const double limit =
-        derivative == 1 ? model_->velocity_limits()[joint] : model_->acceleration_limits()[joint];
+        derivative == 1 ? model().velocity_limits()[joint] : model().acceleration_limits()[joint];
     return {-share * limit, share * limit, std::max(limit, kLeastUnit)};
   }
-  const double lower = model_->lower_limits()[joint];
-  const double upper = model_->upper_limits()[joint];
+  const double lower = model().lower_limits()[joint];
+  const double upper = model().upper_limits()[joint];
   if (share == 1.0) return {lower, upper, kPositionUnit};
   // Halves, for the width of a range that nobody measured overflows.
   const double inset = std::min(kPositionInset, 0.5 * upper - 0.5 * lower);
@@ -248,19 +270,29 @@ void BandOptimizer::Linearize(const Eigen::MatrixXd& controls, bool rows, Normal
     normal.right.setZero(n * num_variables_);
   }
   Eigen::VectorXd x[3] = {Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n)};
-  for (const Sample& sample : samples_) {
+  const auto deviation = [&](const Sample& sample, int derivative, Eigen::VectorXd& into) {
+    into.setZero();
+    for (int j = 0; j < 4; ++j) {
+      into += sample.basis.weights[derivative][j] * controls.col(sample.basis.first + j);
+    }
+  };
+  const auto all = static_cast<int>(samples_.size());
+  for (int i = 0; i < all; ++i) {
+    const int lane = i % BatchClearance::kLanes;
+    if (lane == 0) {
+      LookAhead(std::span(samples_).subspan(static_cast<std::size_t>(i)), settings_.margin,
+                [&](const Sample& sample, Eigen::VectorXd& into) { deviation(sample, 0, into); });
+    }
+    const Sample& sample = samples_[static_cast<std::size_t>(i)];
     for (int d = 0; d < 3; ++d) {
-      x[d].setZero();
-      for (int i = 0; i < 4; ++i) {
-        x[d] += sample.basis.weights[d][i] * controls.col(sample.basis.first + i);
-      }
+      deviation(sample, d, x[d]);
       g_[d].setZero();
       d_[d].setZero();
     }
     H_.setZero();
     cost_ = 0.0;
     if (something_near_) {
-      Place(sample, x[0]);
+      Visit(sample, lane, settings_.margin);
       AddClearance(rows);
     }
     AddDiagonal(sample, x);

@@ -7,12 +7,14 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "oca/models/name.h"
 #include "oca/models/planning/band_curve.h"
+#include "oca/models/planning/batch_clearance.h"
 #include "oca/models/robot/clearance.h"
 
 namespace oca::planning {
@@ -110,14 +112,21 @@ inline constexpr double kYieldSlope = 0.25;  ///< m/rad, m/m
 ///        Madsen, Nielsen, Tingleff, Methods for non-linear least squares problems, 2004
 class BandOptimizer {
  public:
-  /// `own`: the ranges of own links, if these are looked at.
+  /// For a robot as `arm` looks at it, which is copied; what contains its links is shared. `own`: the
+  /// ranges of own links, if these are looked at.
+  BandOptimizer(const robot::Clearance& arm, const BandSettings& settings,
+                const robot::OwnRanges& own = {});
   BandOptimizer(std::shared_ptr<const robot::RobotModel> model, const BandSettings& settings,
-                bool self_collision = false, const robot::OwnRanges& own = {});
+                bool self_collision = false, const robot::OwnRanges& own = {})
+      : BandOptimizer(robot::Clearance(std::move(model), self_collision), settings, own) {}
 
   /// Leaves two own links out from now on, by their numbers.
-  void IgnoreOwn(int link, int other) { clearance_.IgnoreOwn(link, other); }
+  void IgnoreOwn(int link, int other) {
+    clearance_.IgnoreOwn(link, other);
+    batch_.reset();
+  }
 
-  const robot::RobotModel& model() const { return *model_; }
+  const robot::RobotModel& model() const { return clearance_.model(); }
   const BandSettings& settings() const { return settings_; }
 
   /// Takes what is requested and what stands and moves around, for bands on the grid of `curve`.
@@ -163,6 +172,9 @@ class BandOptimizer {
 
   int num_samples() const { return static_cast<int>(samples_.size()); }
   long evaluations() const { return evaluations_; }  ///< of configurations, since the start
+  /// Those of them at which exact distances were asked for, and looks at eight of them at once.
+  long exact_looks() const { return exact_looks_; }
+  long batches() const { return batches_; }
 
  private:
   struct Sample {
@@ -170,6 +182,7 @@ class BandOptimizer {
     double weight;  ///< s
     BandCurve::Basis basis;
     int first_pose;  ///< of the bodies in poses_
+    int first_ball;  ///< of those that move, in balls_
     Eigen::VectorXd request[3];
   };
   /// Lower block band of the normal equations and the right side.
@@ -195,8 +208,13 @@ class BandOptimizer {
   double NearnessAt(double time) const;
   void Assemble(const Sample& sample, Normal& normal) const;
   bool Step(const Normal& normal, double damping);
-  /// Brings robot and bodies to where they are at a sample with deviation x.
-  void Place(const Sample& sample, const Eigen::VectorXd& x);
+  /// Asks what may be within `reach` (m) of samples, of the first eight at most, with deviations that
+  /// `deviation` (a sample, into a vector) tells.
+  template <class Deviation>
+  void LookAhead(std::span<const Sample> samples, double reach, const Deviation& deviation);
+  /// Of sample `lane` of those: brings the robot there, and, if need be, the bodies; the pairs within
+  /// that reach are pairs_ then.
+  void Visit(const Sample& sample, int lane, double reach);
   /// What a pair has at the goal or the start, as it counts, m.
   struct Left {
     int link, body, other_link;
@@ -217,21 +235,28 @@ class BandOptimizer {
     double wide{0.0}, hard{0.0};
   };
   Lack LackAt(double nearest, double time, BandCheck& check);
+  /// m; what is farther than this from a sample is not known to a check.
+  double Reach() const;
   void PlaceAt(const Eigen::VectorXd& q, double time);
 
-  const std::shared_ptr<const robot::RobotModel> model_;
   const BandSettings settings_;
-  const bool self_collision_;
   robot::Clearance clearance_;
   std::vector<BandBody> bodies_;
   std::vector<Sample> samples_;
   std::vector<Sample> checks_;
   std::vector<Eigen::Isometry3d> poses_;
+  std::vector<int> moving_;  ///< of bodies_
+  std::vector<BatchClearance::MovingBall> balls_;
+  std::optional<BatchClearance> batch_;  ///< of the bodies, the pairs and the ranges at hand
+  Eigen::MatrixXd ahead_;                ///< positions of the samples that were asked for
+  std::vector<BatchClearance::MovingBall> balls_ahead_;
+  std::span<const BatchClearance::Candidate> candidates_;
+  std::vector<robot::PairPlace> places_;
   int num_controls_{0};
   int num_variables_{0};
   bool end_fixed_{true};
   bool something_near_{false};  ///< else nothing has a distance
-  long evaluations_{0};
+  long evaluations_{0}, exact_looks_{0}, batches_{0};
   Eigen::VectorXd start_;  ///< position at the start of the grid
   bool returns_{false};
   std::vector<std::pair<double, double>> near_;
@@ -251,5 +276,24 @@ class BandOptimizer {
   std::vector<Eigen::MatrixXd> factor_;
   Eigen::VectorXd step_;
 };
+
+template <class Deviation>
+void BandOptimizer::LookAhead(std::span<const Sample> samples, double reach,
+                              const Deviation& deviation) {
+  candidates_ = {};
+  if (samples.size() > BatchClearance::kLanes) samples = samples.first(BatchClearance::kLanes);
+  balls_ahead_.clear();
+  Eigen::VectorXd x(q_.size());
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    deviation(samples[k], x);
+    ahead_.col(static_cast<Eigen::Index>(k)) = samples[k].request[0] + x;
+    const auto ball = balls_.begin() + samples[k].first_ball;
+    balls_ahead_.insert(balls_ahead_.end(), ball, ball + std::ssize(moving_));
+  }
+  if (!something_near_) return;
+  if (!batch_) batch_.emplace(clearance_, moving_);
+  ++batches_;
+  candidates_ = batch_->Near(ahead_, static_cast<int>(samples.size()), reach, balls_ahead_);
+}
 
 }  // namespace oca::planning

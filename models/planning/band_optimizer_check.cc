@@ -62,12 +62,13 @@ double BandOptimizer::LeftByEnds(const robot::NearPair& pair, double time) const
   return most;
 }
 
+double BandOptimizer::Reach() const {
+  return std::max({settings_.clear_distance, settings_.trust_distance, settings_.flying_distance});
+}
+
 BandOptimizer::Lack BandOptimizer::LackAt(double nearest, double time, BandCheck& check) {
   Lack lack;
-  const double reach =
-      std::max({settings_.clear_distance, settings_.trust_distance, settings_.flying_distance});
-  if (!(nearest < reach)) return lack;
-  clearance_.Collect(reach, pairs_);
+  if (!(nearest < Reach())) return lack;
   for (const robot::NearPair& pair : pairs_) {
     const double clear = settings_.clear_distance;
     if (Flies(pair)) {
@@ -96,20 +97,29 @@ BandOptimizer::Lack BandOptimizer::LackAt(double nearest, double time, BandCheck
 BandCheck BandOptimizer::Check(const BandCurve& curve) {
   BandCheck check{.min_distance = settings_.margin, .distance = settings_.margin};
   if (!something_near_) return check;
-  Eigen::VectorXd x(q_.size()), before;
-  for (const Sample& sample : checks_) {
-    curve.Evaluate(sample.time, 0, x);
-    Place(sample, x);
+  Eigen::VectorXd before;
+  const double reach = std::max(settings_.margin, Reach());
+  for (std::size_t i = 0; i < checks_.size(); ++i) {
+    const Sample& sample = checks_[i];
+    const int lane = static_cast<int>(i % BatchClearance::kLanes);
+    if (lane == 0) {
+      LookAhead(std::span(checks_).subspan(i), reach,
+                [&](const Sample& at, Eigen::VectorXd& into) { curve.Evaluate(at.time, 0, into); });
+    }
+    Visit(sample, lane, reach);
     if (before.size() > 0) check.way += (q_ - before).cwiseAbs().sum();
     before = q_;
-    const robot::NearPair pair = clearance_.Nearest(settings_.margin);
+    robot::NearPair pair;
+    for (const robot::NearPair& near : pairs_) {
+      if (near.distance <= settings_.margin && near.distance < pair.distance) pair = near;
+    }
     if (pair.distance < check.min_distance) {
       check.min_distance = pair.distance;
       check.distance = pair.distance / pair.scale;
       check.time = sample.time;
       check.own_links = pair.body < 0;
-      check.link = model_->links()[pair.link].name;
-      check.body = pair.body >= 0 ? bodies_[pair.body].name : model_->links()[pair.other_link].name;
+      check.link = model().links()[pair.link].name;
+      check.body = pair.body >= 0 ? bodies_[pair.body].name : model().links()[pair.other_link].name;
     }
     const double wanted = pair.link < 0 || Flies(pair) ? settings_.margin : LeftByGoal(pair);
     if (pair.distance < std::min(settings_.margin, wanted)) {
@@ -140,9 +150,9 @@ BandOptimizer::Room BandOptimizer::RoomAt(const Eigen::VectorXd& q, double time)
       room.flying = std::min(room.flying, pair.distance);
     } else if (pair.distance / pair.scale < room.standing) {
       room.standing = pair.distance / pair.scale;
-      room.link = model_->links()[static_cast<std::size_t>(pair.link)].name;
+      room.link = model().links()[static_cast<std::size_t>(pair.link)].name;
       room.body = pair.body >= 0 ? bodies_[static_cast<std::size_t>(pair.body)].name
-                                 : model_->links()[static_cast<std::size_t>(pair.other_link)].name;
+                                 : model().links()[static_cast<std::size_t>(pair.other_link)].name;
     }
   }
   return room;

@@ -30,13 +30,12 @@ constexpr double kTurnTime = 0.35;  // s; for which what flies away may come bac
 
 }  // namespace
 
-BandPlanner::BandPlanner(std::shared_ptr<const robot::RobotModel> model,
-                         const BandPlannerSettings& settings, bool self_collision,
+BandPlanner::BandPlanner(const robot::Clearance& arm, const BandPlannerSettings& settings,
                          const robot::OwnRanges& own)
     : settings_(settings),
-      band_(model, settings.band, self_collision, own),
+      band_(arm, settings.band, own),
       own_(own),
-      standing_(std::make_unique<robot::Clearance>(std::move(model), self_collision)) {
+      standing_(std::make_unique<robot::Clearance>(arm)) {
   standing_->KeepOwn(own, settings.band.clear_distance);
 }
 
@@ -52,7 +51,8 @@ double BandPlanner::HorizonOf(const BandTask& task, bool moving) const {
 }
 
 PlanWork BandPlanner::Work() const {
-  return {1, band_.evaluations() - begun_, certified_looks_, path_looks_};
+  return {1, band_.exact_looks() - begun_.exact, certified_looks_,
+          band_.batches() - begun_.batches + path_looks_};
 }
 
 long BandPlanner::LooksLeft(double price, long most) const {
@@ -64,10 +64,11 @@ long BandPlanner::LooksLeft(double price, long most) const {
 int BandPlanner::StepsLeft(int wanted) const {
   constexpr long kUnbounded = 1'000'000'000;
   const PlanWork work = Work();
+  const long evaluations = band_.evaluations() - begun_.evaluations;
   const long left =
       LooksLeft(settings_.prices.band, settings_.most_evaluations == 0
                                            ? kUnbounded
-                                           : settings_.most_evaluations - work.band - work.exact);
+                                           : settings_.most_evaluations - evaluations - work.exact);
   // A start costs its look at the finer grid of Check too.
   return static_cast<int>(std::clamp<long>(left / band_.num_samples() - 3, 0, wanted));
 }
@@ -246,7 +247,7 @@ std::optional<BandPlan> BandPlanner::KeepLast(const BandTask& task, const BandCu
 }
 
 BandPlan BandPlanner::Plan(const BandTask& task, const BandCurve* last) {
-  begun_ = band_.evaluations();
+  begun_ = {band_.evaluations(), band_.exact_looks(), band_.batches()};
   begin_ = task.start;
   most_time_ = task.most_time;
   moving_ = Moves(task.bodies);

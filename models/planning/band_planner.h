@@ -109,8 +109,12 @@ inline constexpr int kFewestBandSteps = 5;  ///< on a start; less is no trial
 /// The work is bounded and the answer a function of the arguments. Allocates.
 class BandPlanner {
  public:
+  /// For a robot as `arm` looks at it, which is copied; what contains its links is shared.
+  BandPlanner(const robot::Clearance& arm, const BandPlannerSettings& settings,
+              const robot::OwnRanges& own = {});
   BandPlanner(std::shared_ptr<const robot::RobotModel> model, const BandPlannerSettings& settings,
-              bool self_collision = false, const robot::OwnRanges& own = {});
+              bool self_collision = false, const robot::OwnRanges& own = {})
+      : BandPlanner(robot::Clearance(std::move(model), self_collision), settings, own) {}
 
   /// Leaves two own links out from now on, by their numbers.
   void IgnoreOwn(int link, int other) {
@@ -186,10 +190,13 @@ class BandPlanner {
   BandCurve zero_;
   bool end_fixed_{true};
   BandOptimizer::Room end_room_{};
-  bool moving_{false};       ///< something does
-  double begin_{0.0};        ///< s; of this plan
-  double most_time_{0.0};    ///< s; that it may cost
-  long begun_{0};            ///< evaluations before this plan
+  bool moving_{false};     ///< something does
+  double begin_{0.0};      ///< s; of this plan
+  double most_time_{0.0};  ///< s; that it may cost
+  struct Begun {
+    long evaluations{0}, exact{0}, batches{0};
+  };
+  Begun begun_{};            ///< what the band had counted before this plan
   long certified_looks_{0};  ///< besides those of the band
   long path_looks_{0};       ///< of the search for paths, which has a bound of its own
 };

@@ -27,7 +27,12 @@ constexpr double kHorizonKept = 0.5;      // of the horizon: a plan that ends so
 
 BandReplanner::BandReplanner(std::shared_ptr<const robot::RobotModel> model,
                              const ReplanSettings& settings)
-    : model_(std::move(model)), settings_(settings), reach_(ReachOf(*model_)) {}
+    : model_(std::move(model)),
+      settings_(settings),
+      reach_(ReachOf(*model_)),
+      arm_(model_, settings.self_collision) {
+  arm_.covers();  // all plans share them
+}
 
 double BandReplanner::Since(double time, const BandMemory& memory) const {
   return std::clamp(time - memory.seen_at, 0.0, settings_.prediction);
@@ -320,7 +325,7 @@ void BandReplanner::MakePlan(const BandSituation& now, double start,
   if (settings_.self_collision && now.request != memory.request) {
     memory.own = robot::OwnRangesAlong(model_, now.request.get(), settings_.self_distance);
   }
-  BandPlanner planner(model_, settings_.planner, settings_.self_collision, memory.own);
+  BandPlanner planner(arm_, settings_.planner, memory.own);
   IgnoreOwnLinks(now, planner);
   BandPlan found = planner.Plan(task, memory.held.empty() ? nullptr : &memory.held);
   memory.next = std::move(found.curve);

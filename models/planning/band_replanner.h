@@ -16,6 +16,7 @@
 #include "oca/models/planning/band_planner.h"
 #include "oca/models/planning/standing_changes.h"
 #include "oca/models/robot/clear_motion.h"
+#include "oca/models/robot/clearance.h"
 
 namespace oca::planning {
 
@@ -113,6 +114,7 @@ class BandReplanner {
   const std::shared_ptr<const robot::RobotModel> model_;
   const ReplanSettings settings_;
   const RobotReach reach_;
+  robot::Clearance arm_;
 };
 
 }  // namespace oca::planning

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "oca/models/planning/batch_kernel.h"
 
@@ -42,10 +43,54 @@ internal::BatchAnswer BatchClearance::AskKernel(const internal::LaneArray* paths
                                                 double margin) {
   looked_at_ += count;
   const unsigned lanes = (1u << count) - 1u;
-  return internal::CheckLanes(
+  return internal::CheckLanes(kernel_->scene,
+                              {kernel_->motion.data(), paths, nullptr, internal::Above(margin),
+                               internal::Above(error_), lanes, false},
+                              kernel_->work);
+}
+
+void BatchClearance::LoadMovers(std::span<const MovingBall> balls, int count) {
+  const std::size_t movers = kernel_->scene.movers.size();
+  const Eigen::Vector3d base = clearance_.model().X_WB().translation();
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const auto column = static_cast<std::size_t>(std::min(lane, count - 1));
+    for (std::size_t m = 0; m < movers; ++m) {
+      const MovingBall& ball = balls[column * movers + m];
+      const Eigen::Vector3d centre = ball.centre - base;
+      const auto at = static_cast<std::size_t>(lane);
+      for (std::size_t i = 0; i < 3; ++i) {
+        movers_at_[4 * m + i][at] = static_cast<float>(centre[static_cast<Eigen::Index>(i)]);
+      }
+      movers_at_[4 * m + 3][at] =
+          internal::Above(ball.radius + internal::kRounding * centre.norm());
+    }
+  }
+}
+
+std::span<const BatchClearance::Candidate> BatchClearance::Near(
+    const Eigen::Ref<const Eigen::MatrixXd>& q, int count, double margin,
+    std::span<const MovingBall> balls) {
+  Load(q, count);
+  LoadMovers(balls, count);
+  looked_at_ += count;
+  internal::CheckLanes(
       kernel_->scene,
-      {kernel_->motion.data(), paths, internal::Above(margin), internal::Above(error_), lanes},
+      {kernel_->motion.data(), nullptr, movers_at_.empty() ? nullptr : movers_at_.data(),
+       internal::Above(margin), internal::Above(error_), (1u << count) - 1u, true},
       kernel_->work);
+  candidates_.clear();
+  for (const internal::BatchCandidate& found : kernel_->work.found) {
+    const int link = found.body < 0 ? -1 : numbers_[static_cast<std::size_t>(found.link)];
+    candidates_.push_back({{link, found.body, found.pair}, found.lanes});
+  }
+  // Solids are found before what moves; links ascend in the model's order.
+  std::stable_sort(
+      candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+        const bool own = a.pair.body < 0, other = b.pair.body < 0;
+        if (own || other) return own < other;
+        return std::pair(a.pair.link, a.pair.body) < std::pair(b.pair.link, b.pair.body);
+      });
+  return candidates_;
 }
 
 internal::BatchAnswer BatchClearance::Ask(const Eigen::Ref<const Eigen::MatrixXd>& q, int count,

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "oca/models/robot/clearance.h"
@@ -34,8 +35,25 @@ class BatchClearance {
  public:
   static constexpr int kLanes = 8;
 
-  explicit BatchClearance(robot::Clearance& clearance);
+  /// Of `moving` (numbers of bodies, ascending) is not looked at where the clearance has them: Near
+  /// alone asks for them.
+  explicit BatchClearance(robot::Clearance& clearance, std::span<const int> moving = {});
   ~BatchClearance();
+
+  /// A ball around a body that moves; centre in the world, m.
+  struct MovingBall {
+    Eigen::Vector3d centre;
+    double radius;
+  };
+  /// A pair that may be near, and a bit for each configuration at which it may.
+  struct Candidate {
+    robot::PairPlace pair;
+    unsigned lanes;
+  };
+  /// All pairs that may be nearer than `margin` at the first `count` columns of q, in the order of
+  /// Clearance::Collect: no other is. Of column c, body moving[m] is within balls[c * moving + m].
+  std::span<const Candidate> Near(const Eigen::Ref<const Eigen::MatrixXd>& q, int count,
+                                  double margin, std::span<const MovingBall> balls);
 
   /// A bit for each of the first `count` (at most kLanes) columns of q (num_positions() rows) at
   /// which nothing is nearer than `margin` (m, >= 0).
@@ -71,7 +89,7 @@ class BatchClearance {
  private:
   void AddFrames();
   void AddLinks();
-  void AddBodies();
+  void AddBodies(std::span<const int> moving);
   /// `uncertain`: by how much nearer, m, the body counts at most.
   void AddSolid(int body, const geometry::Collider& solid, const Eigen::Isometry3d& X_OB,
                 double uncertain);
@@ -81,6 +99,7 @@ class BatchClearance {
                                   double margin);
   void Load(const Eigen::Ref<const Eigen::MatrixXd>& q, int count);
   internal::BatchAnswer AskKernel(const internal::LaneArray* paths, int count, double margin);
+  void LoadMovers(std::span<const MovingBall> balls, int count);
   enum class Exactly { kClear, kNear, kContact };
   /// Of the pairs that the last question left open; near: as far as the link may travel.
   Exactly LookExactly(const Eigen::Ref<const Eigen::VectorXd>& q, int lane, double margin,
@@ -101,6 +120,8 @@ class BatchClearance {
   double error_{0.0};                    // m
   std::unique_ptr<internal::BatchKernel> kernel_;
   Eigen::MatrixXd samples_;  // n x kLanes
+  std::vector<internal::LaneArray> movers_at_;
+  std::vector<Candidate> candidates_;
   std::int64_t looked_at_{0}, undecided_{0};
 };
 

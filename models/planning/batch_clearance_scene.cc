@@ -14,11 +14,10 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using internal::Above;
+using internal::kRounding;
 
 // A compound of more parts is looked at as one ball.
 constexpr std::size_t kMostParts = 64;
-// Of single precision, for a joint, with sine and cosine: see the class comment.
-constexpr double kRounding = 2e-6;
 
 std::array<float, 3> ToFloat(const Vector3d& p) {
   return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
@@ -60,17 +59,19 @@ double LongestWay(const robot::RobotModel& model, const robot::KinematicStep& st
 
 }  // namespace
 
-BatchClearance::BatchClearance(robot::Clearance& clearance)
+BatchClearance::BatchClearance(robot::Clearance& clearance, std::span<const int> moving)
     : clearance_(clearance),
       kernel_(std::make_unique<internal::BatchKernel>()),
       samples_(clearance.model().num_positions(), kLanes) {
   AddFrames();
   AddLinks();
   error_ = kRounding * (static_cast<double>(movers_.size()) + 2.0) * reach_;
-  AddBodies();
+  AddBodies(moving);
   kernel_->motion.resize(movers_.size());
   kernel_->paths.resize(movers_.size());
   kernel_->work = internal::BatchWorkspace(kernel_->scene);
+  movers_at_.resize(4 * moving.size());
+  candidates_.reserve(kernel_->work.found.capacity());
 }
 
 void BatchClearance::AddFrames() {
@@ -150,10 +151,12 @@ void BatchClearance::AddLinks() {
   }
 }
 
-void BatchClearance::AddBodies() {
+void BatchClearance::AddBodies(std::span<const int> moving) {
+  for (const int body : moving) kernel_->scene.movers.push_back({body});
   Isometry3d X_OW = Isometry3d::Identity();  // to axes of the world about the base
   X_OW.translation() = -clearance_.model().X_WB().translation();
   for (std::size_t i = 0; i < clearance_.bodies().size(); ++i) {
+    if (std::count(moving.begin(), moving.end(), static_cast<int>(i)) > 0) continue;
     const robot::PlacedBody& body = clearance_.bodies()[i];
     const double variance = std::max(body.covariance.trace(), 0.0);
     AddSolid(static_cast<int>(i), *body.collider, X_OW * body.X_WO,

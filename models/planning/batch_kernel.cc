@@ -140,9 +140,45 @@ OCA_INLINED bool IsIgnored(const BatchScene& scene, int link, int body) {
   return false;
 }
 
-OCA_INLINED Reach ReachOf(const BatchBall& ball, const Lanes& travel, float margin, float error) {
-  return {travel + (margin + error + ball.radius),
-          ball.inner > 0.0f ? margin - error + ball.inner : kNever};
+OCA_INLINED Reach ReachOf(const BatchBall& ball, const Lanes& travel, float margin,
+                          const BatchQuestion& question) {
+  const bool tells = ball.inner > 0.0f && !question.all;
+  return {travel + (margin + question.error + ball.radius),
+          tells ? margin - question.error + ball.inner : kNever};
+}
+
+/// Where two balls are near each other.
+OCA_INLINED BatchAnswer NearEachOther(const Point& a, const Point& b, const Reach& reach) {
+  const Point d{a.x - b.x, a.y - b.y, a.z - b.z};
+  const Lanes square = SquaredNorm(d);
+  const unsigned sure = reach.surely > 0.0f ? MaskOf(square < reach.surely * reach.surely) : 0u;
+  return {MaskOf(!(square > reach.may * reach.may)), sure};
+}
+
+OCA_INLINED void CheckMovers(const BatchScene& scene, const BatchQuestion& question, int number,
+                             const Reach& around, const Lanes& travel, BatchWorkspace& work,
+                             BatchAnswer& answer) {
+  const BatchLink& link = scene.links[static_cast<std::size_t>(number)];
+  const Point centre = LoadPoint(work.centres.data() + 3 * number);
+  for (std::size_t m = 0; m < scene.movers.size(); ++m) {
+    const LaneArray* const mover = question.movers + 4 * m;
+    const Point at = LoadPoint(mover);
+    const Lanes radius = Load(mover[3]);
+    const unsigned asked = question.lanes & ~answer.surely;
+    const unsigned near = NearEachOther(centre, at, {around.may + radius, kNever}).open & asked;
+    if (near == 0 || IsIgnored(scene, number, scene.movers[m].body)) continue;
+    PlaceBalls(scene, number, work);
+    unsigned found = 0;
+    for (int k = link.first; k < link.last && found != near; ++k) {
+      const BatchBall& ball = scene.balls[static_cast<std::size_t>(k)];
+      const Reach reach = ReachOf(ball, travel, question.margin, question);
+      found |= NearEachOther(LoadPoint(work.balls.data() + 3 * k), at, {reach.may + radius, kNever})
+                   .open &
+               near;
+    }
+    answer.open |= found;
+    if (found != 0) Note(number, scene.movers[m].body, -1, found, work);
+  }
 }
 
 /// Leaves the lanes that are surely decided out of the rest.
@@ -152,7 +188,7 @@ OCA_INLINED void CheckSolids(const BatchScene& scene, const BatchQuestion& quest
     const BatchLink& link = scene.links[static_cast<std::size_t>(i)];
     const Point centre = LoadPoint(work.centres.data() + 3 * i);
     const Lanes travel = Load(TravelOf(scene, question, work, i, 0));
-    const Reach around = ReachOf(link.around, travel, question.margin, question.error);
+    const Reach around = ReachOf(link.around, travel, question.margin, question);
     for (const BatchSolid& solid : scene.solids) {
       const unsigned asked = question.lanes & ~answer.surely;
       const unsigned near = NearSolid(solid, centre, around).open & asked;
@@ -162,7 +198,7 @@ OCA_INLINED void CheckSolids(const BatchScene& scene, const BatchQuestion& quest
       for (int k = link.first; k < link.last && surely != near; ++k) {
         const BatchBall& ball = scene.balls[static_cast<std::size_t>(k)];
         const BatchAnswer one = NearSolid(solid, LoadPoint(work.balls.data() + 3 * k),
-                                          ReachOf(ball, travel, question.margin, question.error));
+                                          ReachOf(ball, travel, question.margin, question));
         found |= one.open & near;
         surely |= one.surely & near;
       }
@@ -171,15 +207,10 @@ OCA_INLINED void CheckSolids(const BatchScene& scene, const BatchQuestion& quest
       if ((found & ~surely) != 0) Note(i, solid.body, -1, found & ~surely, work);
       if (answer.surely == question.lanes) return;
     }
+    if (question.movers != nullptr) {
+      CheckMovers(scene, question, i, around, travel, work, answer);
+    }
   }
-}
-
-/// Where two balls are near each other.
-OCA_INLINED BatchAnswer NearEachOther(const Point& a, const Point& b, const Reach& reach) {
-  const Point d{a.x - b.x, a.y - b.y, a.z - b.z};
-  const Lanes square = SquaredNorm(d);
-  const unsigned sure = reach.surely > 0.0f ? MaskOf(square < reach.surely * reach.surely) : 0u;
-  return {MaskOf(!(square > reach.may * reach.may)), sure};
 }
 
 OCA_INLINED void CheckPairs(const BatchScene& scene, const BatchQuestion& question,
@@ -204,7 +235,7 @@ OCA_INLINED void CheckPairs(const BatchScene& scene, const BatchQuestion& questi
     for (int k = a.first; k < a.last && surely != near; ++k) {
       const BatchBall& ball = scene.balls[static_cast<std::size_t>(k)];
       const Point at = LoadPoint(work.balls.data() + 3 * k);
-      const Reach reach = ReachOf(ball, travel, margin, question.error);
+      const Reach reach = ReachOf(ball, travel, margin, question);
       for (int m = b.first; m < b.last; ++m) {
         const BatchBall& other = scene.balls[static_cast<std::size_t>(m)];
         const bool known = reach.surely > 0.0f && other.inner > 0.0f;
@@ -262,7 +293,8 @@ BatchWorkspace::BatchWorkspace(const BatchScene& scene)
       travels(scene.links.size() * (scene.frames.size() + 1), LaneArray{}),
       done(scene.links.size()) {
   for (const std::size_t one : {0, 4, 8}) frames[one].fill(1.0f);  // the base
-  found.reserve(scene.links.size() * scene.solids.size() + scene.pairs.size());
+  found.reserve(scene.links.size() * (scene.solids.size() + scene.movers.size()) +
+                scene.pairs.size());
 }
 
 void ForcePortable(bool portable) { portable_alone = portable; }

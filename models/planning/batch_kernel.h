@@ -14,6 +14,8 @@ namespace oca::planning::internal {
 // of them contracted, so that all give the same bits.
 
 inline constexpr int kLanes = 8;
+/// Of single precision, for a joint, with sine and cosine: see BatchClearance.
+inline constexpr double kRounding = 2e-6;
 using LaneArray = std::array<float, kLanes>;
 
 /// The next number above.
@@ -58,6 +60,11 @@ struct BatchSolid {
   float reach;                  // radius of a ball around all of it; infinite for a plane
 };
 
+/// A body that is elsewhere in each lane: what it is there is a ball, of BatchQuestion::movers.
+struct BatchMover {
+  int body;
+};
+
 struct BatchPair {
   int link, other;
   int frame;    // the last that carries both
@@ -75,6 +82,7 @@ struct BatchScene {
   std::vector<BatchBall> balls;
   std::vector<BatchPair> pairs;
   std::vector<BatchSolid> solids;
+  std::vector<BatchMover> movers;  // by their bodies, ascending
   std::vector<BatchIgnored> ignored;
   int moving{0};  // links from this place on are moved by joints
 };
@@ -103,9 +111,11 @@ struct BatchWorkspace {
 struct BatchQuestion {
   const LaneArray* motion;  // of each frame's joint: angle from -pi to pi, or way
   const LaneArray* paths;   // that each frame's joint may go from there, either way; null: none
+  const LaneArray* movers;  // of each a centre (3) and a radius
   float margin;
   float error;     // m, that distances may be wrong by
   unsigned lanes;  // that are asked for
+  bool all;        // what surely is too near is asked for, too, as what may be
 };
 
 /// What is known of the lanes, a bit each: that something may be too near, and that it surely is,
@@ -122,7 +132,7 @@ struct BatchKernel {
   BatchWorkspace work{scene};
 };
 
-/// What may be too near is in `work.found`, of the lanes that are not surely decided; how far links
+/// What may be too near is in `work.found`, of the lanes that are not surely decided, or of all; how far links
 /// travel, if that was asked for, in `work.travels` (robot::TravelBound of the ball around each).
 BatchAnswer CheckLanes(const BatchScene& scene, const BatchQuestion& question,
                        BatchWorkspace& work);

@@ -25,6 +25,7 @@ NearPair PairOf(const geometry::SignedDistance& found, int link, int body, int o
 Clearance::Clearance(std::shared_ptr<const RobotModel> model, bool self_collision,
                      std::vector<PlacedBody> bodies)
     : model_(std::move(model)),
+      self_collision_(self_collision),
       links_(LinkCollidersOf(*model_)),
       places_(static_cast<std::size_t>(model_->num_links()), -1),
       bodies_(std::move(bodies)),
@@ -111,27 +112,40 @@ geometry::SignedDistance Clearance::BodyDistance(const LinkCollider& link, const
   return found;
 }
 
+bool Clearance::LookAt(const LinkCollider& link, int body, double max_distance,
+                       NearPair& pair) const {
+  const geometry::SignedDistance found =
+      BodyDistance(link, bodies_[static_cast<std::size_t>(body)], max_distance);
+  if (found.status == geometry::DistanceStatus::kBeyond) return false;
+  pair = PairOf(found, link.number, body, -1);
+  return true;
+}
+
+bool Clearance::LookAtOwn(std::size_t own_pair, double max_distance, NearPair& pair) const {
+  const double scale = own_scales_[own_pair];
+  const geometry::SignedDistance found = OwnDistance(own_pair, max_distance / scale);
+  if (found.status == geometry::DistanceStatus::kBeyond) return false;
+  pair = PairOf(found, own_pairs_[own_pair].second, -1, own_pairs_[own_pair].first);
+  pair.distance *= scale;
+  pair.scale = scale;
+  return true;
+}
+
 // Calls visit(pair) for each pair within the limit, which visit returns anew: below 0 ends the walk.
 template <class Visit>
 void Clearance::ForEach(double max_distance, const Visit& visit) const {
   double limit = max_distance;
+  NearPair pair;
   for (const LinkCollider& link : links_) {
     if (model_->body(link.number) < 0) continue;
     for (int body = 0; body < std::ssize(bodies_); ++body) {
-      if (Ignored(link.number, body)) continue;
-      const geometry::SignedDistance found = BodyDistance(link, bodies_[body], limit);
-      if (found.status == geometry::DistanceStatus::kBeyond) continue;
-      limit = visit(PairOf(found, link.number, body, -1));
+      if (Ignored(link.number, body) || !LookAt(link, body, limit, pair)) continue;
+      limit = visit(pair);
       if (limit < 0.0) return;
     }
   }
   for (std::size_t i = 0; i < own_pairs_.size(); ++i) {
-    const double scale = own_scales_[i];
-    const geometry::SignedDistance found = OwnDistance(i, limit / scale);
-    if (found.status == geometry::DistanceStatus::kBeyond) continue;
-    NearPair pair = PairOf(found, own_pairs_[i].second, -1, own_pairs_[i].first);
-    pair.distance *= scale;
-    pair.scale = scale;
+    if (!LookAtOwn(i, limit, pair)) continue;
     limit = visit(pair);
     if (limit < 0.0) return;
   }
@@ -181,6 +195,22 @@ void Clearance::Collect(double max_distance, std::vector<NearPair>& pairs) const
     pairs.push_back(pair);
     return max_distance;
   });
+}
+
+void Clearance::Collect(double max_distance, std::span<const PairPlace> of,
+                        std::vector<NearPair>& pairs) const {
+  pairs.clear();
+  NearPair pair;
+  for (const PairPlace& place : of) {
+    bool near = false;
+    if (place.body < 0) {
+      near = LookAtOwn(static_cast<std::size_t>(place.own_pair), max_distance, pair);
+    } else {
+      const int link = places_[static_cast<std::size_t>(place.link)];
+      near = LookAt(links_[static_cast<std::size_t>(link)], place.body, max_distance, pair);
+    }
+    if (near) pairs.push_back(pair);
+  }
 }
 
 void Clearance::LinkDistances(double max_distance, std::span<double> least) const {

@@ -35,6 +35,14 @@ struct NearPair {
   double scale{1.0};  ///< of the distance as it counts to what it is: see Clearance::KeepOwn
 };
 
+/// A pair that may be near: a link and a body, by their numbers, or (`body` -1) that own pair of
+/// Clearance::own_pairs().
+struct PairPlace {
+  int link;
+  int body;
+  int own_pair;
+};
+
 /// A ball of those that together contain a link, in the link's frame, and the radius of one about
 /// the same centre that the link contains; 0: none. m.
 struct LinkBall {
@@ -57,6 +65,8 @@ class Clearance {
                      std::vector<PlacedBody> bodies = {});
 
   const RobotModel& model() const { return *model_; }
+  /// Whether pairs of own links count.
+  bool self_collision() const { return self_collision_; }
   const std::vector<PlacedBody>& bodies() const { return bodies_; }
   void SetBodies(std::vector<PlacedBody> bodies) {
     bodies_ = std::move(bodies);
@@ -87,7 +97,6 @@ class Clearance {
   void SetCovariance(int body, const Eigen::Matrix3d& covariance) {
     bodies_[body].covariance = covariance;
     ++version_;
-    ++version_;
   }
 
   /// From now on the distance of a pair of own links counts `reference` / range times, where its
@@ -109,6 +118,9 @@ class Clearance {
   NearPair Nearest(double max_distance = kUnlimited) const;
   /// All pairs within `max_distance`, behind each other in `pairs`, which is cleared.
   void Collect(double max_distance, std::vector<NearPair>& pairs) const;
+  /// The same of some pairs alone; in their order.
+  void Collect(double max_distance, std::span<const PairPlace> of,
+               std::vector<NearPair>& pairs) const;
   /// The least distance of each link to any body, or `max_distance` where that is less; `least`
   /// has num_links().
   void LinkDistances(double max_distance, std::span<double> least) const;
@@ -126,6 +138,9 @@ class Clearance {
   void Gradient(const NearPair& pair, Eigen::Ref<Eigen::VectorXd> row) const;
 
  private:
+  /// One pair, if it is within the limit.
+  bool LookAt(const LinkCollider& link, int body, double max_distance, NearPair& pair) const;
+  bool LookAtOwn(std::size_t own_pair, double max_distance, NearPair& pair) const;
   template <class Visit>
   void ForEach(double max_distance, const Visit& visit) const;
   geometry::SignedDistance BodyDistance(const LinkCollider& link, const PlacedBody& body,
@@ -134,6 +149,7 @@ class Clearance {
   bool Ignored(int link, int body) const;
 
   std::shared_ptr<const RobotModel> model_;
+  bool self_collision_;
   std::vector<LinkCollider> links_;
   std::vector<int> places_;  // in links_ of each link of the model; -1: it has no solids
   std::vector<std::pair<int, int>> own_pairs_;   // numbers of links
