@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "oca/models/geometry/obstacle.h"
 #include "oca/models/planning/batch_kernel.h"
 #include "oca/models/random.h"
 #include "tests/models/geometry/random_bodies.h"
@@ -143,8 +144,9 @@ TEST_P(BatchClearanceTest, AllProcessorsGiveTheSameBits) {
     for (auto& joint : paths) {
       for (float& lane : joint) lane = static_cast<float>(random.Uniform(0.0, 0.1));
     }
-    const internal::BatchQuestion question{motion.data(), i % 2 == 0 ? nullptr : paths.data(),
-                                           margin, 1e-5f, 0xffu};
+    const internal::BatchQuestion question{
+        motion.data(), i % 2 == 0 ? nullptr : paths.data(), nullptr, margin, 1e-5f, 0xffu,
+        i % 3 == 0};
     const internal::BatchAnswer answer = CheckLanes(scene, question, here);
     const internal::BatchAnswer other = CheckLanesPortable(scene, question, portable);
     ASSERT_EQ(answer.open, other.open);
@@ -158,6 +160,63 @@ TEST_P(BatchClearanceTest, AllProcessorsGiveTheSameBits) {
     ASSERT_EQ(here.centres, portable.centres);
     ASSERT_EQ(here.travels, portable.travels);
   }
+}
+
+/// Every third of Clutter's solids is elsewhere at each configuration.
+TEST_P(BatchClearanceTest, TellsAllPairsThatMayBeNearAmongBodiesThatMove) {
+  models::Random random(8);
+  geometry::RandomBodies places(9);
+  robot::Clearance clearance(Arm(GetParam()), true, Clutter(4));
+  clearance.Ignore(clearance.links().back().number, 1);
+  std::vector<int> moving;
+  for (int body = 0; body < 20; body += 3) moving.push_back(body);
+  BatchClearance batch(clearance, moving);
+  std::vector<robot::NearPair> all, some;
+  std::vector<robot::PairPlace> of;
+  long near = 0, told = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const int count = 1 + i % BatchClearance::kLanes;
+    const double margin = i % 5 == 0 ? 0.0 : random.Uniform(0.0, 0.15);
+    const Eigen::MatrixXd q = Draw(clearance.model(), random);
+    std::vector<Eigen::Isometry3d> poses;
+    std::vector<BatchClearance::MovingBall> balls;
+    for (int lane = 0; lane < count; ++lane) {
+      for (const int body : moving) {
+        const robot::PlacedBody& placed = clearance.bodies()[static_cast<std::size_t>(body)];
+        poses.push_back(places.Pose(1.2));
+        const double uncertain = geometry::kConfidence * std::sqrt(placed.covariance.trace());
+        balls.push_back({poses.back() * placed.collider->centre(),
+                         placed.collider->bounding_radius() + uncertain});
+      }
+    }
+    const auto candidates = batch.Near(q, count, margin, balls);
+    for (int lane = 0; lane < count; ++lane) {
+      of.clear();
+      for (const auto& candidate : candidates) {
+        if ((candidate.lanes >> lane & 1u) != 0) of.push_back(candidate.pair);
+      }
+      clearance.MoveTo(q.col(lane));
+      for (std::size_t m = 0; m < moving.size(); ++m) {
+        clearance.MoveBody(moving[m], poses[static_cast<std::size_t>(lane) * moving.size() + m]);
+      }
+      clearance.Collect(margin, all);
+      clearance.Collect(margin, of, some);
+      ASSERT_EQ(all.size(), some.size()) << i;
+      for (std::size_t k = 0; k < all.size(); ++k) {  // in the same order, bit for bit
+        ASSERT_EQ(all[k].link, some[k].link);
+        ASSERT_EQ(all[k].body, some[k].body);
+        ASSERT_EQ(all[k].other_link, some[k].other_link);
+        ASSERT_EQ(all[k].distance, some[k].distance);
+        ASSERT_EQ(all[k].normal, some[k].normal);
+      }
+      near += std::ssize(all);
+      told += std::ssize(of);
+    }
+  }
+  EXPECT_GT(near, 500);
+  EXPECT_LT(told, 6 * near);
+  std::printf("%s: %.2f candidates a pair that is near\n", GetParam(),
+              static_cast<double>(told) / static_cast<double>(near));
 }
 
 INSTANTIATE_TEST_SUITE_P(Arms, BatchClearanceTest,
