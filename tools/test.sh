@@ -23,7 +23,7 @@ under_valgrind files_test '*' & running+=($!)
 under_valgrind loading_test '-*EveryBlueprintTest*:*FileNested*' & running+=($!)
 under_valgrind fuzz_replay_test '*' & running+=($!)
 under_valgrind robot_test 'Urdf*:Srdf*:Xacro*:Xml*:Mesh*:JointLimitsFile*:HoldJoints*:Posture*:Inertia*:FuseCapsules*' & running+=($!)
-under_valgrind geometry_test 'Mesh*:Octree*:PlyFile*:PointCloud*:Lzf*:Collider*:ConvexHull*:Decomposition*:CoarseMesh*' & running+=($!)
+under_valgrind geometry_test 'Mesh*:StlFile*:ObjFile*:ColladaFile*:Octree*:PlyFile*:PointCloud*:Lzf*:Collider*:ConvexHull*:Decomposition*:CoarseMesh*' & running+=($!)
 for process in "${running[@]}"; do wait "$process"; done
 
 if command -v chromium > /dev/null && [ -f build/release/tools/viewer/viewer.html ]; then
