@@ -34,33 +34,36 @@ TEST_F(NewCommandTest, LeadsFromARobotToAReportOfARunThatIsClear) {
 }
 
 TEST_F(NewCommandTest, ReplacesNothing) {
-  run.folder().Write("mine/ur5e.yaml", "mine");
-  const Ran ran = New("package://ur5e/ur5e.urdf -o mine");
-  EXPECT_EQ(ran.status, 2);
-  EXPECT_THAT(ran.err, HasSubstr("mine/ur5e.yaml is there already"));
-  EXPECT_EQ(run.Read("mine/ur5e.yaml"), "mine");
-}
-
-TEST_F(NewCommandTest, ReplacesNoReport) {
-  run.folder().Write("mine/ur5e.html", "precious");
-  const Ran ran = New("package://ur5e/ur5e.urdf -o mine");
-  EXPECT_EQ(ran.status, 2);
-  EXPECT_THAT(ran.err, HasSubstr("mine/ur5e.html is there already"));
-  EXPECT_EQ(run.Read("mine/ur5e.html"), "precious");
-  EXPECT_FALSE(std::filesystem::exists(run.folder().path() / "mine/ur5e.yaml"));
+  for (const std::string name : {"ur5e.yaml", "ur5e.srdf", "ur5e.html"}) {
+    const std::string folder = "has_" + name;
+    run.folder().Write(folder + "/" + name, "precious");
+    const Ran ran = New("package://ur5e/ur5e.urdf -o " + folder);
+    EXPECT_EQ(ran.status, 2) << name;
+    EXPECT_THAT(ran.err, HasSubstr(folder + "/" + name + " is there already"));
+    EXPECT_EQ(run.Read(folder + "/" + name), "precious");
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(run.folder().path() / folder), {}),
+              1)
+        << name;
+  }
 }
 
 TEST_F(NewCommandTest, LeavesNothingHalfWhenItIsInterrupted) {
-  for (const char* wait : {"0.05", "0.2", "0.5"}) {
+  int interrupted = 0;
+  for (const char* wait : {"0.05", "0.1", "0.2", "0.5"}) {
     const Ran ran = New("package://iiwa14/iiwa14.urdf -o it & sleep " + std::string(wait) +
                         "; kill -INT $!; wait $!");
-    if (ran.status == 0) continue;  // it was done before
+    if (ran.status == 0) {  // it was done before, or did not listen yet
+      std::filesystem::remove_all(run.folder().path() / "it");
+      continue;
+    }
+    ++interrupted;
     EXPECT_EQ(ran.status, 130) << wait << ran.err;
     // Once it has told of its files they are whole.
     const bool told = ran.out.find("wrote it/") != std::string::npos;
     EXPECT_EQ(std::filesystem::exists(run.folder().path() / "it"), told) << wait;
     std::filesystem::remove_all(run.folder().path() / "it");
   }
+  EXPECT_GE(interrupted, 1);
 }
 
 TEST_F(NewCommandTest, RefusesWhatIsNoRobotAndLeavesNothing) {
