@@ -201,7 +201,7 @@ TEST_F(RobotRecordTest, TellsAMeshThatCannotBeDrawn) {
   ASSERT_THAT(record.warnings, SizeIs(1));
   EXPECT_THAT(record.warnings[0], HasSubstr("link 'only': not drawn: "));
   EXPECT_THAT(record.warnings[0], HasSubstr("bad.stl"));
-  EXPECT_EQ(Message("/robot")["warnings"][0]["links"], json({0}));
+  EXPECT_EQ(Message("/robot")["warnings"][0]["links"], json::array({0}));
 }
 
 TEST_F(RobotRecordTest, KeepsNamesWhateverTheyAre) {
