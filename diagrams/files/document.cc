@@ -280,7 +280,9 @@ MergedFiles LoadFiles(const fs::path& file, const std::vector<Override>& overrid
   Texts texts = TextsOf(overrides);
   AddTexts(parameters, texts);
   std::string form = "with includes";
-  for (const auto& [name, text] : texts) form += '\0' + name + '\0' + text;
+  for (const auto& [name, text] : texts) {
+    form.append(1, '\0').append(name).append(1, '\0').append(text);
+  }
   const auto read = models::MakeOnce<ReadDocument>(file, form, [&] {
     ReadDocument merged;
     Includer includer(texts, merged.problems);

@@ -12,7 +12,7 @@
 namespace oca::live::internal {
 
 /// What a client asks for. source foxglove.websocket.v1, "Client Data"
-struct ClientRequest {
+struct ClientRequest {  // NOLINT(bugprone-exception-escape): a null of JSON throws nothing
   enum class Kind {
     kSubscribe,
     kUnsubscribe,

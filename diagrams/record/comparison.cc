@@ -25,7 +25,7 @@ std::optional<Difference> DifferenceOf(const McapFile& first, const McapFile& se
     const McapMessage* const b = i < theirs.size() ? theirs[i] : nullptr;
     const std::uint64_t time_a = a == nullptr ? UINT64_MAX : a->log_time - start;
     const std::uint64_t time_b = b == nullptr ? UINT64_MAX : b->log_time - other_start;
-    if (time_a == time_b && a->data == b->data) {
+    if (a != nullptr && b != nullptr && time_a == time_b && a->data == b->data) {
       ++compared;
       continue;
     }

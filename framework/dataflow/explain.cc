@@ -19,7 +19,7 @@ std::string Explain(const std::exception& error) {
     const std::string path = file->path1().string();
     return (path.empty() ? "files" : path) + ": " + file->code().message();
   }
-  const std::string what = error.what();
+  std::string what = error.what();
   if (is(static_cast<const nlohmann::json::exception*>(nullptr))) {
     const std::size_t own = what.find("] ");
     return "JSON: " + (own == std::string::npos ? what : what.substr(own + 2));

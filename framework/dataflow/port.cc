@@ -83,7 +83,7 @@ Unit::Unit(std::string text) : base_(std::move(text)) {
 
 std::string Unit::ToString() const {
   if (any()) return "";
-  const std::string base = variable_ >= 0 ? "u" : base_;
+  std::string base = variable_ >= 0 ? "u" : base_;
   if (rates_ == 0) return base;
   const std::string power = std::abs(rates_) == 1 ? "s" : fmt::format("s^{}", std::abs(rates_));
   return rates_ > 0 ? base + "/" + power : base + " " + power;

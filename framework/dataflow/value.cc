@@ -33,8 +33,8 @@ T* Own(std::shared_ptr<T>& held) {
 
 Value::Held Value::Hold(Data data) {
   return std::visit(
-      [](auto&& one) -> Held {
-        using T = std::decay_t<decltype(one)>;
+      [](auto one) -> Held {
+        using T = decltype(one);
         if constexpr (std::is_same_v<T, List> || std::is_same_v<T, Map>) {
           return std::make_shared<T>(std::move(one));
         } else {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <cstdlib>
 #include <numeric>
@@ -21,8 +20,8 @@ constexpr std::int64_t kMostTicks = std::int64_t{1} << 53;
 constexpr std::int64_t kLeastSeconds = 100000;
 
 std::int64_t Ticks(const Period& period, std::int64_t rate) {
-  const std::int64_t factor = rate / period.denominator();
-  assert(factor > 0);  // the rate is a multiple of every denominator
+  // The rate is a multiple of every denominator.
+  const std::int64_t factor = std::max<std::int64_t>(rate / period.denominator(), 1);
   if (std::abs(period.numerator()) > kMostTicks / factor) {
     throw ConfigError(
         fmt::format("simulator: period; got {}; expected at most {} s beside the others",

@@ -22,7 +22,9 @@ constexpr double kMoved = 1e-9;  // m
 std::optional<double> TimeOfFirstSight(const ClairvoyantTask& task) {
   std::vector<Eigen::Isometry3d> first;
   for (const BandBody& body : task.bodies) first.push_back(body.pose(0.0));
-  for (double time = kTick; time <= task.duration; time += kTick) {
+  const auto ticks = static_cast<long>(std::floor(task.duration / kTick));
+  for (long k = 1; k <= ticks; ++k) {
+    const double time = static_cast<double>(k) * kTick;
     for (std::size_t b = 0; b < first.size(); ++b) {
       if (task.bodies[b].stands) continue;
       const Eigen::Isometry3d now = task.bodies[b].pose(time);
@@ -72,7 +74,9 @@ FirstSight LookAtFirstSight(const std::shared_ptr<const robot::RobotModel>& mode
   std::vector<double> travel(static_cast<std::size_t>(model->num_links()));
   std::vector<robot::NearPair> pairs;
   const double end = std::min(task.duration, *sight.time + kAfter);
-  for (double time = *sight.time; time <= end; time += kTick) {
+  const auto ticks = static_cast<long>(std::floor((end - *sight.time) / kTick));
+  for (long k = 0; k <= ticks; ++k) {
+    const double time = *sight.time + static_cast<double>(k) * kTick;
     task.request(time, 0, request);
     clearance.MoveTo(request);
     for (std::size_t b = 0; b < task.bodies.size(); ++b) {

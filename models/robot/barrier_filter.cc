@@ -70,11 +70,11 @@ BarrierFilter::BarrierFilter(std::shared_ptr<const RobotModel> model, BarrierSet
       least_entries_(LeastEntries(*model_, reach_)) {}
 
 void BarrierFilter::Solve(const Tick& tick, Solution& result) const {
-  if (!result.workspace) {
-    result.workspace.emplace(model_->num_positions(), settings_.most_rows);
+  if (!result.workspace_) {
+    result.workspace_.emplace(model_->num_positions(), settings_.most_rows);
     result.velocity.resize(model_->num_positions());
   }
-  Solution::Workspace& work = *result.workspace;
+  Solution::Workspace& work = *result.workspace_;
   result.activity = {};
   FillBox(result);
   FillWish(tick, result);
@@ -93,7 +93,7 @@ double BarrierFilter::Approach(double headroom) const {
 }
 
 void BarrierFilter::FillBox(Solution& result) const {
-  Solution::Workspace& work = *result.workspace;
+  Solution::Workspace& work = *result.workspace_;
   const double dt = settings_.period;
   for (Eigen::Index j = 0; j < model_->num_positions(); ++j) {
     const motion::JointMotion motion{result.command[j], result.last_velocity[j], 0.0};
@@ -109,7 +109,7 @@ void BarrierFilter::FillBox(Solution& result) const {
 }
 
 void BarrierFilter::FillWish(const Tick& tick, Solution& result) const {
-  Solution::Workspace& work = *result.workspace;
+  Solution::Workspace& work = *result.workspace_;
   const double dt = settings_.period;
   for (Eigen::Index j = 0; j < tick.position.size(); ++j) {
     const motion::JointRequest joint{tick.position[j], tick.velocity ? (*tick.velocity)[j] : 0.0,
@@ -131,7 +131,7 @@ bool BarrierFilter::Moves(const Eigen::VectorXd& row) const {
 }
 
 void BarrierFilter::LeaveOut(const Proximity& proximity, double lack, Solution& result) const {
-  auto& unmovable = result.workspace->unmovable;
+  auto& unmovable = result.workspace_->unmovable;
   if (!(lack > 0.0) || unmovable.size() == unmovable.capacity()) return;
   FilterBound bound;
   bound.kind = FilterBound::Kind::kUnmovable;
@@ -143,13 +143,13 @@ void BarrierFilter::LeaveOut(const Proximity& proximity, double lack, Solution& 
 
 /// To rest as fast as the box lets every joint.
 void BarrierFilter::Brake(Solution& result) const {
-  const qp::ProjectionQp& qp = result.workspace->qp;
+  const qp::ProjectionQp& qp = result.workspace_->qp;
   result.velocity.setZero();
   result.velocity = result.velocity.cwiseMax(qp.lower).cwiseMin(qp.upper);
 }
 
 void BarrierFilter::AddRow(const Solution::Row& source, double bound, Solution& result) const {
-  Solution::Workspace& work = *result.workspace;
+  Solution::Workspace& work = *result.workspace_;
   const auto reach =
       work.row.cwiseProduct(work.qp.lower).cwiseMin(work.row.cwiseProduct(work.qp.upper));
   if (reach.sum() >= bound) return;  // every velocity of the box keeps it
@@ -174,7 +174,7 @@ void BarrierFilter::AddRow(const Solution::Row& source, double bound, Solution& 
 
 void BarrierFilter::FillRows(const Tick& tick, Solution& result) const {
   const ProximitySet& set = tick.proximities;
-  Solution::Workspace& work = *result.workspace;
+  Solution::Workspace& work = *result.workspace_;
   work.rows.clear();
   work.unmovable.clear();
   work.qp.num_rows = 0;
@@ -203,7 +203,7 @@ void BarrierFilter::FillRows(const Tick& tick, Solution& result) const {
 /// The rows that were active at the last tick, found again by what they are about.
 void BarrierFilter::FillGuess(const Tick& tick, Solution& result) const {
   const FilterActivity& last = tick.last;
-  Solution::Workspace& work = *result.workspace;
+  Solution::Workspace& work = *result.workspace_;
   using Kind = qp::QpActive::Kind;
   auto& guess = work.solution.active;
   guess.clear();
@@ -239,7 +239,7 @@ double BarrierFilter::TickMargin(double turn, double reach, double obstacle_spee
 
 void BarrierFilter::Report(const Tick& tick, Solution& result) const {
   const ProximitySet& set = tick.proximities;
-  const Solution::Workspace& work = *result.workspace;
+  const Solution::Workspace& work = *result.workspace_;
   FilterActivity& report = result.activity;
   report.status = work.solution.status;
   const bool valid = report.status != qp::QpStatus::kInvalid;

@@ -86,7 +86,7 @@ class BarrierFilter {
       std::vector<motion::VelocityRange> box;  ///< one a joint
       Eigen::VectorXd row;
     };
-    std::optional<Workspace> workspace;
+    std::optional<Workspace> workspace_;
   };
 
   BarrierFilter(std::shared_ptr<const RobotModel> model, BarrierSettings settings);

@@ -29,7 +29,7 @@ const NamedState& FindState(const RobotModel& model, std::string_view name) {
     found = &state;
     same.push_back(FullName(state));
   }
-  if (same.size() == 1) return *found;
+  if (same.size() == 1 && found != nullptr) return *found;
   if (same.empty()) {
     throw models::ModelError(
         fmt::format("got '{}'; expected a state of '{}': {}", name, model.name().text(),

@@ -66,7 +66,7 @@ class UrdfReader {
                &Joint::acceleration_limit);
     GiveLimits(joints_, options_.jerk_limits, where_ + ": jerk_limits", &Joint::jerk_limit);
     limits.TightenRates(joints_);
-    const RobotModel model = MakeModel(std::move(links_), std::move(joints_), srdf);
+    RobotModel model = MakeModel(std::move(links_), std::move(joints_), srdf);
     if (options_.warn) Warn(model);
     return model;
   }

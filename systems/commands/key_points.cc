@@ -70,7 +70,7 @@ std::vector<motion::KeyPoint> KeyPointsFrom(const std::vector<KeyPointParams>& k
     throw ConfigError("file: given twice; got key_points too; expected one of the two");
   }
   return WithConfigErrors([&] {
-    const std::vector<motion::KeyPoint> points =
+    std::vector<motion::KeyPoint> points =
         file.empty() ? PointsOf(key_points, model) : motion::ReadKeyPoints(file, joints);
     motion::CheckKeyPoints(points, file.empty() ? "key_points" : file);
     return points;

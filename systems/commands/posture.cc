@@ -79,7 +79,7 @@ class PostureType final : public ParamType {
       Numbers().Check(numbers, field, where, problems);
     } else if (const auto* const joints = std::get_if<robot::NamedPositions>(&posture.said)) {
       for (const auto& [name, position] : *joints) {
-        ParamTypeOf<double>().Check(&position, field, where + "." + name, problems);
+        ParamTypeOf<double>().Check(&position, field, fmt::format("{}.{}", where, name), problems);
       }
     }
   }

@@ -49,24 +49,8 @@ void RequireSize(const motion::Trajectory& request, Eigen::Index size) {
   throw ConfigError(fmt::format("ahead: length; got {} joints; expected {}", request.size(), size));
 }
 
-}  // namespace
-
-void ElasticBand::PlanCost::Describe(Fields<PlanCost>& fields) {
-  fields.Add("plan", &PlanCost::plan, "s", "a plan, besides").AtLeast(0.0);
-  fields.Add("band", &PlanCost::band, "s", "a look at a configuration of a band").Above(0.0);
-  fields.Add("exact", &PlanCost::exact, "s", "a look at another by exact distances").Above(0.0);
-  fields.Add("batch", &PlanCost::batch, "s", "a look at up to eight of a path at once").Above(0.0);
-}
-
-void ElasticBand::Params::Describe(Fields<Params>& fields) {
-  AddModel(fields);
-  AddControlPeriod(fields);
-  fields.Add("plan_period", &Params::plan_period, "s", "time between plans").Above(0.0);
-  fields
-      .Add("plan_time", &Params::plan_time, "s",
-           "time to make a plan, after which it begins; 0: plan_period")
-      .AtLeast(0.0);
-  fields.Add("plan_cost", &Params::plan_cost, "", "what the work of a plan counts as");
+void AddDistances(Fields<ElasticBand::Params>& fields) {
+  using Params = ElasticBand::Params;
   fields.Add("margin", &Params::margin, "m", "distance up to which obstacles push the band")
       .Above(0.0);
   fields
@@ -86,6 +70,10 @@ void ElasticBand::Params::Describe(Fields<Params>& fields) {
       .Add("flying_distance", &Params::flying_distance, "m",
            "distance that a band keeps from what moves that a filter need not correct")
       .AtLeast(0.0);
+}
+
+void AddBandPrices(Fields<ElasticBand::Params>& fields) {
+  using Params = ElasticBand::Params;
   fields.Add("clearance", &Params::clearance, "1/m^2", "price of a missing margin").Above(0.0);
   fields
       .Add("smoothness", &Params::smoothness, "s^4/rad^2", "price of the deviation's acceleration")
@@ -97,6 +85,28 @@ void ElasticBand::Params::Describe(Fields<Params>& fields) {
            "share of the velocity and acceleration limits that plans may use")
       .Above(0.0)
       .AtMost(1.0);
+}
+
+}  // namespace
+
+void ElasticBand::PlanCost::Describe(Fields<PlanCost>& fields) {
+  fields.Add("plan", &PlanCost::plan, "s", "a plan, besides").AtLeast(0.0);
+  fields.Add("band", &PlanCost::band, "s", "a look at a configuration of a band").Above(0.0);
+  fields.Add("exact", &PlanCost::exact, "s", "a look at another by exact distances").Above(0.0);
+  fields.Add("batch", &PlanCost::batch, "s", "a look at up to eight of a path at once").Above(0.0);
+}
+
+void ElasticBand::Params::Describe(Fields<Params>& fields) {
+  AddModel(fields);
+  AddControlPeriod(fields);
+  fields.Add("plan_period", &Params::plan_period, "s", "time between plans").Above(0.0);
+  fields
+      .Add("plan_time", &Params::plan_time, "s",
+           "time to make a plan, after which it begins; 0: plan_period")
+      .AtLeast(0.0);
+  fields.Add("plan_cost", &Params::plan_cost, "", "what the work of a plan counts as");
+  AddDistances(fields);
+  AddBandPrices(fields);
   fields.Add("prediction", &Params::prediction, "s", "how long obstacles are taken to go on as now")
       .AtLeast(0.0);
   fields

@@ -94,7 +94,7 @@ void CloneContext(benchmark::State& state) {
   const auto diagram = MakeChain(100);
   const Context original = diagram->MakeContext();
   for (auto _ : state) {
-    Context copy(original);
+    Context copy(original);  // NOLINT(performance-unnecessary-copy-initialization): it is timed
     benchmark::DoNotOptimize(copy.time());
   }
 }

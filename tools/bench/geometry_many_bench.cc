@@ -88,8 +88,9 @@ void Far(benchmark::State& state) {
   const int count = static_cast<int>(state.range(0));
   for (int i = 0; i < count; ++i) {
     set.obstacles.push_back(one);
+    const int column = i / 40 % 50, layer = i / 2000;
     set.obstacles.back().X_WO.translation() =
-        Vector3d(10.0 + 0.3 * (i % 40), 0.3 * (i / 40 % 50), 0.3 * (i / 2000));
+        Vector3d(10.0 + 0.3 * (i % 40), 0.3 * column, 0.3 * layer);
   }
   TickAmong(state, set, count > 0 ? 10 : -1);
 }

@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
     const auto plant = whole.diagram->GetOutput<oca::Vector>("plant.position");
     const auto camera = whole.diagram->GetOutput<ObstacleSet>("obstacles.obstacles");
     Eigen::VectorXd q = plant.Eval(start);
-    const ObstacleSet scene = camera.Eval(start);
+    const ObstacleSet& scene = camera.Eval(start);
 
     const oca::Period period(1, 100);
     oca::ControlLoop loop(*part.diagram, period);

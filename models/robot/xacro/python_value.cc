@@ -180,7 +180,8 @@ PythonValue PythonValue::ListOf(Items items, bool tuple) {
   return value;
 }
 
-PythonValue PythonValue::DictOf(Entries entries) {
+PythonValue PythonValue::DictOf(
+    Entries entries) {  // NOLINT(performance-unnecessary-value-param): moved from
   CheckCount(entries.size());
   int depth = 0;
   std::map<std::string, std::size_t> places;

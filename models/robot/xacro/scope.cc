@@ -143,7 +143,7 @@ std::shared_ptr<const Macro> Scope::FindMacro(const std::string& name, Scope*& h
   if (dot != std::string::npos) {
     Scope* const space = FindNamespace(name.substr(0, dot));
     if (space == nullptr) return nullptr;
-    const auto macro = space->FindMacro(name.substr(dot + 1), home);
+    auto macro = space->FindMacro(name.substr(dot + 1), home);
     if (home == nullptr) home = space;
     return macro;
   }

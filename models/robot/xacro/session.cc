@@ -92,7 +92,7 @@ PythonValue Session::Evaluate(const std::string& text, Scope& scope, const Sourc
 PythonValue Session::EvaluateExpression(const std::string& text, Scope& scope,
                                         const SourcePlace& place) {
   // ${...} and $(...) inside of an expression are put in as texts before it is read.
-  const PythonValue inner = Evaluate(text, scope, place);
+  PythonValue inner = Evaluate(text, scope, place);
   if (inner.text() == nullptr) return inner;
   const SourcePlace* const outer = std::exchange(at_, &place);
   try {
