@@ -117,6 +117,20 @@ const Wiring& Diagram::wiring() const {
 DiagramBuilder::DiagramBuilder() : diagram_(new Diagram) {}
 DiagramBuilder::~DiagramBuilder() = default;
 
+void DiagramBuilder::ThrowOfSystem(const std::string& name) {
+  try {
+    throw;
+  } catch (WiringError& error) {
+    for (WiringProblem& problem : error.problems) {
+      problem.text.insert(problem.text.begin(), name + ": ");
+    }
+    throw WiringError(std::move(error.problems));
+  } catch (Error& error) {
+    error.AddWhere(name);
+    throw;
+  }
+}
+
 const System& DiagramBuilder::AddSystem(std::string name, std::unique_ptr<System> system) {
   internal::CheckName(name, "system");
   if (system == nullptr) {
