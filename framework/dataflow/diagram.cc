@@ -159,7 +159,8 @@ void DiagramBuilder::ConnectPorts(const OutputHandle& from, const InputHandle& t
 void DiagramBuilder::ExportInput(std::string name, const InputHandle& input, int size) {
   internal::CheckPath(name, "input");
   if (input.system == nullptr) {
-    throw WiringError(fmt::format("exported input '{}': its port belongs to no system", name));
+    throw WiringError(fmt::format(
+        "exported input '{}': got a handle that was made by default; expected an input", name));
   }
   auto& exported = diagram_->exported_inputs_;
   const auto same = std::find_if(exported.begin(), exported.end(),
@@ -182,7 +183,8 @@ void DiagramBuilder::ExportOutput(std::string name, const OutputHandle& output) 
     }
   }
   if (output.system == nullptr) {
-    throw WiringError(fmt::format("exported output '{}': its port belongs to no system", name));
+    throw WiringError(fmt::format(
+        "exported output '{}': got a handle that was made by default; expected an output", name));
   }
   const System::OutputInfo& inner = output.system->outputs().at(output.index);
   diagram_->AddOutput({name, inner.type, inner.spec, {}, -1});
