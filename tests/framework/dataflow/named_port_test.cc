@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is refused is named: a port of no system inside, an empty handle.
+// What is refused is named: a port of no system inside, an empty handle, a type that was asked for.
 #include <gmock/gmock.h>
 
 #include "oca/framework/dataflow/control_loop.h"
+#include "oca/framework/dataflow/dynamic_port.h"
 #include "tests/framework/dataflow/blocks.h"
 
 namespace oca {
@@ -124,6 +125,24 @@ TEST(NamedPortTest, ALoopThatCannotSetAnInputSaysWhich) {
   EXPECT_STREQ(loop.Set(Input<Vector>(), Vec({1.0})).message(),
                "control loop: input; got a handle that was made by default; expected an input that "
                "the diagram exports");
+}
+
+TEST(NamedPortTest, ATypeThatIsNotThePortsIsToldAsWhatWasAskedFor) {
+  const auto diagram = OneMap();
+  const Context context = diagram->MakeContext();
+  EXPECT_EQ(Refusal<WiringError>([&] { diagram->GetOutput<Label>("system.out"); }),
+            "output 'system.out' was asked for as Label; it is Vector");
+  EXPECT_EQ(Refusal<WiringError>([&] { EvalObject(diagram->FindOutput("out"), context); }),
+            "output 'system.out' was asked for as what is no Vector; it is Vector");
+  const auto labels = MakeDiagramOf(std::make_unique<blocks::LabelSink>());
+  EXPECT_EQ(
+      Refusal<WiringError>([&] { EvalVector(labels->FindOutput("out"), labels->MakeContext()); }),
+      "output 'system.out' was asked for as Vector; it is Label");
+  EXPECT_EQ(Refusal<WiringError>([&] { EvalVector(OutputHandle{}, context); }),
+            "an empty handle: got a handle that was made by default; expected one of the diagram "
+            "that made the context");
+  EXPECT_EQ(Refusal<WiringError>([&] { TypeOfPort(InputHandle{}); }),
+            "an empty handle: got a handle that was made by default; expected one of a system");
 }
 
 }  // namespace named_port_test
