@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+
 #include "oca/framework/dataflow/error.h"
 #include "tests/diagrams/files/yaml_text.h"
 #include "tests/temporary_folder.h"
@@ -144,6 +145,16 @@ TEST_F(DocumentTest, CirclesOfIncludesAreRefusedAtTheirPlace) {
   folder.Write("main.yaml", "include: [./main.yaml]\n");
   Load();
   EXPECT_THAT(problems, HasSubstr("includes itself"));
+}
+
+TEST_F(DocumentTest, AnEmptyNameOfAFileIsRefusedWhereItStands) {
+  Problems found;
+  EXPECT_THAT(
+      [&] { LoadDocument("", {}, found); },
+      testing::ThrowsMessage<ConfigError>("diagram: got an empty file name; expected a path"));
+  folder.Write("main.yaml", "include: ['']\nname: main\n");
+  Load();
+  EXPECT_THAT(problems, HasSubstr("main.yaml:1:11: error: include: got ''; expected a file name"));
 }
 
 TEST_F(DocumentTest, WrongIncludesAreRefused) {
