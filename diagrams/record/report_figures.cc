@@ -11,7 +11,7 @@
 #include "oca/diagrams/runs/signal_facts.h"
 #include "oca/framework/dataflow/diagram.h"
 #include "oca/framework/dataflow/error.h"
-#include "oca/models/robot/repulsion.h"
+#include "oca/models/robot/repulsive_law.h"
 
 namespace oca::record {
 namespace {
@@ -78,7 +78,7 @@ std::vector<PlotPanel> StaticTest(bool limited) {
 
 /// The law of the field of the report's tests with gain 1 and range 1 m; as there, cut off at 300.
 std::vector<PlotPanel> RepulsiveForce() {
-  const robot::Repulsion law{.gain = 1.0, .range = 1.0, .floor = 0.01};
+  const robot::RepulsiveLaw law{.gain = 1.0, .range = 1.0, .floor = 0.01};
   PlotCurve curve{"F_rep", {}, {}};
   for (int i = 1; i <= 600; ++i) {
     curve.x.push_back(0.002 * i);

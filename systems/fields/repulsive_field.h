@@ -3,7 +3,7 @@
 
 #include "oca/framework/dataflow/params.h"
 #include "oca/framework/dataflow/system.h"
-#include "oca/models/robot/repulsion.h"
+#include "oca/models/robot/repulsive_law.h"
 #include "oca/systems/signals/contact_slopes.h"
 #include "oca/systems/signals/signals.h"
 
@@ -42,7 +42,7 @@ class RepulsiveField final : public System {
 
  private:
   const Params params_;
-  const robot::Repulsion law_;
+  const robot::RepulsiveLaw law_;
   void CalcForces(const ProximitySet& proximity_set, LinkForceSet& force_set) const;
   void CalcSlopes(const ProximitySet& proximity_set, ContactSlopes& contact_slopes) const;
 

@@ -93,7 +93,7 @@ TEST(VortexFieldTest, TurnsTheForceByItsAngleTowardsTheRequest) {
 
 TEST(VortexFieldTest, IsARepulsiveFieldIfItDoesNotTurn) {
   Bench bench(Turned(0.0));
-  const robot::Repulsion plain{1.0, 0.3, 0.01};
+  const robot::RepulsiveLaw plain{1.0, 0.3, 0.01};
   const Vector3d n = Vector3d(1.0, -2.0, 0.5).normalized();
   for (const double distance : {0.3, 0.29, 0.1, 0.0, -0.2}) {
     bench.Place(distance, n);

@@ -10,7 +10,7 @@ namespace oca::robot {
 /// The floor keeps it finite and outward in penetration.
 ///
 /// source Khatib 1986, section 3; report eq. (3.1); docs/theory.md
-struct Repulsion {
+struct RepulsiveLaw {
   double gain;   ///< N m^3
   double range;  ///< m
   double floor;  ///< m, 0 < floor < range
