@@ -67,7 +67,7 @@ bool OpenedFiles::Has(const fs::path& plain) const {
 }
 
 void NoteOpened(const fs::path& file) {
-  if (file.empty()) throw ModelError("file; got an empty name; expected one of a file");
+  if (file.empty()) throw ModelError("got an empty file name; expected a path");
   if (innermost == nullptr) return;
   if (!innermost->Allows(file)) {
     throw ModelError(

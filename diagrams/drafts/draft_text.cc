@@ -18,6 +18,10 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
+constexpr std::string_view kFirstDiagram =
+#include "oca/diagrams/drafts/first_diagram.inc"
+    ;
+
 constexpr double kSpeedShare = 0.25;   // of the speed limit, on the average
 constexpr double kShortest = 4.0;      // s
 constexpr double kPause = 0.5;         // s, before the motion
@@ -44,6 +48,19 @@ double DurationOf(const planning::FirstMotion& motion, const robot::RobotModel& 
 }
 
 }  // namespace
+
+std::string Filled(std::string_view text, const std::map<std::string_view, std::string>& values) {
+  if (text.starts_with('\n')) text.remove_prefix(1);
+  std::string filled;
+  while (true) {
+    const std::size_t open = text.find('@');
+    filled += text.substr(0, open);
+    if (open == std::string_view::npos) return filled;
+    const std::size_t close = text.find('@', open + 1);
+    filled += values.at(text.substr(open + 1, close - open - 1));
+    text.remove_prefix(close + 1);
+  }
+}
 
 std::string Quoted(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -145,36 +162,17 @@ std::string DiagramText(const DraftOptions& options, const DraftRobot& robot,
   const std::string name = PlainName(robot.model->name().text());
   std::vector<std::string> joints;
   for (const models::Name& joint : robot.model->position_names()) joints.push_back(joint.text());
-  std::string text = fmt::format(
-      "# A first diagram, by `simulator new`. Next: key points and obstacles of your own.\n"
-      "name: {}\n"
-      "description: The arm turns past a ball that lies across its way\n"
-      "include: [package://oca/parts/avoidance.yaml]   # the loop: distances, method, limits, "
-      "plant\n"
-      "parameters:\n"
-      "  avoidance: {}\n"
-      "  self_collision: true\n"
-      "  acceleration_limit: 10.0                # rad/s^2 or m/s^2; a guess: URDF has none\n{}"
-      "simulator: {{duration: {}}}                 # s; twice what the motion is asked to take\n",
-      Quoted(name), options.avoidance, SmallerDistances(robot.reach), motion.duration);
-  text += PackagesText(robot);
-  text += "models:\n  arm:\n" + ModelText(options, robot, srdf, limits);
-  text += fmt::format(
-      "systems:\n"
-      "  obstacles:\n"
-      "    type: ObstacleSource\n"
-      "    obstacles:\n"
-      "      - {}\n"
-      "  spline:                                   # the request: {}\n"
-      "    type: SplineGenerator\n"
-      "    period: ${{1 / rate}}\n"
-      "    key_points:\n"
-      "      - {}\n"
-      "      - {}\n",
-      motion.ball, Quoted(fmt::format("{}", fmt::join(joints, ", "))), motion.first, motion.second);
-  text += fmt::format("  plant: {{initial_position: {}}}\n", motion.start);
-  text += "expect: {final_error: {at_most: 0.01}}     # rad; and no contact, as of every run\n";
-  return text;
+  return Filled(kFirstDiagram, {{"name", Quoted(name)},
+                                {"avoidance", options.avoidance},
+                                {"scale", SmallerDistances(robot.reach)},
+                                {"duration", motion.duration},
+                                {"packages", PackagesText(robot)},
+                                {"model", ModelText(options, robot, srdf, limits)},
+                                {"ball", motion.ball},
+                                {"joints", Quoted(fmt::format("{}", fmt::join(joints, ", ")))},
+                                {"first", motion.first},
+                                {"second", motion.second},
+                                {"start", motion.start}});
 }
 
 std::string LimitsText(const robot::RobotModel& model) {

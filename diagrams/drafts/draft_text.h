@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "oca/diagrams/drafts/draft.h"
@@ -19,6 +21,8 @@ std::string PathFrom(const std::filesystem::path& folder, const std::filesystem:
 /// The same, of a file within the folder by its way from there.
 std::string PathBeside(const std::filesystem::path& folder, const std::filesystem::path& file);
 
+/// A template (*.inc) with what stands for each `@name@` in it.
+std::string Filled(std::string_view text, const std::map<std::string_view, std::string>& values);
 /// A text as YAML and JSON write it.
 std::string Quoted(const std::string& text);
 /// Parameters of the parts, for an arm that is smaller than those that their distances are for.

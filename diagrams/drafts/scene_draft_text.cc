@@ -13,6 +13,10 @@
 namespace oca::drafts::internal {
 namespace {
 
+constexpr std::string_view kSceneDiagram =
+#include "oca/diagrams/drafts/scene_diagram.inc"
+    ;
+
 constexpr const char* kNoGuess = "\"${acceleration_limit}\"";
 
 /// As a person writes it: in quotes where YAML needs them.
@@ -64,7 +68,7 @@ std::string ModelsText(const DraftOptions& options, const DraftRobot& robot,
   const std::string srdf = !options.named_srdf.empty() ? options.named_srdf
                            : options.srdf.empty()      ? ""
                                                        : PathBeside(options.folder, options.srdf);
-  std::string text = "models:\n  arm:\n" + ModelText(options, robot, srdf, scene.limits);
+  std::string text = ModelText(options, robot, srdf, scene.limits);
   text += AccelerationText(*robot.model);
   if (scene.base) text += fmt::format("    base_pose: {}\n", PoseText(*scene.base));
   if (scene.held.empty()) return text;
@@ -80,23 +84,14 @@ std::string ModelsText(const DraftOptions& options, const DraftRobot& robot,
 }
 
 std::string ObstaclesText(const SceneText& scene) {
-  std::string text = "  obstacles:\n    type: ObstacleSource\n";
-  if (scene.obstacles.empty()) return text;
-  text += "    obstacles:\n";
+  if (scene.obstacles.empty()) return "";
+  std::string text = "    obstacles:\n";
   for (const BodyText& body : scene.obstacles) text += BodyItem(body, "");
   return text;
 }
 
-std::string RequestText(const DraftRobot& robot, const SceneText& scene) {
-  std::vector<std::string> joints;
-  for (const models::Name& joint : robot.model->position_names()) joints.push_back(joint.text());
-  std::string text = fmt::format(
-      "  spline:                                   # {}\n"
-      "    type: SplineGenerator\n"
-      "    kind: quintic\n"
-      "    period: ${{1 / rate}}\n",
-      Quoted(fmt::format("the request: {}", fmt::join(joints, ", "))));
-  if (scene.pose) text += "    model: arm\n";
+std::string RequestText(const SceneText& scene) {
+  std::string text = scene.pose ? "    model: arm\n" : "";
   text +=
       fmt::format("    key_points:\n      - {{time: 0, position: {}}}\n", NumbersText(scene.start));
   if (scene.goal) {
@@ -139,33 +134,29 @@ std::string IgnoreText(const SceneText& scene) {
 std::string SceneDiagramText(const DraftOptions& options, const DraftRobot& robot,
                              const SceneText& scene) {
   const bool moves = scene.goal || scene.pose;
-  std::string text = fmt::format(
-      "# By `simulator import` of {}{}.\n"
-      "name: {}\n"
-      "description: {}\n"
-      "include: [package://oca/parts/avoidance.yaml]   # the loop: distances, method, limits, "
-      "plant\n"
-      "parameters:\n"
-      "  avoidance: {}\n"
-      "  self_collision: true\n"
-      "  acceleration_limit: 10.0                # rad/s^2 or m/s^2; where the robot's description "
-      "has none\n"
-      "  judge_looks: 10                         # a tick; goals of scenes stand near things\n{}"
-      "simulator: {{duration: 20}}                 # s\n",
-      Quoted(scene.scene), scene.request.empty() ? "" : " and " + Quoted(scene.request),
-      Quoted(scene.name),
-      moves ? "The arm goes to the goal of a planning scene, straight in its joints where it can"
-            : "The arm stands in a planning scene",
-      options.avoidance, SmallerDistances(robot.reach));
-  if (scene.intruder) text += kIntruderText;
-  text += PackagesText(robot);
-  text += ModelsText(options, robot, scene);
-  text += "systems:\n" + ObstaclesText(scene) + RequestText(robot, scene) + IgnoreText(scene);
-  text += fmt::format("  plant: {{initial_position: {}}}\n", NumbersText(scene.start));
-  if (moves) {
-    text += "expect: {final_error: {at_most: 0.01}}     # rad; and no contact, as of every run\n";
-  }
-  return text;
+  std::vector<std::string> joints;
+  for (const models::Name& joint : robot.model->position_names()) joints.push_back(joint.text());
+  return Filled(
+      kSceneDiagram,
+      {{"sources",
+        Quoted(scene.scene) + (scene.request.empty() ? "" : " and " + Quoted(scene.request))},
+       {"name", Quoted(scene.name)},
+       {"description", moves ? "The arm goes to the goal of a planning scene, straight in its "
+                               "joints where it can"
+                             : "The arm stands in a planning scene"},
+       {"avoidance", options.avoidance},
+       {"scale", SmallerDistances(robot.reach)},
+       {"intruder", scene.intruder ? kIntruderText : ""},
+       {"packages", PackagesText(robot)},
+       {"model", ModelsText(options, robot, scene)},
+       {"obstacles", ObstaclesText(scene)},
+       {"joints", Quoted(fmt::format("the request: {}", fmt::join(joints, ", ")))},
+       {"request", RequestText(scene)},
+       {"ignore", IgnoreText(scene)},
+       {"start", NumbersText(scene.start)},
+       {"expect", moves ? "expect: {final_error: {at_most: 0.01}}     # rad; and no contact, as of "
+                          "every run\n"
+                        : ""}});
 }
 
 }  // namespace oca::drafts::internal

@@ -236,7 +236,7 @@ class Includer {
         continue;
       }
       for (const Value& item : *entry.value.list()) {
-        if (item.string() == nullptr) {
+        if (item.string() == nullptr || item.string()->empty()) {
           problems_.Add(item.location(),
                         fmt::format("include: got {}; expected a file name", item.Show()));
           continue;
@@ -277,6 +277,7 @@ class Includer {
 
 MergedFiles LoadFiles(const fs::path& file, const std::vector<Override>& overrides,
                       Problems& problems, const Value* parameters) {
+  if (file.empty()) throw ConfigError("diagram: got an empty file name; expected a path");
   Texts texts = TextsOf(overrides);
   AddTexts(parameters, texts);
   std::string form = "with includes";

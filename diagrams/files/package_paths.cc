@@ -84,12 +84,23 @@ fs::path FindPackage(const std::string& package, const std::string& name) {
                                 places.empty() ? "OCA_PACKAGE_PATH" : places));
 }
 
+/// A path without the `..` behind a folder, if that leads to the same folder: a link before it would
+/// lead elsewhere. What a file is called in messages, and what it names in turn lies from there.
+fs::path InShort(const fs::path& file) {
+  if (std::find(file.begin(), file.end(), "..") == file.end()) return file;
+  const fs::path plain = file.lexically_normal();
+  const auto folder = [](const fs::path& of) {
+    return of.has_parent_path() ? of.parent_path() : fs::path(".");
+  };
+  std::error_code error;
+  return fs::equivalent(folder(plain), folder(file), error) ? plain : file;
+}
+
 }  // namespace
 
 fs::path ResolvePath(const std::string& name, const fs::path& folder, const PackageMap& packages) {
   static const std::string kScheme = "package://";
-  if (!name.starts_with(kScheme))
-    return fs::path(name).is_absolute() ? fs::path(name) : folder / name;
+  if (!name.starts_with(kScheme)) return InShort(folder / name);  // which is name if absolute
   const std::string rest = name.substr(kScheme.size());
   const std::string package = rest.substr(0, rest.find('/'));
   const fs::path inside = rest.size() > package.size() ? rest.substr(package.size() + 1) : "";

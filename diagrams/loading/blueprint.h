@@ -40,8 +40,9 @@ struct BuildOptions {
 ///       ...
 ///     }
 ///
-/// Making one reads nothing: a file is read by the first Build that needs it. From then on the
-/// Blueprint holds it as it was read, whatever becomes of it on disk, and the Builds that follow
+/// Making one reads nothing: a file is read by the first Build that needs it. What is wrong with it
+/// each Build says anew, by a ConfigError: whoever builds many stops at the first. What was read the
+/// Blueprint holds from then on as it was read, whatever becomes of it on disk, and the Builds that follow
 /// share what was made of it, all of it immutable: the text of diagram files, robots, hulls and
 /// other convex parts of meshes, clouds, maps, tables of points. So a Build reads only what its
 /// overrides bring in: another file, or a mesh at another scale. An entry of the file whose

@@ -42,7 +42,6 @@ class McapWriter {
   void Flush();
   void Close();
 
-  std::uint64_t message_count() const { return messages_; }
   /// Small enough that a run does not wait for the last one.
   static constexpr std::size_t kDefaultChunkSize = std::size_t{256} << 10;
 

@@ -11,7 +11,7 @@
 #include "oca/diagrams/runs/signal_facts.h"
 #include "oca/framework/dataflow/diagram.h"
 #include "oca/framework/dataflow/error.h"
-#include "oca/systems/fields/repulsive_field.h"
+#include "oca/models/robot/repulsive_law.h"
 
 namespace oca::record {
 namespace {
@@ -76,13 +76,13 @@ std::vector<PlotPanel> StaticTest(bool limited) {
                       {"(c) Final joints, with the deltas", "final"}});
 }
 
-/// What a RepulsiveField with gain 1 and range 1 m answers; as in the report, cut off at 300.
+/// The law of the field of the report's tests with gain 1 and range 1 m; as there, cut off at 300.
 std::vector<PlotPanel> RepulsiveForce() {
-  const systems::RepulsiveField field({.force_gain = 1.0, .max_distance = 1.0});
+  const robot::RepulsiveLaw law{.gain = 1.0, .range = 1.0, .floor = 0.01};
   PlotCurve curve{"F_rep", {}, {}};
   for (int i = 1; i <= 600; ++i) {
     curve.x.push_back(0.002 * i);
-    curve.y.push_back(field.Magnitude(curve.x.back()));
+    curve.y.push_back(law.Force(curve.x.back()));
   }
   PlotPanel panel{"Repulsive force, gain 1, range 1 m", "distance [m]", "force [N]"};
   panel.curves.push_back(std::move(curve));

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdlib>
+#include <iterator>
 #include <limits>
 #include <numeric>
 
@@ -89,12 +90,23 @@ void ControlLoop::Initialize() {
 }
 
 Status ControlLoop::Refuse(const InputHandle& input, std::string_view what) const noexcept {
+  std::array<char, 256> text;
   if (!schedule_.Imports(input)) {
-    return Status::Failure("", "", time(),
-                           "control loop: input; got one that the diagram does not export");
+    if (input.system == nullptr) {
+      return Status::Failure("", "", time(),
+                             "control loop: input; got a handle that was made by default; expected "
+                             "an input that the diagram exports");
+    }
+    const auto& ports = input.system->inputs();
+    const bool known = input.index >= 0 && input.index < std::ssize(ports);
+    const std::string_view own = known ? ports[input.index].name : std::string_view("?");
+    const auto end = fmt::format_to_n(text.data(), text.size(),
+                                      "control loop: input '{}'; got one that the diagram does not "
+                                      "export; expected one that it does",
+                                      own);
+    return Status::Failure("", own, time(), {text.data(), std::min(end.size, text.size())});
   }
   const std::string& name = input.system->inputs()[input.index].name;
-  std::array<char, 256> text;
   const auto end =
       fmt::format_to_n(text.data(), text.size(), "input {} at t = {} s: {}", name, time(), what);
   return Status::Failure("", name, time(), {text.data(), std::min(end.size, text.size())});

@@ -117,6 +117,20 @@ const Wiring& Diagram::wiring() const {
 DiagramBuilder::DiagramBuilder() : diagram_(new Diagram) {}
 DiagramBuilder::~DiagramBuilder() = default;
 
+void DiagramBuilder::ThrowOfSystem(const std::string& name) {
+  try {
+    throw;
+  } catch (WiringError& error) {
+    for (WiringProblem& problem : error.problems) {
+      problem.text.insert(problem.text.begin(), name + ": ");
+    }
+    throw WiringError(std::move(error.problems));
+  } catch (Error& error) {
+    error.AddWhere(name);
+    throw;
+  }
+}
+
 const System& DiagramBuilder::AddSystem(std::string name, std::unique_ptr<System> system) {
   internal::CheckName(name, "system");
   if (system == nullptr) {
@@ -145,7 +159,8 @@ void DiagramBuilder::ConnectPorts(const OutputHandle& from, const InputHandle& t
 void DiagramBuilder::ExportInput(std::string name, const InputHandle& input, int size) {
   internal::CheckPath(name, "input");
   if (input.system == nullptr) {
-    throw WiringError(fmt::format("exported input '{}': its port belongs to no system", name));
+    throw WiringError(fmt::format(
+        "exported input '{}': got a handle that was made by default; expected an input", name));
   }
   auto& exported = diagram_->exported_inputs_;
   const auto same = std::find_if(exported.begin(), exported.end(),
@@ -168,7 +183,8 @@ void DiagramBuilder::ExportOutput(std::string name, const OutputHandle& output) 
     }
   }
   if (output.system == nullptr) {
-    throw WiringError(fmt::format("exported output '{}': its port belongs to no system", name));
+    throw WiringError(fmt::format(
+        "exported output '{}': got a handle that was made by default; expected an output", name));
   }
   const System::OutputInfo& inner = output.system->outputs().at(output.index);
   diagram_->AddOutput({name, inner.type, inner.spec, {}, -1});

@@ -13,6 +13,7 @@
 
 #include "oca/framework/dataflow/context.h"
 #include "oca/framework/dataflow/dynamic_port.h"
+#include "oca/framework/dataflow/error_base.h"
 #include "oca/framework/dataflow/params.h"
 #include "oca/framework/dataflow/system.h"
 #include "oca/framework/dataflow/upstream.h"
@@ -160,10 +161,10 @@ class DiagramBuilder {
   ~DiagramBuilder();
 
   /// Adds a system made from `arguments`. throws WiringError if the name is taken or not a name
-  /// (letters, digits and underscores).
+  /// (letters, digits and underscores), and what the constructor throws, with the name before it.
   template <class S, class... Arguments>
   const S& Add(std::string name, Arguments&&... arguments) {
-    auto system = std::make_unique<S>(std::forward<Arguments>(arguments)...);
+    auto system = Make<S>(name, std::forward<Arguments>(arguments)...);
     const S& reference = *system;
     AddSystem(std::move(name), std::move(system));
     return reference;
@@ -173,8 +174,8 @@ class DiagramBuilder {
   /// what they are described to be: see Validated.
   template <class S, class... Rest>
   const S& Add(std::string name, const typename S::Params& params, Rest&&... rest) {
-    if constexpr (ParamsStruct<typename S::Params>) Validated(params);
-    auto system = std::make_unique<S>(params, std::forward<Rest>(rest)...);
+    if constexpr (ParamsStruct<typename S::Params>) Validated(params, name);
+    auto system = Make<S>(name, params, std::forward<Rest>(rest)...);
     const S& reference = *system;
     AddSystem(std::move(name), std::move(system));
     return reference;
@@ -212,6 +213,17 @@ class DiagramBuilder {
   std::unique_ptr<Diagram> BuildInner();
 
  private:
+  template <class S, class... Arguments>
+  static std::unique_ptr<S> Make(const std::string& name, Arguments&&... arguments) {
+    try {
+      return std::make_unique<S>(std::forward<Arguments>(arguments)...);
+    } catch (const Error&) {
+      ThrowOfSystem(name);
+    }
+  }
+  /// Throws the current exception, with the system's name before it.
+  [[noreturn]] static void ThrowOfSystem(const std::string& name);
+
   std::unique_ptr<Diagram> diagram_;
 };
 

@@ -5,6 +5,7 @@
 
 #include "oca/framework/dataflow/diagram.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/port_name.h"
 #include "oca/framework/dataflow/wiring.h"
 
 namespace oca {
@@ -14,7 +15,7 @@ namespace {
 Wiring::Target TargetOf(const Wiring& wiring, const InputHandle& input) {
   const std::vector<Wiring::Target> targets = wiring.TargetsOf(input);
   if (targets.empty()) {
-    throw WiringError("port: its system is not part of the diagram that was asked");
+    throw WiringError(internal::ForeignText(input, "the diagram that was asked"));
   }
   return targets.front();
 }
@@ -42,7 +43,9 @@ std::string Diagram::PathOf(const OutputHandle& output) const {
 }
 
 std::string Diagram::PathOf(const InputHandle& input) const {
-  if (input.system == nullptr) throw WiringError("port: got none of any system");
+  if (input.system == nullptr || !wiring().Contains(*input.system)) {
+    throw WiringError(internal::ForeignText(input, "the diagram that was asked"));
+  }
   const std::string path = PathOf(*input.system);
   return (path.empty() ? "" : path + ".") + input.system->inputs().at(input.index).name;
 }

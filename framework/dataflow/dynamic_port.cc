@@ -7,32 +7,56 @@
 
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/port_access.h"
+#include "oca/framework/dataflow/port_name.h"
 #include "oca/framework/dataflow/schedule.h"
 #include "oca/framework/dataflow/system.h"
 
 namespace oca {
 
 const SignalType& TypeOfPort(const OutputHandle& output) {
+  if (output.system == nullptr) throw WiringError(internal::ForeignText(output, "a system"));
   return *output.system->outputs().at(output.index).type;
 }
 
 const SignalType& TypeOfPort(const InputHandle& input) {
+  if (input.system == nullptr) throw WiringError(internal::ForeignText(input, "a system"));
   return *input.system->inputs().at(input.index).type;
 }
 
 namespace internal {
 namespace {
 
+/// A port was asked for as what it is not.
+[[noreturn]] void ThrowAskedFor(const std::string& port, const char* as, const SignalType& is) {
+  throw WiringError(fmt::format("{} was asked for as {}; it is {}", port, as, is.name));
+}
+
 template <class Info>
 void CheckTypeOf(const char* kind, const Handle& port, const std::vector<Info>* infos,
                  const SignalType& type, const std::string& path) {
   if (infos == nullptr || port.index < 0 || port.index >= static_cast<int>(infos->size())) {
-    throw WiringError(fmt::format("{}: got none of any system; expected a {}", kind, type.name));
+    throw WiringError(fmt::format(
+        "{}: got {}; expected a {}", path.empty() ? kind : fmt::format("{} '{}'", kind, path),
+        port.system == nullptr ? "a handle that was made by default"
+                               : fmt::format("number {}, which its system has not", port.index),
+        type.name));
   }
   const Info& info = (*infos)[static_cast<std::size_t>(port.index)];
   if (info.type == &type) return;
-  throw WiringError(fmt::format("{} '{}': type; got {}; expected {}", kind,
-                                path.empty() ? info.name : path, type.name, info.type->name));
+  ThrowAskedFor(fmt::format("{} '{}'", kind, path.empty() ? info.name : path), type.name,
+                *info.type);
+}
+
+/// The value of an output that is a Vector, or that is none.
+Storage FindOf(const OutputHandle& output, const Context& context, bool vector) {
+  const Schedule& schedule = Schedule::Of(output, context);
+  const SignalType& type = TypeOfPort(output);
+  if ((&type == &kVectorType) != vector) {
+    ThrowAskedFor(fmt::format("output '{}.{}'", schedule.PathOf(*output.system),
+                              output.system->outputs()[output.index].name),
+                  vector ? "Vector" : "what is no Vector", type);
+  }
+  return Find(output, context);
 }
 
 }  // namespace
@@ -61,21 +85,12 @@ void EvalJson(const OutputHandle& output, const Context& context, std::string& o
 }
 
 std::span<const double> EvalVector(const OutputHandle& output, const Context& context) {
-  if (&TypeOfPort(output) != &kVectorType) {
-    throw WiringError(fmt::format("output '{}': type; got {}; expected Vector",
-                                  output.system->outputs()[output.index].name,
-                                  TypeOfPort(output).name));
-  }
-  const internal::Storage at = internal::Find(output, context);
+  const internal::Storage at = internal::FindOf(output, context, true);
   return {reinterpret_cast<const double*>(at.arena + at.slot.offset), at.slot.size};
 }
 
 const void* EvalObject(const OutputHandle& output, const Context& context) {
-  if (&TypeOfPort(output) == &kVectorType) {
-    throw WiringError(fmt::format("output '{}': type; got Vector; expected another one",
-                                  output.system->outputs()[output.index].name));
-  }
-  const internal::Storage at = internal::Find(output, context);
+  const internal::Storage at = internal::FindOf(output, context, false);
   return at.arena + at.slot.offset;
 }
 
@@ -91,6 +106,7 @@ void FixJson(const InputHandle& input, Context& context, std::string_view json) 
 }
 
 bool ShowsState(const OutputHandle& output) {
+  if (output.system == nullptr) throw WiringError(internal::ForeignText(output, "a system"));
   return output.system->outputs().at(output.index).state >= 0;
 }
 

@@ -13,6 +13,7 @@
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/explain.h"
 #include "oca/framework/dataflow/log.h"
+#include "oca/framework/dataflow/port_name.h"
 
 namespace oca {
 
@@ -289,12 +290,27 @@ const Schedule::InputEntry& Schedule::input(const InputHandle& handle) const {
   return inputs[handle.system->first_input_ + handle.index];
 }
 
-const Schedule& Schedule::Of(const Handle& handle, const Context& context) {
+template <class H>
+const Schedule& Schedule::OfHandle(const H& handle, const Context& context) {
   const Schedule* const schedule = handle.system == nullptr ? nullptr : handle.system->schedule_;
-  if (schedule == nullptr || schedule != context.schedule_) {
-    throw WiringError("port or state: its system is not part of the diagram that made the context");
-  }
-  return *schedule;
+  if (schedule != nullptr && schedule == context.schedule_) return *schedule;
+  throw WiringError(internal::ForeignText(handle, "the diagram that made the context"));
+}
+
+const Schedule& Schedule::Of(const InputHandle& input, const Context& context) {
+  return OfHandle(input, context);
+}
+
+const Schedule& Schedule::Of(const OutputHandle& output, const Context& context) {
+  return OfHandle(output, context);
+}
+
+const Schedule& Schedule::Of(const CachedHandle& cached, const Context& context) {
+  return OfHandle(cached, context);
+}
+
+const Schedule& Schedule::Of(const StateHandle& state, const Context& context) {
+  return OfHandle(state, context);
 }
 
 }  // namespace oca

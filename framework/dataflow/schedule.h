@@ -147,7 +147,10 @@ class Schedule {
     versions(context)[source] = ++context.header().epoch;
   }
   /// Throws WiringError if the handle's system is not part of this schedule or the context not its.
-  static const Schedule& Of(const Handle& handle, const Context& context);
+  static const Schedule& Of(const InputHandle& input, const Context& context);
+  static const Schedule& Of(const OutputHandle& output, const Context& context);
+  static const Schedule& Of(const CachedHandle& cached, const Context& context);
+  static const Schedule& Of(const StateHandle& state, const Context& context);
 
   std::byte* arena(const Context& context) const { return context.arena_.get(); }
   std::uint64_t* versions(const Context& context) const {
@@ -246,6 +249,8 @@ class Schedule {
   void FailDerivative(const Context& context) const;
   void GrowLikeNext(Context& context, const StateEntry& state) const;
   /// The name of the port that a node's failure is told of.
+  template <class H>
+  static const Schedule& OfHandle(const H& handle, const Context& context);
   std::string PortOf(const Node& node) const;
 };
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/port_name.h"
 
 namespace oca {
 Wiring::Wiring(const Diagram& root) : root_(root) {
@@ -61,16 +62,17 @@ void Wiring::ConnectAll(const Diagram& diagram, const std::string& prefix) {
 
 void Wiring::Connect(const Diagram::Connection& connection, const std::string& prefix) {
   const auto from = index_.find(connection.from.system);
-  if (from == index_.end()) {
-    problems_.push_back(
-        {{fmt::format("{}connections: an output of a system outside this diagram", prefix)}});
-    return;
-  }
   const std::vector<Target> targets = TargetsOf(connection.to);
-  if (targets.empty()) {
+  const auto add = [&](const Handle& end, const char* kind) {
     problems_.push_back(
-        {{fmt::format("{}connections: an input of a system outside this diagram", prefix)}});
-  }
+        {{prefix + "connections: ", NameOfEnd(connection.from), " -> ", NameOfEnd(connection.to),
+          end.system == nullptr
+              ? fmt::format(": got a handle that was made by default; expected an {}", kind)
+              : fmt::format(": an {} of a system outside this diagram", kind)}});
+  };
+  if (from == index_.end()) add(connection.from, "output");
+  if (targets.empty()) add(connection.to, "input");
+  if (from == index_.end()) return;
   for (const Target& target : targets) {
     const Driver driver{from->second, connection.from.index, -1};
     const SignalType* const got = leaves_[from->second].system->outputs()[driver.output].type;
@@ -90,8 +92,9 @@ void Wiring::ExportAll(const Diagram& root) {
     for (const InputHandle& input : exported.to) {
       const std::vector<Target> targets = TargetsOf(input);
       if (targets.empty()) {
-        problems_.push_back({{fmt::format(
-            "exported input '{}': an input of a system outside this diagram", exported.name)}});
+        problems_.push_back(
+            {{fmt::format("exported input '{}': an input of a system outside this diagram, {}",
+                          exported.name, internal::NameOf(input))}});
       }
       for (const Target& target : targets) {
         Driver driver;
@@ -132,7 +135,8 @@ void Wiring::CheckExportedOutputs() {
   for (const auto& [name, output] : root_.exported_outputs()) {
     if (index_.contains(output.system)) continue;
     problems_.push_back(
-        {{fmt::format("exported output '{}': an output of a system outside this diagram", name)}});
+        {{fmt::format("exported output '{}': an output of a system outside this diagram, {}", name,
+                      internal::NameOf(output))}});
   }
 }
 
@@ -192,10 +196,10 @@ Unit Wiring::UnitOf(int leaf, const Unit& unit) const {
   return settled.any() ? settled : settled.Rate(unit.rates());
 }
 
-int Wiring::LeafOf(const Handle& port) const {
-  const auto found = index_.find(port.system);
+int Wiring::LeafOf(const OutputHandle& output) const {
+  const auto found = index_.find(output.system);
   if (found != index_.end()) return found->second;
-  throw WiringError("port: its system is not part of the diagram that was asked");
+  throw WiringError(internal::ForeignText(output, "the diagram that was asked"));
 }
 
 std::string Wiring::PathOf(const System& system) const {
@@ -225,6 +229,21 @@ WiringProblem::Part Wiring::NameOfDriver(const Driver& driver) const {
     return fmt::format("the exported input '{}'", root_.exported_inputs()[driver.exported].name);
   }
   return PathOfOutput(driver.leaf, driver.output);
+}
+
+WiringProblem::Part Wiring::NameOfEnd(const OutputHandle& output) const {
+  const auto leaf = index_.find(output.system);
+  if (leaf == index_.end()) return internal::NameOf(output);
+  return PathOfOutput(leaf->second, output.index);
+}
+
+WiringProblem::Part Wiring::NameOfEnd(const InputHandle& input) const {
+  const auto leaf = index_.find(input.system);
+  if (leaf != index_.end()) return PathOfInput(leaf->second, input.index);
+  const auto* const nested =
+      diagram_paths_.contains(input.system) ? dynamic_cast<const Diagram*>(input.system) : nullptr;
+  if (nested == nullptr) return internal::NameOf(input);
+  return PortPath{diagram_paths_.at(nested), nested->inputs().at(input.index).name};
 }
 
 void Wiring::AddProblem(const Target& target, std::vector<WiringProblem::Part> text) {

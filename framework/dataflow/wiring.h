@@ -35,8 +35,8 @@ class Wiring {
   const Diagram& root() const { return root_; }
   const std::vector<Leaf>& leaves() const { return leaves_; }
   std::vector<Leaf>& leaves() { return leaves_; }
-  /// The number of a leaf; throws WiringError if the port is of none.
-  int LeafOf(const Handle& port) const;
+  /// The number of the leaf that a port is of; throws WiringError if it is of none.
+  int LeafOf(const OutputHandle& output) const;
   /// Length of a vector port or state of a leaf.
   int SizeOf(int leaf, const Size& size) const;
   /// Unit of a port or state of a leaf.
@@ -54,6 +54,9 @@ class Wiring {
   /// The dotted path of a leaf or a nested diagram, empty of the root; throws WiringError if it is
   /// not inside.
   std::string PathOf(const System& system) const;
+  bool Contains(const System& system) const {
+    return index_.contains(&system) || diagram_paths_.contains(&system);
+  }
   std::vector<WiringProblem>& problems() { return problems_; }
 
   PortPath PathOfInput(int leaf, int input) const;
@@ -75,6 +78,9 @@ class Wiring {
   /// What drives an input is wrong.
   void AddProblem(const Target& target, std::vector<WiringProblem::Part> text);
   WiringProblem::Part NameOfDriver(const Driver& driver) const;
+  /// Ends of a connection: by their paths, if they are inside.
+  WiringProblem::Part NameOfEnd(const OutputHandle& output) const;
+  WiringProblem::Part NameOfEnd(const InputHandle& input) const;
 
   const Diagram& root_;
   std::vector<Leaf> leaves_;

@@ -62,8 +62,6 @@ class PathSearch {
   Eigen::VectorXd nearest() const { return trees_.from_start.q(nearest_); }
   std::vector<Eigen::VectorXd> PathToNearest() const { return trees_.from_start.PathTo(nearest_); }
   double nearest_distance() const { return nearest_distance_; }
-  /// Rises whenever the nearest one is replaced.
-  int improvements() const { return improvements_; }
 
  private:
   struct Tools;

@@ -14,6 +14,7 @@ void RepulsiveField::Params::Describe(Fields<Params>& fields) {
 
 RepulsiveField::RepulsiveField(const Params& params)
     : params_(WithRange(params)),
+      law_{params_.force_gain, params_.max_distance, params_.min_distance},
       proximities(DeclareInput<ProximitySet>("proximities")),
       forces(DeclareOutput<LinkForceSet, &RepulsiveField::CalcForces>("forces", {}, proximities)),
       slopes(DeclareOutput<ContactSlopes, &RepulsiveField::CalcSlopes>("slopes", {}, proximities)) {
@@ -22,21 +23,9 @@ RepulsiveField::RepulsiveField(const Params& params)
       .shown = Limits::Shown::kBelow, .signal = proximities, .bound = {params_.max_distance}});
 }
 
-double RepulsiveField::Magnitude(double distance) const {
-  if (distance > params_.max_distance) return 0.0;
-  const double rho = std::max(distance, params_.min_distance);
-  return params_.force_gain * (1.0 / rho - 1.0 / params_.max_distance) / (rho * rho);
-}
-
-double RepulsiveField::Slope(double distance) const {
-  if (distance > params_.max_distance) return 0.0;
-  const double rho = std::max(distance, params_.min_distance);
-  return params_.force_gain * (3.0 / rho - 2.0 / params_.max_distance) / (rho * rho * rho);
-}
-
 void RepulsiveField::CalcForces(const ProximitySet& proximity_set, LinkForceSet& force_set) const {
   ForcePerProximity(proximity_set, force_set, [&](const Proximity& proximity) -> Eigen::Vector3d {
-    return Magnitude(SeenDistance(proximity, params_.max_distance)) * proximity.normal;
+    return law_.Force(SeenDistance(proximity, params_.max_distance)) * proximity.normal;
   });
 }
 
@@ -47,7 +36,7 @@ void RepulsiveField::CalcSlopes(const ProximitySet& proximity_set,
                       const double share = robot::RangeShare(proximity, params_.max_distance);
                       const double seen = proximity.distance / share;
                       if (seen > params_.max_distance) return std::nullopt;
-                      return SlopeAt(proximity, Slope(seen) / share * proximity.normal);
+                      return SlopeAt(proximity, law_.Slope(seen) / share * proximity.normal);
                     });
 }
 

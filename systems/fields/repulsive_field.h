@@ -3,6 +3,7 @@
 
 #include "oca/framework/dataflow/params.h"
 #include "oca/framework/dataflow/system.h"
+#include "oca/models/robot/repulsive_law.h"
 #include "oca/systems/signals/contact_slopes.h"
 #include "oca/systems/signals/signals.h"
 
@@ -39,13 +40,9 @@ class RepulsiveField final : public System {
 
   explicit RepulsiveField(const Params& params);
 
-  /// |F| in N at a signed distance in m.
-  double Magnitude(double distance) const;
-  /// -d|F| / d(distance) in N/m; of the floor below it, as the motion back out would meet it.
-  double Slope(double distance) const;
-
  private:
   const Params params_;
+  const robot::RepulsiveLaw law_;
   void CalcForces(const ProximitySet& proximity_set, LinkForceSet& force_set) const;
   void CalcSlopes(const ProximitySet& proximity_set, ContactSlopes& contact_slopes) const;
 

@@ -21,10 +21,6 @@ constexpr double kCatchUp = 1.0;
 // Less than this is no direction.
 constexpr double kNothing = 1e-9;
 
-RepulsiveField::Params RepulsionOf(const VortexField::Params& params) {
-  return {params.force_gain, params.max_distance, params.min_distance};
-}
-
 }  // namespace
 
 struct VortexField::Axes {
@@ -49,9 +45,9 @@ void VortexField::Params::Describe(Fields<Params>& fields) {
 }
 
 VortexField::VortexField(const Params& params, const ModelSet& models)
-    : params_(Validated(params)),
+    : params_(WithRange(params)),
       model_(MovableModel(models, params.model)),
-      field_(RepulsionOf(params)),
+      law_{params_.force_gain, params_.max_distance, params_.min_distance},
       held_(DeclareDiscreteState("held", {3 * model_->num_links(), Unit::Any()}, 0.0)),
       proximities(DeclareInput<ProximitySet>("proximities")),
       links(DeclareInput<LinkPoses>("links")),
@@ -77,7 +73,7 @@ double VortexField::Angle(double distance) const {
 Eigen::Vector3d VortexField::Force(const Proximity& proximity, const Eigen::Vector3d& axis) const {
   const double seen = SeenDistance(proximity, params_.max_distance);
   const double phi = Angle(seen);
-  return field_.Magnitude(seen) *
+  return law_.Force(seen) *
          (std::cos(phi) * proximity.normal + std::sin(phi) * axis.cross(proximity.normal));
 }
 
@@ -143,9 +139,8 @@ void VortexField::CalcSlopes(const ProximitySet& set, const Axes& about,
     const double phi = Angle(seen);
     const bool turning = seen > 0.0 && phi < params_.turn;
     const double dphi = turning ? 2.0 * params_.turn / params_.max_distance : 0.0;
-    const Eigen::Vector3d slope =
-        field_.Slope(seen) * (std::cos(phi) * n + std::sin(phi) * t) -
-        field_.Magnitude(seen) * dphi * (std::cos(phi) * t - std::sin(phi) * n);
+    const Eigen::Vector3d slope = law_.Slope(seen) * (std::cos(phi) * n + std::sin(phi) * t) -
+                                  law_.Force(seen) * dphi * (std::cos(phi) * t - std::sin(phi) * n);
     return SlopeAt(proximity, slope / share);
   });
 }

@@ -7,7 +7,7 @@
 
 #include "oca/framework/dataflow/params.h"
 #include "oca/framework/dataflow/system.h"
-#include "oca/systems/fields/repulsive_field.h"
+#include "oca/models/robot/repulsive_law.h"
 #include "oca/systems/signals/contact_slopes.h"
 #include "oca/systems/signals/model_set.h"
 #include "oca/systems/signals/signals.h"
@@ -72,7 +72,7 @@ class VortexField final : public System {
   using OptionalVector = std::optional<VectorView>;
   const Params params_;
   const std::shared_ptr<const robot::RobotModel> model_;
-  const RepulsiveField field_;
+  const robot::RepulsiveLaw law_;
   const DiscreteState<Vector> held_;
 
   double Angle(double distance) const;

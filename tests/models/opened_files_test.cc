@@ -28,7 +28,8 @@ TEST(OpenedFilesTest, NotesWhatIsReadWhileItLivesOnce) {
 }
 
 TEST(OpenedFilesTest, RefusesAnEmptyNameWhetherOrNotAnyoneNotes) {
-  const auto refused = ThrowsMessage<ModelError>(HasSubstr("got an empty name; expected one of a"));
+  const auto refused =
+      ThrowsMessage<ModelError>(HasSubstr("got an empty file name; expected a path"));
   EXPECT_THAT([] { NoteOpened(""); }, refused);
   EXPECT_THAT([] { CsvTable table(""); }, refused);
   const OpenedFiles opened;

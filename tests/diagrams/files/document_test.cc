@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "oca/framework/dataflow/error.h"
 #include "tests/diagrams/files/yaml_text.h"
 #include "tests/temporary_folder.h"
@@ -144,6 +146,39 @@ TEST_F(DocumentTest, CirclesOfIncludesAreRefusedAtTheirPlace) {
   folder.Write("main.yaml", "include: [./main.yaml]\n");
   Load();
   EXPECT_THAT(problems, HasSubstr("includes itself"));
+}
+
+TEST_F(DocumentTest, PlacesInAnIncludedFileAreToldWithoutTheWayThere) {
+  folder.Write("parts/base.yaml", "name: base\ninclude: [../other/../parts/more.yaml]\n");
+  folder.Write("parts/more.yaml", "description: more\n");
+  folder.Write("scenarios/this.yaml", "include: [../parts/base.yaml]\n");
+  Problems found;
+  const Value value = LoadDocument(folder.path() / "scenarios/this.yaml", {}, found);
+  EXPECT_EQ(At(value, "name").location().ToString(),
+            (folder.path() / "parts/base.yaml").string() + ":1:7");
+  // A folder that is not there leads nowhere, however the name would read without it.
+  ASSERT_EQ(found.all().size(), 1u);
+  EXPECT_THAT(found.all()[0].ToString(), HasSubstr("parts/../other/../parts/more.yaml"));
+}
+
+TEST_F(DocumentTest, ALinkOnTheWayToAnIncludedFileIsFollowed) {
+  folder.Write("deep/inside/this.yaml", "");
+  folder.Write("deep/part.yaml", "name: deep\n");
+  folder.Write("part.yaml", "name: shallow\n");
+  std::filesystem::create_directory_symlink("deep/inside", folder.path() / "linked");
+  folder.Write("main.yaml", "include: [linked/../part.yaml]\n");
+  EXPECT_EQ(*At(Load(), "name").string(), "deep");
+  EXPECT_EQ(problems, "");
+}
+
+TEST_F(DocumentTest, AnEmptyNameOfAFileIsRefusedWhereItStands) {
+  Problems found;
+  EXPECT_THAT(
+      [&] { LoadDocument("", {}, found); },
+      testing::ThrowsMessage<ConfigError>("diagram: got an empty file name; expected a path"));
+  folder.Write("main.yaml", "include: ['']\nname: main\n");
+  Load();
+  EXPECT_THAT(problems, HasSubstr("main.yaml:1:11: error: include: got ''; expected a file name"));
 }
 
 TEST_F(DocumentTest, WrongIncludesAreRefused) {

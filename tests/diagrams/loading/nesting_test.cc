@@ -284,7 +284,7 @@ TEST_F(NestingTest, ReadsAFileOnceForAllUsesAndBuilds) {
   EXPECT_THAT(first.sources, Contains(std::filesystem::canonical(folder.path() / "stage.yaml")));
 }
 
-TEST_F(NestingTest, ThreeArmsAreOneEntryMoreOfModelsAndSystems) {
+TEST_F(NestingTest, ThreeArmsAreOneLineMoreOfModelsAndOfSystems) {
   const std::string file = OCA_SOURCE_DIR "/diagrams/dual_arm.yaml";
   const std::string third =
       "include: [" + file +
@@ -292,8 +292,8 @@ TEST_F(NestingTest, ThreeArmsAreOneEntryMoreOfModelsAndSystems) {
       "models: {third: {urdf: package://lwr4/lwr4.urdf, srdf: package://lwr4/lwr4.srdf, base_pose: "
       "{xyz: [1.2, 0, 0.85]}}}\n"
       "systems: {third: {type: Diagram, file: " OCA_SOURCE_DIR
-      "/diagrams/parts/arm_loop.yaml, "
-      "models: {arm: third}, parameters: \"${each}\"}}\n";
+      "/diagrams/parts/sweeping_arm.yaml, "
+      "models: {arm: third}, parameters: [\"${each}\", {side: 1}]}}\n";
   const LoadedDiagram loaded = Load(third);
   EXPECT_THAT(loaded.warnings, IsEmpty());
   for (const char* arm : {"left", "right", "third"}) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The recommended method, an elastic band before a safety filter, in whole loops.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -68,6 +69,28 @@ TEST(RecommendedDiagramTest, TwoArmsPlanWithEachOther) {
 
 TEST(RecommendedDiagramTest, RunsToTheSameBitsTwice) {
   EXPECT_EQ(MetricsOf("dynamic_test", {}), MetricsOf("dynamic_test", {}));
+}
+
+class Warnings final : public Log {
+ public:
+  bool enabled(LogLevel level) const override { return level == LogLevel::kWarning; }
+  void Write(LogLevel level, double /*time*/, std::string_view text) override {
+    if (level == LogLevel::kWarning) texts.emplace_back(text);
+  }
+  std::vector<std::string> texts;
+};
+
+TEST(RecommendedDiagramTest, TellsOfADistanceThatItKeepsOnlyIfItsDeltaIsApplied) {
+  const auto warnings_of = [](const char* avoid) {
+    Warnings warnings;
+    runs::Run(loading::LoadDiagram(OCA_SOURCE_DIR "/diagrams/scenarios/start_near.yaml",
+                                   {{"parameters.avoid", avoid}}),
+              {.duration = 0.6, .log = &warnings});
+    return warnings.texts;
+  };
+  EXPECT_THAT(warnings_of("true"),
+              testing::Contains(testing::HasSubstr("its own distance is kept there")));
+  EXPECT_THAT(warnings_of("false"), testing::IsEmpty());
 }
 
 }  // namespace recommended_diagram_test

@@ -115,9 +115,9 @@ TEST(TypedPortsTest, APortOfAnotherTypeOrNameIsRefusedNamingWhatThereIs) {
     return "";
   };
   EXPECT_EQ(text_of([&] { diagram->GetInput<Label>("in"); }),
-            "input 'in': type; got Label; expected Vector");
+            "input 'in' was asked for as Label; it is Vector");
   EXPECT_EQ(text_of([&] { diagram->GetOutput<Label>("out"); }),
-            "output 'out': type; got Label; expected Vector");
+            "output 'out' was asked for as Label; it is Vector");
   EXPECT_THAT(text_of([&] { diagram->GetOutput<Vector>("otu"); }),
               HasSubstr("no output port 'otu'; did you mean 'out'?; output ports are: out"));
   EXPECT_THAT(text_of([&] { diagram->FindInput("nothing_like_it"); }),
@@ -149,7 +149,7 @@ TEST(TypedPortsTest, APortThatIsAskedForByPathIsNamedByItIfItIsNotThereOrOfAnoth
   EXPECT_THAT(refusal([&] { diagram->GetOutput<Vector>(system + ".valu"); }),
               testing::StartsWith(system + ": no output port 'valu'"));
   EXPECT_THAT(refusal([&] { diagram->GetOutput<Label>(system + ".value"); }),
-              HasSubstr("'" + system + ".value': type; got Label; expected Vector"));
+              HasSubstr("'" + system + ".value' was asked for as Label; it is Vector"));
 }
 
 }  // namespace typed_ports_test

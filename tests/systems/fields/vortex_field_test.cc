@@ -93,12 +93,12 @@ TEST(VortexFieldTest, TurnsTheForceByItsAngleTowardsTheRequest) {
 
 TEST(VortexFieldTest, IsARepulsiveFieldIfItDoesNotTurn) {
   Bench bench(Turned(0.0));
-  const RepulsiveField plain({});
+  const robot::RepulsiveLaw plain{1.0, 0.3, 0.01};
   const Vector3d n = Vector3d(1.0, -2.0, 0.5).normalized();
   for (const double distance : {0.3, 0.29, 0.1, 0.0, -0.2}) {
     bench.Place(distance, n);
-    EXPECT_NEAR((bench.Force() - plain.Magnitude(distance) * n).norm(), 0.0,
-                1e-12 * plain.Magnitude(distance));
+    EXPECT_NEAR((bench.Force() - plain.Force(distance) * n).norm(), 0.0,
+                1e-12 * plain.Force(distance));
   }
 }
 
