@@ -74,10 +74,8 @@ void WriteDraft(const fs::path& file, const std::string& text) {
 
 robot::Srdf LoadSrdfOf(const DraftOptions& options, const robot::RobotModel& model) {
   if (options.srdf.empty()) return {};
-  robot::SrdfRobot names{model.name().text(), {}, {}};
-  for (const robot::Link& link : model.links()) names.links.push_back(link.name.text());
-  for (const robot::Joint& joint : model.joints()) names.joints.push_back(joint.name.text());
-  return robot::LoadSrdf(options.srdf, names);
+  return robot::LoadSrdf(
+      options.srdf, robot::DescribeForSrdf(model.name().text(), model.links(), model.joints()));
 }
 
 DraftRobot ReadDraftRobot(const DraftOptions& options) {

@@ -67,17 +67,17 @@ class UrdfReader {
     GiveLimits(joints_, options_.jerk_limits, where_ + ": jerk_limits", &Joint::jerk_limit);
     limits.TightenRates(joints_);
     const RobotModel model = MakeModel(std::move(links_), std::move(joints_), srdf);
-    if (options_.warn) Warn(model);
+    if (options_.warn) {
+      Warn(model);
+      for (const std::string& line : srdf.warnings) options_.warn(line);
+    }
     return model;
   }
 
  private:
   Srdf ReadSrdf() const {
     if (options_.srdf.empty()) return {};
-    SrdfRobot robot{outline_.robot_name, {}, {}};
-    for (const Link& link : links_) robot.links.push_back(link.name.text());
-    for (const Joint& joint : joints_) robot.joints.push_back(joint.name.text());
-    return LoadSrdf(options_.srdf, robot);
+    return LoadSrdf(options_.srdf, DescribeForSrdf(outline_.robot_name, links_, joints_));
   }
 
   JointLimitsFile ReadLimitsFile() const {
