@@ -51,6 +51,7 @@ robot::RobotModel RobotReader::Read(robot::LoadOptions how, bool tell) {
   how.srdf = options_.srdf;
   how.xacro_arguments = options_.arguments;
   how.package_directories = files::PackageFolders();
+  how.package_advice = files::kPackageAdvice;
   how.find_package = [this](const std::string& package) { return FindPackage(package); };
   if (tell) how.warn = options_.warn;
   return robot::LoadUrdf(options_.robot, how);

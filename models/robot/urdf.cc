@@ -330,7 +330,8 @@ RobotModel LoadUrdf(const std::filesystem::path& file, const LoadOptions& option
 }
 
 XacroOptions ForXacro(const LoadOptions& options) {
-  return {options.xacro_arguments, options.find_package, options.package_directories, options.warn};
+  return {options.xacro_arguments, options.find_package, options.package_directories,
+          options.package_advice, options.warn};
 }
 
 RobotModel ParseUrdf(const std::string& text, const std::string& name, const LoadOptions& options,

@@ -42,6 +42,7 @@ struct LoadOptions {
   /// as DIR/NAME/rest for each DIR.
   std::function<std::filesystem::path(const std::string& package)> find_package{};
   std::vector<std::filesystem::path> package_directories{};
+  std::string package_advice{};  ///< ends messages about packages that are nowhere
   /// true: a collision mesh counts as the compound that LoadDecomposition makes of it, which keeps
   /// its hollows, instead of its convex hull.
   bool decompose_meshes{false};
