@@ -61,7 +61,12 @@ class GroupReader {
     const auto found = by_name_.find(name);
     const SrdfGroup& group =
         found == by_name_.end() ? FindGroup(groups_, name, "group") : *found->second;
+    if (open_.contains(&group)) {
+      throw models::ModelError(
+          fmt::format("group: '{}'; got one that is in itself; expected an end", name));
+    }
     if (!done_.insert(&group).second) return;
+    open_.insert(&group);
     for (const std::string& joint : group.joints) {
       if (const auto number = NumberOf(joint)) joints_.insert(*number);
     }
@@ -71,6 +76,7 @@ class GroupReader {
     }
     for (const SrdfGroup::Chain& chain : group.chains) AddChain(chain);
     for (const std::string& inner : group.groups) Add(inner);
+    open_.erase(&group);
   }
 
   std::vector<int> joints() const { return {joints_.begin(), joints_.end()}; }
@@ -99,7 +105,7 @@ class GroupReader {
   const RobotModel& robot_;
   const std::vector<SrdfGroup>& groups_;
   std::unordered_map<std::string_view, const SrdfGroup*> by_name_;
-  std::set<const SrdfGroup*> done_;
+  std::set<const SrdfGroup*> open_, done_;  // open: those around what is being added
   std::set<int> joints_;
 };
 

@@ -23,7 +23,7 @@ struct HeldJoints {
 
 /// The joints of a group, as numbers, ascending: those that it names, those that lead to its links,
 /// those between the ends of its chains, and those of the groups in it.
-/// throws ModelError if there is no such group
+/// throws ModelError if there is no such group, or it is in itself
 /// source MoveIt, "URDF and SRDF"
 std::vector<int> JointsOfGroup(const RobotModel& robot, const std::vector<SrdfGroup>& groups,
                                const std::string& group);

@@ -43,8 +43,8 @@ struct Srdf {
   std::vector<std::string> passive{};  ///< joints without a motor
   /// Frames that virtual joints stand the robot in, as `world`.
   std::vector<std::string> frames{};
-  /// Lines on what MoveIt takes and its author hardly meant, one a kind: chains from tip to base or
-  /// of one link, pairs of a link with itself, states beyond limits.
+  /// Lines on what its author hardly meant and nothing may need, one a kind: chains from tip to
+  /// base or of one link, groups in a circle, pairs of a link with itself, states beyond limits.
   std::vector<std::string> warnings{};
 };
 
@@ -55,9 +55,9 @@ inline constexpr int kDeepestGroups = 64;
 ///
 /// throws ModelError naming file and line, with the nearest name: for an element or attribute that
 ///        is none of the format, as a misspelt one would leave a pair unchecked; for an unknown
-///        link, joint or group; for a second group of a name, of which MoveIt drops one; for groups
-///        in a circle, or more than kDeepestGroups in each other; for names with control characters;
-///        for the file of another robot; for xacro that was not expanded
+///        link, joint or group; for a second group of a name, of which MoveIt drops one; for more
+///        than kDeepestGroups in each other; for names with a line break; for the file of another
+///        robot; for xacro that was not expanded
 /// source MoveIt, "URDF and SRDF"; srdfdom, src/model.cpp
 Srdf LoadSrdf(const std::filesystem::path& file, const SrdfRobot& robot);
 

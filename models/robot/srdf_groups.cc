@@ -41,10 +41,12 @@ void SrdfGroups::Add(const TiXmlElement& element) {
   }
 }
 
-void SrdfGroups::CheckNesting() {
+std::vector<std::string> SrdfGroups::CheckNesting() {
   levels_.assign(groups_.size(), 0);
   Names path;
-  for (std::size_t i = 0; i < groups_.size(); ++i) Levels(i, path);
+  std::vector<std::string> circles;
+  for (std::size_t i = 0; i < groups_.size(); ++i) Levels(i, path, circles);
+  return circles;
 }
 
 void SrdfGroups::FailDeep(std::size_t number) const {
@@ -53,22 +55,24 @@ void SrdfGroups::FailDeep(std::size_t number) const {
 }
 
 /// `path` leads to it from the group that was asked about.
-int SrdfGroups::Levels(std::size_t number, Names& path) {
+int SrdfGroups::Levels(std::size_t number, Names& path, std::vector<std::string>& circles) {
   if (levels_[number] > 0) return levels_[number];
   const std::string& name = groups_[number].name;
   if (levels_[number] == kOpen) {
-    path.erase(path.begin(), std::find(path.begin(), path.end(), name));
-    path.push_back(name);
-    reader_.Fail(*elements_[number], "nesting",
-                 fmt::format("'{}'", fmt::join(path.rbegin(), path.rend(), "' in '")),
-                 "groups that are not in themselves");
+    Names circle(std::find(path.begin(), path.end(), name), path.end());
+    circle.push_back(name);
+    circles.push_back(
+        reader_.Describe(*elements_[number], "nesting",
+                         fmt::format("'{}'", fmt::join(circle.rbegin(), circle.rend(), "' in '")),
+                         "groups that are not in themselves; none of these can be used"));
+    return 0;
   }
   if (path.size() == static_cast<std::size_t>(kDeepestGroups)) FailDeep(number);
   levels_[number] = kOpen;
   path.push_back(name);
   int below = 0;
   for (const std::string& inner : groups_[number].groups) {
-    below = std::max(below, Levels(numbers_.at(inner), path));
+    below = std::max(below, Levels(numbers_.at(inner), path, circles));
   }
   path.pop_back();
   if (below == kDeepestGroups) FailDeep(number);

@@ -26,13 +26,13 @@ class SrdfGroups {
   bool Contains(const std::string& name) const { return numbers_.contains(name); }
   const Names& names() const { return names_; }
 
-  /// throws ModelError for a group that is in itself, naming those between, and for more than
-  /// kDeepestGroups in each other
-  void CheckNesting();
+  /// A line for each way by which a group is in itself, naming those between.
+  /// throws ModelError for more than kDeepestGroups in each other
+  std::vector<std::string> CheckNesting();
   std::vector<SrdfGroup> Take() { return std::move(groups_); }
 
  private:
-  int Levels(std::size_t number, Names& path);
+  int Levels(std::size_t number, Names& path, std::vector<std::string>& circles);
   [[noreturn]] void FailDeep(std::size_t number) const;
 
   const XmlReader& reader_;

@@ -70,7 +70,7 @@ class SrdfReader {
       if (e->ValueStr() == "group_state") AddState(*e);
       if (e->ValueStr() == "passive_joint") srdf_.passive.push_back(Attribute(*e, "name"));
     }
-    groups_.CheckNesting();
+    for (const std::string& circle : groups_.CheckNesting()) Warn("circle", circle);
     srdf_.groups = groups_.Take();
     srdf_.disabled_pairs = Pairs();
     for (const auto& [kind, line] : warnings_) {
@@ -226,8 +226,10 @@ class SrdfReader {
   /// The first of a kind is told, and how many others there are.
   void Warn(const char* kind, const TiXmlElement& element, std::string_view what,
             const std::string& got, std::string_view expected) {
-    if (told_[kind]++ > 0) return;
-    warnings_.emplace_back(kind, reader_.Describe(element, what, got, expected));
+    Warn(kind, reader_.Describe(element, what, got, expected));
+  }
+  void Warn(const char* kind, const std::string& line) {
+    if (told_[kind]++ == 0) warnings_.emplace_back(kind, line);
   }
 
   void LookIntoGroup(const TiXmlElement& element) {
