@@ -51,7 +51,7 @@ struct LoadOptions {
   /// it and counts the rest, `warn_each` a line for each thing. A line for each mesh whose hull adds volume, `link 'x': collision mesh ...` or `visual
   /// mesh`, and for limits that hardly mean what they say (LimitWarnings): `joint X: ...`. The line
   /// of a mesh ends with `hull_advice`.
-  std::function<void(const std::string& line)> warn{}, warn_each{};
+  std::function<void(const std::string&line)> warn{}, warn_each{};
   std::string hull_advice{};
   /// false: meshes that are only drawn need not exist, and their elements name no file.
   bool load_visuals{true};

@@ -139,8 +139,9 @@ TEST(UrdfRefusalTest, NumbersThatNoRobotHasAreToldWithTheirLine) {
                 "bad.urdf:3: joint 'elbow' <axis>: xyz; got '0 1e200 1e200'; expected a direction, "
                 "of a length from 1e-06 to 1e+06");
   EXPECT_NO_THROW(ParseUrdf(Joint("revolute", "<axis xyz='0 0 1e6'/>" + kLimit), "good.urdf"));
-  ExpectRefused(Joint("revolute", "<origin xyz='0 0 -1.1e6'/>" + kLimit),
-                "bad.urdf:3: joint 'elbow' <origin>: xyz; got '0 0 -1.1e6'; expected at most 1e+06");
+  ExpectRefused(
+      Joint("revolute", "<origin xyz='0 0 -1.1e6'/>" + kLimit),
+      "bad.urdf:3: joint 'elbow' <origin>: xyz; got '0 0 -1.1e6'; expected at most 1e+06");
   EXPECT_NO_THROW(ParseUrdf(Joint("revolute", "<origin xyz='0 0 -1e6'/>" + kLimit), "good.urdf"));
   ExpectRefused(Link("<collision><origin xyz='1e15 0 0'/><geometry><sphere radius='1'/></geometry>"
                      "</collision>"),
@@ -148,9 +149,10 @@ TEST(UrdfRefusalTest, NumbersThatNoRobotHasAreToldWithTheirLine) {
   const auto limit = [](const char* velocity) {
     return std::string("<limit lower='-1' upper='1' effort='1' velocity='") + velocity + "'/>";
   };
-  ExpectRefused(Joint("revolute", limit("9e-7")),
-                "bad.urdf:3: joint 'elbow' <limit>: velocity; got 9e-07; expected 0 or more, and at "
-                "least 1e-06");
+  ExpectRefused(
+      Joint("revolute", limit("9e-7")),
+      "bad.urdf:3: joint 'elbow' <limit>: velocity; got 9e-07; expected 0 or more, and at "
+      "least 1e-06");
   EXPECT_NO_THROW(ParseUrdf(Joint("revolute", limit("1e-6")), "good.urdf"));
 }
 
