@@ -150,13 +150,15 @@ TEST_F(RobotCommandTest, PackagesNearTheRobotAreKnownToEveryCommand) {
 <collision><geometry><sphere radius="0.1"/></geometry></collision></link></xacro:macro></robot>)");
   const std::string arm = run.folder().Write("ws/their_arm/urdf/arm.urdf.xacro",
                                              R"xml(<robot name="arm" xmlns:xacro="x"><xacro:include
-filename="$(find their_arm)/inc/links.xacro"/><xacro:base/></robot>)xml");
+filename="$(find their_arm)/inc/links.xacro"/><xacro:base/><link name="tip"/>
+<joint name="turn" type="continuous"><parent link="base"/><child link="tip"/>
+<origin xyz="0.25 0 0"/></joint></robot>)xml");
   const Ran expanded = run("$S robot expand " + arm);
   EXPECT_EQ(expanded.status, 0) << expanded.err;
   EXPECT_THAT(expanded.out, HasSubstr("<link name=\"base\">"));
-  const Ran evaluated = run("$S eval RobotKinematics --model arm=" + arm, "{\"position\":[]}\n");
+  const Ran evaluated = run("$S eval RobotKinematics --model arm=" + arm, "{\"position\":[0]}\n");
   EXPECT_EQ(evaluated.status, 0) << evaluated.err;
-  EXPECT_THAT(evaluated.out, HasSubstr("base"));
+  EXPECT_THAT(evaluated.out, HasSubstr("[0.25,0.0,0.0]"));
   const Ran looked = run("$S robot check-collisions " + arm);
   EXPECT_EQ(looked.status, 0) << looked.err;
 }
