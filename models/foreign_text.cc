@@ -23,16 +23,6 @@ std::size_t AnnouncedLength(unsigned char first) {
   return first < 0xf5 ? 4 : 0;
 }
 
-/// Of a sequence that is UTF-8.
-std::uint32_t CodePoint(std::string_view sequence) {
-  if (sequence.size() == 1) return ByteAt(sequence, 0);
-  std::uint32_t code = ByteAt(sequence, 0) & (0xffu >> (sequence.size() + 1));
-  for (std::size_t i = 1; i < sequence.size(); ++i) {
-    code = code << 6 | (ByteAt(sequence, i) & 0x3fu);
-  }
-  return code;
-}
-
 /// The control characters of ISO 6429 and those that turn the direction of text.
 bool IsObeyed(std::uint32_t code) {
   const bool control = code < 0x20 || (code >= 0x7f && code < 0xa0);
@@ -56,6 +46,34 @@ std::string Changed(std::string_view text, const Change& change) {
 }
 
 }  // namespace
+
+void AppendUtf8(std::string& text, std::uint32_t code) {
+  const auto tail = [&](int shift) { text += static_cast<char>(0x80 | (code >> shift & 0x3f)); };
+  if (code < 0x80) {
+    text += static_cast<char>(code);
+  } else if (code < 0x800) {
+    text += static_cast<char>(0xc0 | code >> 6);
+    tail(0);
+  } else if (code < 0x10000) {
+    text += static_cast<char>(0xe0 | code >> 12);
+    tail(6);
+    tail(0);
+  } else {
+    text += static_cast<char>(0xf0 | code >> 18);
+    tail(12);
+    tail(6);
+    tail(0);
+  }
+}
+
+std::uint32_t CodePoint(std::string_view sequence) {
+  if (sequence.size() == 1) return ByteAt(sequence, 0);
+  std::uint32_t code = ByteAt(sequence, 0) & (0xffu >> (sequence.size() + 1));
+  for (std::size_t i = 1; i < sequence.size(); ++i) {
+    code = code << 6 | (ByteAt(sequence, i) & 0x3fu);
+  }
+  return code;
+}
 
 std::size_t Utf8Length(std::string_view text) {
   const unsigned char first = ByteAt(text, 0);

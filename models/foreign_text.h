@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -9,6 +10,10 @@ namespace oca::models::internal {
 
 // Text that somebody else wrote: names of files, words of a command line, what a record holds.
 
+/// Appends a code point, which is no surrogate and at most U+10FFFF. source RFC 3629, 3
+void AppendUtf8(std::string& text, std::uint32_t code);
+/// Its code point, of a sequence that is UTF-8.
+std::uint32_t CodePoint(std::string_view sequence);
 /// Length of the UTF-8 sequence that `text`, which is not empty, begins with; 0 if it begins with
 /// none. source RFC 3629, 4
 std::size_t Utf8Length(std::string_view text);

@@ -26,8 +26,10 @@ constexpr std::size_t kMostProposals = 60;
 /// One call of MakeDraft.
 class DraftMaker {
  public:
-  explicit DraftMaker(const DraftOptions& options)
-      : options_(options), draft_{.robot = ReadDraftRobot(options)} {
+  explicit DraftMaker(const DraftOptions& options) : options_(options) {
+    internal::CheckAvoidance(options);
+    draft_.robot = ReadDraftRobot(options);
+    CheckSpeeds();
     const std::string name = internal::PlainName(draft_.robot.model->name().text());
     draft_.diagram = options.folder / (name + ".yaml");
     if (options.srdf.empty()) srdf_ = options.folder / (name + ".srdf");
@@ -49,6 +51,20 @@ class DraftMaker {
   }
 
  private:
+  /// A first motion goes at a quarter of the limits.
+  void CheckSpeeds() const {
+    constexpr double kSlowest = 1e-3;  // rad/s, m/s; a radian in more than an hour
+    const robot::RobotModel& model = *draft_.robot.model;
+    for (Eigen::Index j = 0; j < model.num_positions(); ++j) {
+      if (model.velocity_limits()[j] >= kSlowest) continue;
+      throw ConfigError(fmt::format(
+          "{}: joint '{}': velocity limit; got {:g}; expected at least {:g} rad/s or m/s, for a "
+          "first motion that ends",
+          options_.robot.string(), model.position_names()[static_cast<std::size_t>(j)].text(),
+          model.velocity_limits()[j], kSlowest));
+    }
+  }
+
   void Fill() {
     if (!srdf_.empty()) WriteSrdf();
     if (ended_) return;
@@ -140,7 +156,8 @@ class DraftMaker {
   Attempt Try(const loading::Blueprint& blueprint, const planning::FirstMotion& motion) {
     Attempt attempt{motion};
     const auto run = [&](bool avoid) {
-      auto overrides = internal::OverridesOf(internal::TextOf(motion, draft_.robot));
+      auto overrides = internal::OverridesOf(internal::TextOf(motion, draft_.robot),
+                                             options_.robot.string() + ": its first motion");
       overrides.push_back({"parameters.avoid", avoid ? "true" : "false"});
       const loading::LoadedDiagram loaded = blueprint.Build(overrides);
       const std::string task = fmt::format("trying motion {} {} avoidance", draft_.tries + 1,

@@ -79,8 +79,8 @@ DraftRobot ReadDraftRobot(const DraftOptions& options);
 /// speeds; NAME is the robot's. The first of planning::ProposeMotions counts that is in contact
 /// without avoidance and evaded with it, else the one that comes nearest to that. A NAME.html that
 /// is there is in the way too: it is where the run's report goes.
-/// throws ModelError, ConfigError if the robot is none, no motion is found, a file is there already
-///        or cannot be written
+/// throws ModelError, ConfigError if the robot is none or slower than any, there is no such method,
+///        no motion is found, a file is there already or cannot be written
 Draft MakeDraft(const DraftOptions& options);
 
 }  // namespace oca::drafts

@@ -149,11 +149,14 @@ MotionText TextOf(const planning::FirstMotion& motion, const DraftRobot& robot) 
           List(motion.from), fmt::format("{:g}", kPause + 2.0 * duration)};
 }
 
-std::vector<files::Override> OverridesOf(const MotionText& motion) {
-  return {{"systems.spline.key_points", fmt::format("[{}, {}]", motion.first, motion.second)},
-          {"systems.obstacles.obstacles", fmt::format("[{}]", motion.ball)},
-          {"systems.plant.initial_position", motion.start},
-          {"simulator.duration", motion.duration}};
+std::vector<files::Override> OverridesOf(const MotionText& motion, const std::string& made_for) {
+  const auto change = [&](const char* path, std::string value) {
+    return files::Override{path, std::move(value), {}, made_for};
+  };
+  return {change("systems.spline.key_points", fmt::format("[{}, {}]", motion.first, motion.second)),
+          change("systems.obstacles.obstacles", fmt::format("[{}]", motion.ball)),
+          change("systems.plant.initial_position", motion.start),
+          change("simulator.duration", motion.duration)};
 }
 
 std::string DiagramText(const DraftOptions& options, const DraftRobot& robot,

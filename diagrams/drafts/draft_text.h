@@ -40,8 +40,8 @@ struct MotionText {
   std::string start, duration;
 };
 MotionText TextOf(const planning::FirstMotion& motion, const DraftRobot& robot);
-/// The same as overrides of another one.
-std::vector<files::Override> OverridesOf(const MotionText& motion);
+/// The same as overrides of another one, `made_for` what messages begin with.
+std::vector<files::Override> OverridesOf(const MotionText& motion, const std::string& made_for);
 
 /// The diagram file; `srdf` and `limits` (empty: none) are named as it finds them.
 std::string DiagramText(const DraftOptions& options, const DraftRobot& robot,

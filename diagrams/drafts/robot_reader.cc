@@ -2,6 +2,7 @@
 #include "oca/diagrams/drafts/robot_reader.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <fstream>
@@ -51,9 +52,26 @@ robot::RobotModel RobotReader::Read(robot::LoadOptions how, bool tell) {
   how.srdf = options_.srdf;
   how.xacro_arguments = options_.arguments;
   how.package_directories = files::PackageFolders();
+  how.package_advice = files::kPackageAdvice;
   how.find_package = [this](const std::string& package) { return FindPackage(package); };
   if (tell) how.warn = options_.warn;
   return robot::LoadUrdf(options_.robot, how);
+}
+
+void CheckAvoidance(const DraftOptions& options) {
+  const std::string begin = "avoidance_", end = ".yaml";
+  std::vector<std::string> known;
+  const fs::path parts = files::ResolvePath("package://oca/parts", {}, {});
+  std::error_code error;
+  for (fs::directory_iterator at(parts, error), last; !error && at != last; at.increment(error)) {
+    const std::string name = at->path().filename().string();
+    if (!name.starts_with(begin) || !name.ends_with(end)) continue;
+    known.push_back(name.substr(begin.size(), name.size() - begin.size() - end.size()));
+  }
+  if (std::find(known.begin(), known.end(), options.avoidance) != known.end()) return;
+  std::sort(known.begin(), known.end());
+  throw ConfigError(fmt::format("avoidance: got '{}'; expected one of: {}", options.avoidance,
+                                fmt::join(known, ", ")));
 }
 
 void CheckAbsent(const fs::path& file) {
@@ -74,10 +92,8 @@ void WriteDraft(const fs::path& file, const std::string& text) {
 
 robot::Srdf LoadSrdfOf(const DraftOptions& options, const robot::RobotModel& model) {
   if (options.srdf.empty()) return {};
-  robot::SrdfRobot names{model.name().text(), {}, {}};
-  for (const robot::Link& link : model.links()) names.links.push_back(link.name.text());
-  for (const robot::Joint& joint : model.joints()) names.joints.push_back(joint.name.text());
-  return robot::LoadSrdf(options.srdf, names);
+  return robot::LoadSrdf(
+      options.srdf, robot::DescribeForSrdf(model.name().text(), model.links(), model.joints()));
 }
 
 DraftRobot ReadDraftRobot(const DraftOptions& options) {

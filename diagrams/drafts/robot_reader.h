@@ -28,6 +28,8 @@ class RobotReader {
   std::map<std::string, std::filesystem::path> packages_;
 };
 
+/// throws ConfigError if parts/ has no method of avoidance of the name that `options` has
+void CheckAvoidance(const DraftOptions& options);
 /// throws ConfigError if a file is there already
 void CheckAbsent(const std::filesystem::path& file);
 /// A text file of a draft. throws ConfigError if it cannot be written

@@ -41,6 +41,7 @@ class SceneDraftMaker {
         scene_(scenes::ReadPlanningScene(options.scene)) {
     if (!options.request.empty()) request_ = scenes::ReadMotionRequest(options.request);
     robot_options_.folder = options.diagram.parent_path();
+    internal::CheckAvoidance(options.draft);
   }
 
   SceneDraft Make() {

@@ -49,7 +49,7 @@ struct Read {
 /// All of `params` but the pose of its base, which is the world's frame. Fills the lines also if it
 /// throws.
 void ReadModel(const std::string& where, const ModelParams& params, const PackageMap& packages,
-               Read& read) {
+               bool near_robot, Read& read) {
   const Warn tell = [&read](const std::string& line) { read.lines.push_back(line); };
   robot::LoadOptions options;
   options.warn = [&](const std::string& line) { tell(fmt::format("{}: {}", where, line)); };
@@ -63,11 +63,12 @@ void ReadModel(const std::string& where, const ModelParams& params, const Packag
     options.acceleration_limits = params.acceleration_limits->values();
   }
   if (params.jerk_limits) options.jerk_limits = params.jerk_limits->values();
-  options.find_package = [&packages](const std::string& package) -> std::filesystem::path {
-    const auto found = packages.find(package);
-    return found == packages.end() ? std::filesystem::path() : found->second;
+  options.find_package = [&](const std::string& package) -> std::filesystem::path {
+    if (const auto found = packages.find(package); found != packages.end()) return found->second;
+    return near_robot ? PackageFor(DescriptionOf(params), package) : std::filesystem::path();
   };
   options.package_directories = PackageFolders();
+  options.package_advice = kPackageAdvice;
   options.xacro_arguments = params.arguments.texts;
   const robot::RobotModel robot = robot::LoadUrdf(DescriptionOf(params), options);
   read.model = std::make_shared<const robot::RobotModel>(
@@ -106,10 +107,11 @@ std::string FormOf(const std::string& where, const ModelParams& params,
 
 std::shared_ptr<const robot::RobotModel> LoadModel(const std::string& where,
                                                    const ModelParams& params,
-                                                   const PackageMap& packages, const Warn& warn) {
+                                                   const PackageMap& packages, const Warn& warn,
+                                                   bool near_robot) {
   using ModelPtr = std::shared_ptr<const robot::RobotModel>;
   const Eigen::Isometry3d X_WB = params.base_pose.Pose(where + ".base_pose");
-  const std::string form = FormOf(where, params, packages);
+  const std::string form = FormOf(where, params, packages) + (near_robot ? "\nnear" : "");
   const std::string& file = DescriptionOf(params);
   const auto tell = [&warn](const Read& read) {
     if (!warn) return;
@@ -118,7 +120,7 @@ std::shared_ptr<const robot::RobotModel> LoadModel(const std::string& where,
   const auto read = models::MakeOnce<Read>(file, form, [&] {
     Read fresh;
     try {
-      ReadModel(where, params, packages, fresh);
+      ReadModel(where, params, packages, near_robot, fresh);
     } catch (const std::runtime_error&) {
       tell(fresh);
       throw;
@@ -145,7 +147,7 @@ systems::ModelSet LoadModels(const std::vector<std::pair<std::string, ModelParam
     for (AttachedParams& object : placed.attached) {
       if (object.shape.file) object.shape.file = FromHere(*object.shape.file);
     }
-    loaded.Add(name, LoadModel(where, placed, {}, warn));
+    loaded.Add(name, LoadModel(where, placed, {}, warn, true));
   }
   return loaded;
 }

@@ -21,17 +21,18 @@ using Warn = std::function<void(const std::string& line)>;
 ///     const auto models = LoadModels({{"arm", {.urdf = "package://ur5e/ur5e.urdf"}}});
 ///
 /// Files are looked up from where the program runs; `package://NAME/` in OCA_PACKAGE_PATH, then
-/// among the models that come with OCA.
+/// among the models that come with OCA, then near the robot's file (PackageFor).
 /// throws ConfigError if a name is taken, a package is not found or a parameter is wrong; ModelError
 /// if a file cannot be read
 systems::ModelSet LoadModels(const std::vector<std::pair<std::string, ModelParams>>& models,
                              const Warn& warn = {});
 
 /// One of them, its files being paths. `where` begins the messages about parameters and the lines of
-/// `warn`; `packages` are looked in first. It is found as it was read (models::FileCache) if nothing
+/// `warn`; `packages` are looked in first, PackageFor the robot last if `near_robot`. It is found as it was read (models::FileCache) if nothing
 /// but its place differs.
 std::shared_ptr<const robot::RobotModel> LoadModel(const std::string& where,
                                                    const ModelParams& params,
-                                                   const PackageMap& packages, const Warn& warn);
+                                                   const PackageMap& packages, const Warn& warn,
+                                                   bool near_robot = false);
 
 }  // namespace oca::files

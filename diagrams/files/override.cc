@@ -180,7 +180,9 @@ void Apply(const Override& change, Value& root, Problems& problems) {
 
 }  // namespace
 
-std::string Override::Source() const { return "-s " + (given_as.empty() ? path : given_as); }
+std::string Override::Source() const {
+  return (made_for.empty() ? "-s " : made_for + ": ") + (given_as.empty() ? path : given_as);
+}
 
 Value Override::Read(Problems& problems) const {
   const std::string name = Source();
@@ -228,7 +230,8 @@ std::map<std::string, std::vector<Override>> TakeInner(std::vector<Override>& ov
       if (first != "*" && first != name) continue;
       taken = true;
       inner[name].push_back({change.path.substr(dot + 1), change.value,
-                             change.given_as.empty() ? change.path : change.given_as});
+                             change.given_as.empty() ? change.path : change.given_as,
+                             change.made_for});
     }
     return taken;
   };

@@ -16,9 +16,10 @@ struct Override {
   std::string path{};
   std::string value{};
   std::string given_as{};  ///< the path in messages, if it is another
+  std::string made_for{};  ///< what a program made it for, which messages begin with, instead of -s
   /// throws ConfigError if `text` is not PATH=VALUE.
   static Override Parse(const std::string& text);
-  /// `-s PATH` as it was given, which messages have for the place.
+  /// `-s PATH` as it was given, or `MADE FOR: PATH`, which messages have for the place.
   std::string Source() const;
   /// VALUE; what is wrong with it is added to `problems`.
   Value Read(Problems& problems) const;

@@ -26,10 +26,14 @@ std::vector<std::filesystem::path> PackageFolders();
 std::filesystem::path ResolvePath(const std::string& name, const std::filesystem::path& folder,
                                   const PackageMap& packages);
 
+/// How a package that is nowhere is made known, for the end of a message.
+inline constexpr char kPackageAdvice[] =
+    "; OCA_PACKAGE_PATH=FOLDER, or packages of a diagram, say where others are";
+
 /// The folder of a package in one of PackageFolders(); empty if there is none.
 std::filesystem::path KnownPackage(const std::string& package);
 /// The same, else the folder of that name that `file` lies in, or that lies beside it or beside a
-/// folder above.
+/// folder above: what every command takes for a package of the robot in `file`.
 std::filesystem::path PackageFor(const std::filesystem::path& file, const std::string& package);
 
 /// Whether a diagram file is one of the parts that come with OCA, by its name and content, wherever

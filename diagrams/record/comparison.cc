@@ -42,7 +42,7 @@ std::map<std::string, std::string> MetricsOf(const McapFile& record,
   std::map<std::string, std::string> metrics;
   const auto messages = record.MessagesOf("/metrics");
   if (messages.empty()) return metrics;
-  const auto json = internal::MessageJson(*messages.back(), "/metrics");
+  const auto json = internal::MessageJson(record, *messages.back(), "/metrics");
   if (!json.is_object()) return metrics;
   for (const auto& [key, value] : json.items()) {
     metrics[key] = value.is_null() ? "" : oca::internal::JsonText(value);

@@ -49,7 +49,7 @@ std::vector<fs::path> ExportedFiles(const McapFile& record, const fs::path& fold
     if (!IsSignal(channel)) continue;
     const auto messages = record.MessagesOf(channel.topic);
     if (messages.empty()) continue;
-    const bool vector = IsVector(internal::MessageJson(*messages.front(), channel.topic));
+    const bool vector = IsVector(internal::MessageJson(record, *messages.front(), channel.topic));
     files.push_back(SignalTable::FileOf(folder, SignalName(channel), vector));
   }
   return files;
@@ -67,7 +67,7 @@ int ExportCsv(const McapFile& record, const fs::path& folder) {
     std::vector<std::string> joints;
     std::vector<double> numbers;
     std::optional<std::vector<std::string>> columns;
-    if (Numbers(internal::MessageJson(*messages.front(), channel.topic), joints, numbers)) {
+    if (Numbers(internal::MessageJson(record, *messages.front(), channel.topic), joints, numbers)) {
       columns = SignalTable::Columns(signal.substr(signal.rfind('.') + 1),
                                      static_cast<int>(numbers.size()), joints);
     }
@@ -75,7 +75,7 @@ int ExportCsv(const McapFile& record, const fs::path& folder) {
     for (const McapMessage* const message : messages) {
       const auto time = static_cast<std::int64_t>(message->log_time - start);
       if (columns) {
-        Numbers(internal::MessageJson(*message, channel.topic), joints, numbers);
+        Numbers(internal::MessageJson(record, *message, channel.topic), joints, numbers);
         table.Write(time, numbers);
       } else {
         table.Write(time, message->data);

@@ -88,16 +88,19 @@ std::pair<fs::path, std::vector<files::Override>> ReadSources(const fs::path& fo
   const Value sources = files::ReadYaml(text, list.string(), problems);
   const Value* const name = sources.Find("diagram");
   const Value* const recorded = sources.Find("overrides");
-  if (!problems.empty() || name == nullptr || name->string() == nullptr ||
+  problems.Throw();
+  if (name == nullptr || name->string() == nullptr ||
       !Inside(fs::path(*name->string()).lexically_normal())) {
-    throw ConfigError("record: sources.yaml; got something else; expected diagram and overrides");
+    throw ConfigError(list.string() + ": diagram: got no file of the record; expected its name");
   }
   std::vector<files::Override> overrides;
   if (recorded != nullptr && recorded->list() != nullptr) {
     for (const Value& change : *recorded->list()) {
-      if (change.string() != nullptr) {
-        overrides.push_back(files::Override::Parse(*change.string()));
+      const std::string* const written = change.string();
+      if (written == nullptr || written->find('=') == written->npos || written->starts_with('=')) {
+        throw ConfigError(list.string() + ": overrides: got no change; expected PATH=VALUE");
       }
+      overrides.push_back(files::Override::Parse(*written));
     }
   }
   return {folder / *name->string(), overrides};
@@ -123,9 +126,9 @@ void ExtractFiles(const McapFile& record, const fs::path& folder) {
   if (record.FindAttachment("diagram.yaml") == nullptr) {
     throw ConfigError(
         record.complete()
-            ? "record: has no attachment diagram.yaml; expected a record of OCA"
-            : fmt::format("record: {}; got no attachment diagram.yaml before it; expected one",
-                          record.problem()));
+            ? record.name() + ": has no attachment diagram.yaml; expected a record of OCA"
+            : fmt::format("{}: {}; got no attachment diagram.yaml before it; expected one",
+                          record.name(), record.problem()));
   }
   std::set<fs::path> names;
   for (const Attachment& attachment : record.attachments()) {
@@ -133,14 +136,14 @@ void ExtractFiles(const McapFile& record, const fs::path& folder) {
     const bool text = models::internal::AsUtf8(attachment.name) == attachment.name &&
                       attachment.name.find('\0') == std::string::npos;
     if (!text || !Inside(name) || !name.has_filename()) {
-      throw ConfigError(fmt::format(
-          "record: attachment; got '{}'; expected a name of a file, in UTF-8, that stays "
-          "below its folder",
-          attachment.name));
+      throw ConfigError(
+          fmt::format("{}: attachment; got '{}'; expected a name of a file, in UTF-8, that stays "
+                      "below its folder",
+                      record.name(), attachment.name));
     }
     if (!names.insert(name).second) {
-      throw ConfigError(fmt::format("record: attachment; got '{}' twice; expected each name once",
-                                    name.string()));
+      throw ConfigError(fmt::format("{}: attachment; got '{}' twice; expected each name once",
+                                    record.name(), name.string()));
     }
     const fs::path file = folder / name;
     std::error_code error;

@@ -204,6 +204,7 @@ McapFile McapFile::Parse(std::string bytes, const std::string& name) {
     throw ConfigError(fmt::format("{}: is no MCAP file; expected its magic bytes", name));
   }
   McapFile file;
+  file.name_ = name;
   file.memory_.push_back(std::move(bytes));
   McapParser(file, file.memory_.front()).Parse();
   for (std::size_t i = 0; i < file.messages_.size(); ++i) {

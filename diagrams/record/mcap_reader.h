@@ -30,6 +30,8 @@ class McapFile {
 
   /// Whether it ended as it should: DataEnd, summary, footer.
   bool complete() const { return problem_.empty(); }
+  /// Of the file, for messages.
+  const std::string& name() const { return name_; }
   /// What ended the reading, and at which byte; empty if the file is complete.
   const std::string& problem() const { return problem_; }
   const std::string& library() const { return library_; }
@@ -53,6 +55,7 @@ class McapFile {
   McapFile() = default;
   friend class McapParser;
 
+  std::string name_;
   std::string problem_;
   std::string library_;
   std::vector<McapSchema> schemas_;

@@ -8,12 +8,13 @@
 
 namespace oca::record::internal {
 
-nlohmann::ordered_json MessageJson(const McapMessage& message, std::string_view topic) {
+nlohmann::ordered_json MessageJson(const McapFile& record, const McapMessage& message,
+                                   std::string_view topic) {
   try {
     return oca::internal::ReadJsonTree(message.data);
   } catch (const ConfigError& error) {
-    throw ConfigError(
-        fmt::format("record: {}: message {}: {}", topic, message.sequence, error.what()));
+    throw ConfigError(fmt::format("{}: {}: message {}: {}", record.name(), topic, message.sequence,
+                                  error.what()));
   }
 }
 

@@ -8,7 +8,8 @@
 
 namespace oca::record::internal {
 
-/// A message of a record as a tree. throws ConfigError `record: TOPIC: message N: JSON: ...`
-nlohmann::ordered_json MessageJson(const McapMessage& message, std::string_view topic);
+/// A message of a record as a tree. throws ConfigError `FILE: TOPIC: message N: JSON: ...`
+nlohmann::ordered_json MessageJson(const McapFile& record, const McapMessage& message,
+                                   std::string_view topic);
 
 }  // namespace oca::record::internal

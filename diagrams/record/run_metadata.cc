@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oca/diagrams/record/run_metadata.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "oca/diagrams/record/yaml_writer.h"
 #include "oca/diagrams/runs/blind_spots.h"
+#include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/json_text.h"
 
 namespace oca::record {
@@ -33,9 +36,13 @@ std::vector<std::string> WarningsOf(const McapFile& record) {
   std::vector<std::string> warnings;
   const Texts* const texts = record.FindMetadata("oca.warnings");
   if (texts == nullptr || !texts->contains("warnings")) return warnings;
-  const auto list = oca::internal::ReadJsonTree(texts->at("warnings"));
-  for (const auto& warning : list) {
-    if (warning.is_string()) warnings.push_back(warning.get<std::string>());
+  try {
+    for (const auto& warning : oca::internal::ReadJsonTree(texts->at("warnings"))) {
+      if (warning.is_string()) warnings.push_back(warning.get<std::string>());
+    }
+  } catch (const ConfigError& error) {
+    throw ConfigError(
+        fmt::format("{}: metadata oca.warnings: warnings: {}", record.name(), error.what()));
   }
   return warnings;
 }

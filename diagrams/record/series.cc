@@ -86,7 +86,7 @@ std::vector<Series> ReadSeries(const McapFile& record, const std::string& patter
     std::map<std::string, std::size_t> places;
     for (const McapMessage* const message : record.MessagesOf(channel.topic)) {
       numbers.clear();
-      Flatten(internal::MessageJson(*message, channel.topic), "", numbers);
+      Flatten(internal::MessageJson(record, *message, channel.topic), "", numbers);
       const double time = static_cast<double>(message->log_time - start) / 1e9;
       for (const auto& [end, value] : numbers) {
         const std::string name = signal + end;

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <string_view>
+#include <unordered_map>
 #include <utility>
 
 #include "oca/models/error.h"
@@ -51,16 +53,20 @@ const SrdfGroup& FindGroup(const std::vector<SrdfGroup>& groups, const std::stri
 class GroupReader {
  public:
   GroupReader(const RobotModel& robot, const std::vector<SrdfGroup>& groups)
-      : robot_(robot), groups_(groups) {}
+      : robot_(robot), groups_(groups) {
+    for (const SrdfGroup& group : groups) by_name_.emplace(group.name, &group);
+  }
 
-  void Add(const std::string& name, Names path) {
-    const SrdfGroup& group = FindGroup(groups_, name, "group");
-    if (std::find(path.begin(), path.end(), name) != path.end()) {
+  void Add(const std::string& name) {
+    const auto found = by_name_.find(name);
+    const SrdfGroup& group =
+        found == by_name_.end() ? FindGroup(groups_, name, "group") : *found->second;
+    if (open_.contains(&group)) {
       throw models::ModelError(
           fmt::format("group: '{}'; got one that is in itself; expected an end", name));
     }
-    if (!done_.insert(name).second) return;
-    path.push_back(name);
+    if (!done_.insert(&group).second) return;
+    open_.insert(&group);
     for (const std::string& joint : group.joints) {
       if (const auto number = NumberOf(joint)) joints_.insert(*number);
     }
@@ -69,7 +75,8 @@ class GroupReader {
       if (joint >= 0) joints_.insert(joint);
     }
     for (const SrdfGroup::Chain& chain : group.chains) AddChain(chain);
-    for (const std::string& inner : group.groups) Add(inner, path);
+    for (const std::string& inner : group.groups) Add(inner);
+    open_.erase(&group);
   }
 
   std::vector<int> joints() const { return {joints_.begin(), joints_.end()}; }
@@ -97,7 +104,8 @@ class GroupReader {
 
   const RobotModel& robot_;
   const std::vector<SrdfGroup>& groups_;
-  std::set<std::string> done_;
+  std::unordered_map<std::string_view, const SrdfGroup*> by_name_;
+  std::set<const SrdfGroup*> open_, done_;  // open: those around what is being added
   std::set<int> joints_;
 };
 
@@ -257,7 +265,7 @@ class Holder {
 std::vector<int> JointsOfGroup(const RobotModel& robot, const std::vector<SrdfGroup>& groups,
                                const std::string& group) {
   GroupReader reader(robot, groups);
-  reader.Add(group, {});
+  reader.Add(group);
   return reader.joints();
 }
 

@@ -27,7 +27,7 @@ std::string ImpossibleInertia(const Inertia& inertia) {
                      moments[2], negative ? "one below 0" : "the last above the sum of the others");
 }
 
-std::vector<std::string> InertiaWarnings(const RobotModel& model, bool sum_up) {
+WarningLines InertiaWarnings(const RobotModel& model) {
   std::vector<std::string> lines;
   for (const Link& link : model.links()) {
     const std::string why = ImpossibleInertia(link.inertia);
@@ -36,11 +36,7 @@ std::vector<std::string> InertiaWarnings(const RobotModel& model, bool sum_up) {
         fmt::format("inertias that no body can have, which nothing here reads: link '{}' has {}",
                     link.name.text(), why));
   }
-  if (sum_up && lines.size() > 1) {
-    lines.front() += "; and " + models::Counted(lines.size() - 1, "more link");
-    lines.resize(1);
-  }
-  return lines;
+  return SummedUp(std::move(lines), "link");
 }
 
 }  // namespace oca::robot

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "oca/models/robot/robot_model.h"
+#include "oca/models/robot/warning_lines.h"
 
 namespace oca::robot {
 
@@ -14,8 +15,8 @@ namespace oca::robot {
 /// source Featherstone, Rigid Body Dynamics Algorithms, section 2.13
 std::string ImpossibleInertia(const Inertia& inertia);
 
-/// Lines about the links whose inertias no body can have, if `sum_up` one that names the first and
-/// counts the rest. Nothing that avoids obstacles reads inertias.
-std::vector<std::string> InertiaWarnings(const RobotModel& model, bool sum_up);
+/// Lines about the links whose inertias no body can have. Nothing that avoids obstacles reads
+/// inertias.
+WarningLines InertiaWarnings(const RobotModel& model);
 
 }  // namespace oca::robot

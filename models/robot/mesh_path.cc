@@ -101,7 +101,8 @@ std::filesystem::path FirstFile(const std::vector<std::filesystem::path>& candid
 
 /// A message for meshes of a package that lies at none of `folders`.
 std::string LostPackage(const std::string& package, const std::vector<NeededMesh>& meshes,
-                        const std::vector<std::filesystem::path>& folders) {
+                        const std::vector<std::filesystem::path>& folders,
+                        const std::string& advice) {
   constexpr std::size_t kShown = 3;
   std::string names;
   for (std::size_t i = 0; i < std::min(kShown, meshes.size()); ++i) {
@@ -111,9 +112,9 @@ std::string LostPackage(const std::string& package, const std::vector<NeededMesh
   if (meshes.size() > kShown) names += fmt::format(" and {} more", meshes.size() - kShown);
   std::string places;
   for (const auto& folder : folders) places += (places.empty() ? "" : " or ") + folder.string();
-  return fmt::format("{}: missing mesh file, for there is no package '{}'; got {}; expected {}",
+  return fmt::format("{}: missing mesh file, for there is no package '{}'; got {}; expected {}{}",
                      meshes.front().where, package, names,
-                     places.empty() ? "a known package" : "its folder at " + places);
+                     places.empty() ? "a known package" : "its folder at " + places, advice);
 }
 
 }  // namespace
@@ -144,7 +145,8 @@ void CheckMeshes(const std::vector<NeededMesh>& meshes, const std::filesystem::p
     }
   }
   for (const auto& entry : lost) {
-    errors.Add(LostPackage(entry.first, entry.second, FoldersOf(entry.first, options)));
+    errors.Add(LostPackage(entry.first, entry.second, FoldersOf(entry.first, options),
+                           options.package_advice));
   }
 }
 

@@ -81,6 +81,18 @@ XmlDocument DocumentToFill(const std::filesystem::path& file, const std::string&
 
 }  // namespace
 
+SrdfRobot DescribeForSrdf(const std::string& name, std::span<const Link> links,
+                          std::span<const Joint> joints) {
+  SrdfRobot robot{name, {}, {}, std::vector<int>(links.size(), -1), {}};
+  for (const Link& link : links) robot.links.push_back(link.name.text());
+  for (const Joint& joint : joints) {
+    robot.joints.push_back(joint.name.text());
+    robot.parents[static_cast<std::size_t>(joint.child_link)] = joint.parent_link;
+    robot.limits.emplace_back(joint.lower_limit, joint.upper_limit);
+  }
+  return robot;
+}
+
 Srdf LoadSrdf(const std::filesystem::path& file, const SrdfRobot& robot) {
   const std::string where = file.string();
   const XmlDocument document = ParseXml(ReadXmlFile(file), where);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,11 +11,16 @@
 
 namespace oca::robot {
 
-/// The names in the URDF that an SRDF speaks of.
+/// What an SRDF speaks of, as the URDF has it.
 struct SrdfRobot {
   std::string name;
   std::vector<std::string> links, joints;
+  std::vector<int> parents{};  ///< of each link, -1 of the root; empty: chains are not looked at
+  /// Lower and upper limit of each joint, rad or m; empty: states are not looked at.
+  std::vector<std::pair<double, double>> limits{};
 };
+SrdfRobot DescribeForSrdf(const std::string& name, std::span<const Link> links,
+                          std::span<const Joint> joints);
 
 /// A <group>: what it names itself, and the groups that it takes in.
 struct SrdfGroup {
@@ -37,14 +43,21 @@ struct Srdf {
   std::vector<std::string> passive{};  ///< joints without a motor
   /// Frames that virtual joints stand the robot in, as `world`.
   std::vector<std::string> frames{};
+  /// Lines on what its author hardly meant and nothing may need, one a kind: chains from tip to
+  /// base or of one link, groups in a circle, pairs of a link with itself, states beyond limits.
+  std::vector<std::string> warnings{};
 };
+
+inline constexpr int kDeepestGroups = 64;
 
 /// Reads an SRDF file. The other elements of MoveIt's format (end effectors) are checked, not
 /// used: what they name must be there.
 ///
 /// throws ModelError naming file and line, with the nearest name: for an element or attribute that
 ///        is none of the format, as a misspelt one would leave a pair unchecked; for an unknown
-///        link, joint or group; for the file of another robot; for xacro that was not expanded
+///        link, joint or group; for a second group of a name, of which MoveIt drops one; for more
+///        than kDeepestGroups in each other; for names with a line break; for the file of another
+///        robot; for xacro that was not expanded
 /// source MoveIt, "URDF and SRDF"; srdfdom, src/model.cpp
 Srdf LoadSrdf(const std::filesystem::path& file, const SrdfRobot& robot);
 

@@ -5,11 +5,13 @@
 #include <tinyxml.h>
 
 #include <algorithm>
-#include <cstring>
+#include <map>
 #include <set>
 #include <string_view>
 
+#include "oca/models/motion/key_points.h"
 #include "oca/models/nearest_name.h"
+#include "oca/models/robot/srdf_groups.h"
 #include "oca/models/robot/xml_numbers.h"
 #include "oca/models/robot/xml_reader.h"
 
@@ -49,12 +51,13 @@ class SrdfReader {
 
   Srdf Read() {
     reader_.CheckExpanded(root_);
+    reader_.CheckNames(root_);
     CheckText(root_);
     CheckRobot();
     for (auto* e = root_.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
       CheckShape(*e);
       const std::string& name = e->ValueStr();
-      if (name == "group") AddGroup(*e);
+      if (name == "group") groups_.Add(*e);
       if (name == "virtual_joint") {
         joints_.push_back(Attribute(*e, "name"));
         srdf_.frames.push_back(Attribute(*e, "parent_frame"));
@@ -63,10 +66,17 @@ class SrdfReader {
     joints_.insert(joints_.end(), robot_.joints.begin(), robot_.joints.end());
     for (auto* e = root_.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
       CheckContent(*e);
+      if (e->ValueStr() == "group") LookIntoGroup(*e);
       if (e->ValueStr() == "group_state") AddState(*e);
       if (e->ValueStr() == "passive_joint") srdf_.passive.push_back(Attribute(*e, "name"));
     }
+    for (const std::string& circle : groups_.CheckNesting()) Warn("circle", circle);
+    srdf_.groups = groups_.Take();
     srdf_.disabled_pairs = Pairs();
+    for (const auto& [kind, line] : warnings_) {
+      const std::size_t more = told_.at(kind) - 1;
+      srdf_.warnings.push_back(more == 0 ? line : fmt::format("{}; and {} more", line, more));
+    }
     return std::move(srdf_);
   }
 
@@ -83,13 +93,8 @@ class SrdfReader {
                           models::NearestName(got, known)));
   }
 
-  /// Without blanks around it, as MoveIt takes it; "" if absent.
   static std::string Attribute(const TiXmlElement& element, const char* attribute) {
-    const char* const text = element.Attribute(attribute);
-    const std::string_view all = text == nullptr ? "" : text;
-    const std::size_t first = all.find_first_not_of(" \t\r\n");
-    if (first == std::string_view::npos) return "";
-    return std::string(all.substr(first, all.find_last_not_of(" \t\r\n") - first + 1));
+    return XmlReader::Trimmed(element, attribute);
   }
 
   void CheckRobot() const {
@@ -166,6 +171,11 @@ class SrdfReader {
                      : fmt::format("a {} of the robot, nearest is '{}'", what, nearest));
   }
 
+  void CheckGroup(const TiXmlElement& element, const char* attribute) const {
+    if (groups_.Contains(Attribute(element, attribute))) return;
+    CheckKnown(element, attribute, "group", groups_.names());
+  }
+
   void CheckContent(const TiXmlElement& element) const {
     for (const char* attribute : {"link", "link1", "link2", "parent_link", "child_link"}) {
       if (element.Attribute(attribute) != nullptr) {
@@ -173,7 +183,7 @@ class SrdfReader {
       }
     }
     for (const char* attribute : {"group", "parent_group"}) {
-      if (element.Attribute(attribute) != nullptr) CheckKnown(element, attribute, "group", groups_);
+      if (element.Attribute(attribute) != nullptr) CheckGroup(element, attribute);
     }
     const std::string& name = element.ValueStr();
     if (name == "passive_joint") CheckKnown(element, "name", "joint", joints_);
@@ -208,35 +218,54 @@ class SrdfReader {
       }
     } else {
       CheckAttributes(part, {"name"}, {});
-      CheckKnown(part, "name", name.c_str(),
-                 name == "link"            ? robot_.links
-                 : name.ends_with("joint") ? joints_
-                                           : groups_);
+      if (name == "group") return CheckGroup(part, "name");
+      CheckKnown(part, "name", name.c_str(), name == "link" ? robot_.links : joints_);
     }
   }
 
-  /// Groups of one name are one.
-  void AddGroup(const TiXmlElement& element) {
-    const std::string name = Attribute(element, "name");
-    const auto place = std::find(groups_.begin(), groups_.end(), name) - groups_.begin();
-    if (place == std::ssize(groups_)) {
-      groups_.push_back(name);
-      srdf_.groups.push_back({name});
-    }
-    SrdfGroup& group = srdf_.groups[static_cast<std::size_t>(place)];
+  /// The first of a kind is told, and how many others there are.
+  void Warn(const char* kind, const TiXmlElement& element, std::string_view what,
+            const std::string& got, std::string_view expected) {
+    Warn(kind, reader_.Describe(element, what, got, expected));
+  }
+  void Warn(const char* kind, const std::string& line) {
+    if (told_[kind]++ == 0) warnings_.emplace_back(kind, line);
+  }
+
+  void LookIntoGroup(const TiXmlElement& element) {
     for (auto* e = element.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
-      const std::string& kind = e->ValueStr();
-      const std::string named = Attribute(*e, "name");
-      if (kind == "chain") {
-        group.chains.push_back({Attribute(*e, "base_link"), Attribute(*e, "tip_link")});
-      } else if (kind == "link") {
-        group.links.push_back(named);
-      } else if (kind == "group") {
-        group.groups.push_back(named);
-      } else {
-        (kind == "joint" ? group.joints : srdf_.passive).push_back(named);
-      }
+      if (e->ValueStr() == "passive_joint") srdf_.passive.push_back(Attribute(*e, "name"));
+      if (e->ValueStr() == "chain") LookAtChain(*e);
     }
+  }
+
+  void LookAtChain(const TiXmlElement& chain) {
+    const int base = LinkAt(chain, "base_link");
+    const int tip = LinkAt(chain, "tip_link");
+    if (robot_.parents.empty()) return;
+    const std::string name = Attribute(chain, "base_link");
+    if (base == tip) {
+      return Warn("empty chain", chain, "tip_link", fmt::format("'{}', the base_link too", name),
+                  "another link: such a chain has no joint");
+    }
+    for (int link = base; link >= 0; link = robot_.parents[static_cast<std::size_t>(link)]) {
+      if (link != tip) continue;
+      return Warn("chain", chain, "base_link",
+                  fmt::format("'{}', which lies beyond the tip_link '{}'", name,
+                              Attribute(chain, "tip_link")),
+                  "the link nearer to the root; the joints between are taken");
+    }
+  }
+
+  /// MoveIt's assistant rounds states to four decimals.
+  void LookAtState(const TiXmlElement& part, std::size_t joint, double position) {
+    constexpr double kRounding = 5e-5;  // rad, m
+    if (robot_.limits.empty()) return;
+    const double lower = std::max(robot_.limits[joint].first, -motion::kFarthestPosition);
+    const double upper = std::min(robot_.limits[joint].second, motion::kFarthestPosition);
+    if (position >= lower - kRounding && position <= upper + kRounding) return;
+    Warn("state", part, "value", fmt::format("{:g}", position),
+         fmt::format("{:g} to {:g}, its limits", lower, upper));
   }
 
   /// What it says of a virtual joint, whose numbers are several, is where the robot stands.
@@ -246,9 +275,9 @@ class SrdfReader {
       const std::string joint = Attribute(*e, "name");
       const auto numbers = ParseFiniteNumbers(e->Attribute("value"));
       const auto& known = robot_.joints;
-      if (numbers->size() != 1 || std::find(known.begin(), known.end(), joint) == known.end()) {
-        continue;
-      }
+      const auto found = std::find(known.begin(), known.end(), joint);
+      if (numbers->size() != 1 || found == known.end()) continue;
+      LookAtState(*e, static_cast<std::size_t>(found - known.begin()), numbers->front());
       state.positions.emplace_back(joint, numbers->front());
     }
     srdf_.states.push_back(std::move(state));
@@ -261,7 +290,7 @@ class SrdfReader {
   }
 
   /// Defaults first, then what is enabled again, then what is disabled by name.
-  std::vector<std::pair<int, int>> Pairs() const {
+  std::vector<std::pair<int, int>> Pairs() {
     std::set<std::pair<int, int>> pairs;
     const auto for_each = [this](const char* name, const auto& action) {
       for (auto* e = root_.FirstChildElement(name); e != nullptr; e = e->NextSiblingElement(name)) {
@@ -271,6 +300,13 @@ class SrdfReader {
     const auto pair_of = [this](const TiXmlElement& element) {
       return std::pair<int, int>(std::minmax({LinkAt(element, "link1"), LinkAt(element, "link2")}));
     };
+    const auto disable = [&](const TiXmlElement& element) {
+      const std::pair<int, int> pair = pair_of(element);
+      if (pair.first != pair.second) return void(pairs.insert(pair));
+      Warn("pair", element, "link2",
+           fmt::format("'{}', the link1 too", Attribute(element, "link2")),
+           "another link: a link is never checked against itself");
+    };
     for_each("disable_default_collisions", [&](const TiXmlElement& element) {
       const int a = LinkAt(element, "link");
       for (int b = 0; b < static_cast<int>(robot_.links.size()); ++b) {
@@ -278,15 +314,18 @@ class SrdfReader {
       }
     });
     for_each("enable_collisions", [&](const TiXmlElement& e) { pairs.erase(pair_of(e)); });
-    for_each("disable_collisions", [&](const TiXmlElement& e) { pairs.insert(pair_of(e)); });
+    for_each("disable_collisions", disable);
     return {pairs.begin(), pairs.end()};
   }
 
   const TiXmlElement& root_;
   const SrdfRobot& robot_;
   const XmlReader reader_;
-  Names groups_, joints_;
+  SrdfGroups groups_{reader_};
+  Names joints_;
   Srdf srdf_;
+  std::vector<std::pair<const char*, std::string>> warnings_;  // kind and line
+  std::map<std::string_view, std::size_t> told_;               // of a kind
 };
 
 }  // namespace

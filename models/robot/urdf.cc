@@ -6,9 +6,7 @@
 #include <tinyxml.h>
 
 #include <algorithm>
-#include <span>
 
-#include "oca/models/counted.h"
 #include "oca/models/error.h"
 #include "oca/models/geometry/decomposition.h"
 #include "oca/models/geometry/mesh_surface.h"
@@ -39,9 +37,7 @@ class UrdfReader {
     const XmlDocument document = ParseXml(text, where_);
     root_ = document->RootElement();
     newer_ = RewriteNewerUrdf(*document->RootElement(), where_, errors_);
-    for (const std::string& line : RepairUrdf(*document->RootElement(), options_.sum_up)) {
-      if (options_.warn) options_.warn(line);
-    }
+    Tell(RepairUrdf(*document->RootElement()));
     outline_ = ReadUrdfOutline(*document->RootElement(), where_, errors_);
     if (errors_.empty()) CheckUrdfTree(outline_, where_, errors_);
     CheckMeshes(NeededMeshes(), directory_, options_, errors_);
@@ -67,17 +63,15 @@ class UrdfReader {
     GiveLimits(joints_, options_.jerk_limits, where_ + ": jerk_limits", &Joint::jerk_limit);
     limits.TightenRates(joints_);
     RobotModel model = MakeModel(std::move(links_), std::move(joints_), srdf);
-    if (options_.warn) Warn(model);
+    Warn(model);
+    for (const std::string& line : srdf.warnings) Tell(line);
     return model;
   }
 
  private:
   Srdf ReadSrdf() const {
     if (options_.srdf.empty()) return {};
-    SrdfRobot robot{outline_.robot_name, {}, {}};
-    for (const Link& link : links_) robot.links.push_back(link.name.text());
-    for (const Joint& joint : joints_) robot.joints.push_back(joint.name.text());
-    return LoadSrdf(options_.srdf, robot);
+    return LoadSrdf(options_.srdf, DescribeForSrdf(outline_.robot_name, links_, joints_));
   }
 
   JointLimitsFile ReadLimitsFile() const {
@@ -94,21 +88,31 @@ class UrdfReader {
     }
   }
 
+  void Tell(const WarningLines& lines) const {
+    for (const std::string& line : lines.sums) {
+      if (options_.warn) options_.warn(line);
+    }
+    for (const std::string& line : lines.each) {
+      if (options_.warn_each) options_.warn_each(line);
+    }
+  }
+  void Tell(const std::string& line) const { Tell(WarningLines{{line}, {line}}); }
+
   void Warn(const RobotModel& model) const {
-    WarnOfMissingVisuals();
-    for (const std::string& line : InertiaWarnings(model, options_.sum_up)) options_.warn(line);
+    Tell(SummedUp(missing_visuals_, "visual"));
+    Tell(InertiaWarnings(model));
     for (const UrdfOutline::Joint& joint : outline_.joints) {
       if (!joint.fixed || joint.mimic.empty()) continue;
-      options_.warn(fmt::format("joint '{}': fixed, so its <mimic> of '{}' does nothing",
-                                joint.name, joint.mimic));
+      Tell(fmt::format("joint '{}': fixed, so its <mimic> of '{}' does nothing", joint.name,
+                       joint.mimic));
     }
     if (!softened_.empty()) {
-      options_.warn(fmt::format(
+      Tell(fmt::format(
           "joint{} '{}': soft limits of a safety_controller, narrower than <limit>, are "
           "not looked at; joint_limits can narrow the range",
           softened_.size() > 1 ? "s" : "", fmt::join(softened_, "', '")));
     }
-    for (const std::string& line : LimitWarnings(model)) options_.warn(line);
+    for (const std::string& line : LimitWarnings(model)) Tell(line);
   }
 
   /// Two soft limits that are equal are none, as they are 0 where they are left out.
@@ -236,9 +240,8 @@ class UrdfReader {
         if (options_.decompose_meshes) return geometry::LoadDecomposition(file, scale);
         const auto [hull, excess, flatness] = geometry::LoadMeshHull(file, scale);
         const std::string remark = excess.empty() ? flatness : excess + options_.hull_advice;
-        if (options_.warn && !remark.empty()) {
-          options_.warn(
-              fmt::format("link '{}': {} mesh '{}' {}", link, kind, mesh.filename, remark));
+        if (!remark.empty()) {
+          Tell(fmt::format("link '{}': {} mesh '{}' {}", link, kind, mesh.filename, remark));
         }
         return geometry::ConvexMesh{hull};
       } catch (const models::ModelError& error) {
@@ -258,7 +261,7 @@ class UrdfReader {
         try {
           visual.mesh_file = FindMesh(mesh.filename, directory_, options_, where).string();
         } catch (const models::ModelError& error) {
-          missing_visuals_.emplace_back(error.what());
+          missing_visuals_.push_back(std::string("not drawn: ") + error.what());
           return std::nullopt;
         }
       }
@@ -271,16 +274,6 @@ class UrdfReader {
       visual.colour = Eigen::Vector4d(colour.r, colour.g, colour.b, colour.a);
     }
     return visual;
-  }
-
-  void WarnOfMissingVisuals() const {
-    const std::size_t all = missing_visuals_.size();
-    const std::size_t told = options_.sum_up ? std::min<std::size_t>(1, all) : all;
-    const std::size_t more = all - told;
-    const std::string rest = more == 0 ? "" : "; and " + models::Counted(more, "more visual");
-    for (const std::string& why : std::span(missing_visuals_).first(told)) {
-      options_.warn(fmt::format("not drawn: {}{}", why, rest));
-    }
   }
 
   static std::string TextOf(const TiXmlDocument& document) {
@@ -319,8 +312,11 @@ RobotModel LoadUrdf(const std::filesystem::path& file, const LoadOptions& option
   }
   const ExpandedXacro expanded = ExpandXacro(file, ForXacro(options));
   LoadOptions placed = options;
-  if (options.warn) {
-    placed.warn = [&](const std::string& line) { options.warn(expanded.WithPlaces(line, where)); };
+  for (const auto kind : {&LoadOptions::warn, &LoadOptions::warn_each}) {
+    if (!(options.*kind)) continue;
+    placed.*kind = [&, kind](const std::string& line) {
+      (options.*kind)(expanded.WithPlaces(line, where));
+    };
   }
   try {
     return UrdfReader(where, placed, file.parent_path(), &expanded).Read(expanded.urdf);
@@ -330,7 +326,12 @@ RobotModel LoadUrdf(const std::filesystem::path& file, const LoadOptions& option
 }
 
 XacroOptions ForXacro(const LoadOptions& options) {
-  return {options.xacro_arguments, options.find_package, options.package_directories, options.warn};
+  const auto warn = options.warn, each = options.warn_each;
+  return {options.xacro_arguments, options.find_package, options.package_directories,
+          options.package_advice, [=](const std::string& line) {
+            if (warn) warn(line);
+            if (each) each(line);
+          }};
 }
 
 RobotModel ParseUrdf(const std::string& text, const std::string& name, const LoadOptions& options,

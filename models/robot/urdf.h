@@ -42,17 +42,17 @@ struct LoadOptions {
   /// as DIR/NAME/rest for each DIR.
   std::function<std::filesystem::path(const std::string& package)> find_package{};
   std::vector<std::filesystem::path> package_directories{};
+  std::string package_advice{};  ///< ends messages about packages that are nowhere
   /// true: a collision mesh counts as the compound that LoadDecomposition makes of it, which keeps
   /// its hollows, instead of its convex hull.
   bool decompose_meshes{false};
   VisualAsCollision visual_as_collision{VisualAsCollision::kNone};
-  /// Takes a line for each mesh whose hull adds volume, `link 'x': collision mesh ...` or `visual
-  /// mesh`, and for limits that hardly mean what they say (LimitWarnings): `joint X: ...`; or
-  /// unset. The line of a mesh ends with `hull_advice`.
-  std::function<void(const std::string& line)> warn{};
+  /// Take what is odd but does not matter, or unset: `warn` a line a kind, which names the first of
+  /// it and counts the rest, `warn_each` a line for each thing. A line for each mesh whose hull adds volume, `link 'x': collision mesh ...` or `visual
+  /// mesh`, and for limits that hardly mean what they say (LimitWarnings): `joint X: ...`. The line
+  /// of a mesh ends with `hull_advice`.
+  std::function<void(const std::string&line)> warn{}, warn_each{};
   std::string hull_advice{};
-  /// false: a line for each thing, where one line would name the first of a kind and count the rest.
-  bool sum_up{true};
   /// false: meshes that are only drawn need not exist, and their elements name no file.
   bool load_visuals{true};
   /// Of a xacro file.

@@ -22,6 +22,7 @@ class OutlineReader {
   UrdfOutline Read(const TiXmlElement& root) {
     if (root.ValueStr() != "robot") xml_.Fail(root, "root element", root.ValueStr(), "robot");
     xml_.CheckExpanded(root);
+    xml_.CheckNames(root);
     Try([&] {
       xml_.CheckChildren(root, {},
                          {"link", "joint", "material", "transmission", "gazebo", "sensor"});
@@ -78,15 +79,22 @@ class OutlineReader {
     const auto* origin = parent.FirstChildElement("origin");
     if (origin == nullptr) return;
     xml_.CheckAttributes(*origin, {"xyz", "rpy"});
-    xml_.Numbers(*origin, "xyz", 3);
+    const auto xyz = xml_.Numbers(*origin, "xyz", 3);
     xml_.Numbers(*origin, "rpy", 3);
+    if (parent.ValueStr() == "visual") return;  // only drawn
+    for (const double part : xyz) {
+      if (std::fabs(part) <= kFarthest) continue;
+      xml_.Fail(*origin, "xyz", fmt::format("'{}'", origin->Attribute("xyz")),
+                fmt::format("at most {:g} m", kFarthest));
+    }
   }
 
-  void CheckNotNegative(const TiXmlElement& element, const char* attribute) const {
-    const auto number = xml_.Numbers(element, attribute, 1, false);
-    if (!number.empty() && number[0] < 0.0) {
-      xml_.Fail(element, attribute, fmt::format("{}", number[0]), "0 or more");
-    }
+  /// 0 counts as not given.
+  void CheckVelocity(const TiXmlElement& limit) const {
+    const auto number = xml_.Numbers(limit, "velocity", 1, false);
+    if (number.empty() || number[0] == 0.0 || number[0] >= kLeastVelocity) return;
+    xml_.Fail(limit, "velocity", fmt::format("{}", number[0]),
+              fmt::format("0 or more, and at least {:g} rad/s or m/s if not 0", kLeastVelocity));
   }
 
   /// Returns the file of a mesh.
@@ -179,9 +187,11 @@ class OutlineReader {
     xml_.CheckAttributes(*axis, {"xyz"});
     const auto xyz = xml_.Numbers(*axis, "xyz", 3, true);
     // Exporters write a zero axis into fixed joints, where it means nothing.
-    if (!fixed && std::hypot(xyz[0], xyz[1], xyz[2]) < kLeastAxis) {
-      xml_.Fail(*axis, "xyz", fmt::format("'{}'", axis->Attribute("xyz")), "a direction");
-    }
+    if (fixed) return;
+    const double length = std::hypot(xyz[0], xyz[1], xyz[2]);
+    if (length >= kLeastAxis && length <= kMostAxis) return;
+    xml_.Fail(*axis, "xyz", fmt::format("'{}'", axis->Attribute("xyz")),
+              fmt::format("a direction, of a length from {:g} to {:g}", kLeastAxis, kMostAxis));
   }
 
   void ReadLimit(const TiXmlElement& element, const std::string& type,
@@ -199,14 +209,16 @@ class OutlineReader {
       xml_.Fail(*limit, "range", fmt::format("lower {} and upper {}", lower[0], upper[0]),
                 "lower <= upper");
     }
-    CheckNotNegative(*limit, "velocity");
+    CheckVelocity(*limit);
     if (limit->Attribute("acceleration") != nullptr) {
       joint.acceleration = xml_.Positive(*limit, "acceleration", 1).front();
     }
     if (limit->Attribute("jerk") != nullptr) joint.jerk = xml_.Positive(*limit, "jerk", 1).front();
   }
 
-  static constexpr double kLeastAxis = 1e-6;
+  static constexpr double kLeastAxis = 1e-6, kMostAxis = 1e6;
+  static constexpr double kFarthest = 1e6;  // m; from there on a double no longer tells 1e-10 apart
+  static constexpr double kLeastVelocity = 1e-6;  // rad/s, m/s; a radian in ten days
 
   XmlReader xml_;
   models::ModelErrors& errors_;

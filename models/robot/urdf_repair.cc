@@ -49,7 +49,7 @@ constexpr const char* kNoColour =
 
 class Repair {
  public:
-  Names Run(TiXmlElement& root, bool sum_up) {
+  WarningLines Run(TiXmlElement& root) {
     DropAttributes(root);
     std::set<std::string> materials;
     Names children;
@@ -76,7 +76,7 @@ class Repair {
       }
       e = next;
     }
-    return sum_up ? Sums() : Lines();
+    return {Sums(), Lines()};
   }
 
  private:
@@ -241,8 +241,6 @@ class Repair {
 
 }  // namespace
 
-std::vector<std::string> RepairUrdf(TiXmlElement& root, bool sum_up) {
-  return Repair().Run(root, sum_up);
-}
+WarningLines RepairUrdf(TiXmlElement& root) { return Repair().Run(root); }
 
 }  // namespace oca::robot

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
-#include <vector>
+#include "oca/models/robot/warning_lines.h"
 
 class TiXmlElement;
 
@@ -16,8 +15,8 @@ namespace oca::robot {
 /// below 0 becomes 0, which means none (LimitWarnings). An attribute within two letters of one of URDF's stays,
 /// to be refused as a slip of the pen.
 ///
-/// Returns what was done, if `sum_up` a line a kind, else a line for each: `attributes that URDF does not have, left out: 'a:b' of
-/// <origin> of link 'upper' (line 12), ... and 20 more`.
-std::vector<std::string> RepairUrdf(TiXmlElement& root, bool sum_up);
+/// Returns what was done: `attributes that URDF does not have, left out: 'a:b' of <origin> of link
+/// 'upper' (line 12), ... and 20 more`.
+WarningLines RepairUrdf(TiXmlElement& root);
 
 }  // namespace oca::robot

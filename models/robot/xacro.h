@@ -18,6 +18,7 @@ struct XacroOptions {
   /// DIR that has it.
   std::function<std::filesystem::path(const std::string& package)> find_package{};
   std::vector<std::filesystem::path> package_directories{};
+  std::string package_advice{};  ///< ends messages about packages that are nowhere
   /// Takes what xacro.warning and its like say, with their place; or unset.
   std::function<void(const std::string& line)> warn{};
 };

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
+#include <iterator>
+#include <utility>
 #include <vector>
 
 #include "oca/models/error.h"
@@ -27,6 +29,40 @@ constexpr std::string_view kNotInXml(
     "\0\1\2\3\4\5\6\7\b\v\f\x0e\x0f\x10\x11\x12\x13\x14\x15\x16\x17\x18\x19\x1a\x1b\x1c\x1d\x1e"
     "\x1f",
     29);
+
+bool IsXmlCharacter(std::uint32_t code) {
+  return code == '\t' || code == '\n' || code == '\r' || (code >= 0x20 && code < 0xd800) ||
+         (code >= 0xe000 && code < 0xfffe) || (code >= 0x10000 && code < 0x110000);
+}
+
+/// NameStartChar and NameChar of XML 1.0, 2.3.
+bool StartsXmlName(std::uint32_t code) {
+  constexpr std::pair<std::uint32_t, std::uint32_t> kRanges[] = {
+      {':', ':'},       {'A', 'Z'},       {'_', '_'},       {'a', 'z'},
+      {0xc0, 0xd6},     {0xd8, 0xf6},     {0xf8, 0x2ff},    {0x370, 0x37d},
+      {0x37f, 0x1fff},  {0x200c, 0x200d}, {0x2070, 0x218f}, {0x2c00, 0x2fef},
+      {0x3001, 0xd7ff}, {0xf900, 0xfdcf}, {0xfdf0, 0xfffd}, {0x10000, 0xeffff}};
+  return std::any_of(std::begin(kRanges), std::end(kRanges), [&](const auto& range) {
+    return code >= range.first && code <= range.second;
+  });
+}
+bool ContinuesXmlName(std::uint32_t code) {
+  return StartsXmlName(code) || code == '-' || code == '.' || (code >= '0' && code <= '9') ||
+         code == 0xb7 || (code >= 0x300 && code <= 0x36f) || code == 0x203f || code == 0x2040;
+}
+
+/// The offset of the first sequence of UTF-8 that is none or whose code point `holds` is false for;
+/// the length if there is none.
+template <class Holds>
+std::size_t PrefixWhere(std::string_view text, const Holds& holds) {
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t length = models::internal::Utf8Length(text.substr(at));
+    if (length == 0 || !holds(models::internal::CodePoint(text.substr(at, length)))) return at;
+    at += length;
+  }
+  return at;
+}
 
 // Walks over XML text and refuses what TinyXML would accept or crash on: it parses recursively,
 // takes unquoted attributes and stops quietly at the end of the first root element.
@@ -62,16 +98,10 @@ class XmlScanner {
       const auto [end, error] =
           std::from_chars(first, text_.data() + text_.size(), code, hexadecimal ? 16 : 10);
       const bool whole = error == std::errc() && end != text_.data() + text_.size() && *end == ';';
-      if (whole && IsCharacter(code)) continue;
+      if (whole && IsXmlCharacter(code)) continue;
       Fail(fmt::format("the reference {:.12}", text_.substr(at_)), "one to a character of XML");
     }
     at_ = begin;
-  }
-
-  /// source XML 1.0, 2.2
-  static bool IsCharacter(std::uint32_t code) {
-    return code == '\t' || code == '\n' || code == '\r' || (code >= 0x20 && code < 0xd800) ||
-           (code >= 0xe000 && code < 0xfffe) || (code >= 0x10000 && code < 0x110000);
   }
 
   // To the next '<'; false at the end.
@@ -170,6 +200,14 @@ class XmlScanner {
 };
 
 }  // namespace
+
+std::size_t XmlPrefix(std::string_view text) { return PrefixWhere(text, IsXmlCharacter); }
+
+bool IsXmlName(std::string_view text) {
+  const std::size_t first = text.empty() ? 0 : models::internal::Utf8Length(text);
+  return first > 0 && StartsXmlName(models::internal::CodePoint(text.substr(0, first))) &&
+         PrefixWhere(text, ContinuesXmlName) == text.size();
+}
 
 void XmlDeleter::operator()(TiXmlDocument* document) const { delete document; }
 

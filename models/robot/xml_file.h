@@ -24,4 +24,10 @@ std::string ReadXmlFile(const std::filesystem::path& file);
 /// more than 1000 attributes in an element or a document type declaration
 XmlDocument ParseXml(const std::string& text, const std::string& where);
 
+/// How many bytes of a text are characters that XML may hold, up to the first that is none.
+/// source XML 1.0, 2.2
+std::size_t XmlPrefix(std::string_view text);
+/// Whether it may name an element or an attribute. source XML 1.0, 2.3
+bool IsXmlName(std::string_view text);
+
 }  // namespace oca::robot

@@ -20,24 +20,50 @@ bool Contains(const XmlReader::Names& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// "link 'NAME' " of the link or joint that holds the element or is it.
+constexpr std::string_view kBlanks = " \t\r\n";
+
+/// What names something, in URDF and SRDF.
+const XmlReader::Names kNaming{"name",      "link",         "link1",       "link2",
+                               "joint",     "group",        "parent_link", "child_link",
+                               "base_link", "parent_group", "tip_link",    "parent_frame",
+                               "joint_name"};
+
+std::string InOneLine(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return text;
+}
+
+// "link 'NAME' " of the link or joint that holds the element or is it, in one line.
 std::string Holder(const TiXmlElement& element) {
   for (const TiXmlNode* node = &element; node != nullptr; node = node->Parent()) {
     const TiXmlElement* at = node->ToElement();
     if (at == nullptr || (at->ValueStr() != "link" && at->ValueStr() != "joint")) continue;
     const char* name = at->Attribute("name");
-    if (name != nullptr) return fmt::format("{} '{}' ", at->ValueStr(), name);
+    if (name != nullptr) return fmt::format("{} '{}' ", at->ValueStr(), InOneLine(name));
   }
   return "";
 }
 
 }  // namespace
 
+std::string XmlReader::Describe(const TiXmlElement& element, std::string_view what,
+                                std::string_view got, std::string_view expected) const {
+  return fmt::format("{}:{}: {}<{}>: {}; got {}; expected {}", where_, element.Row(),
+                     Holder(element), element.ValueStr(), what, got, expected);
+}
+
 void XmlReader::Fail(const TiXmlElement& element, std::string_view what, std::string_view got,
                      std::string_view expected) const {
-  throw models::ModelError(fmt::format("{}:{}: {}<{}>: {}; got {}; expected {}", where_,
-                                       element.Row(), Holder(element), element.ValueStr(), what,
-                                       got, expected));
+  throw models::ModelError(Describe(element, what, got, expected));
+}
+
+std::string XmlReader::Trimmed(const TiXmlElement& element, const char* attribute) {
+  const char* const text = element.Attribute(attribute);
+  const std::string_view all = text == nullptr ? "" : text;
+  const std::size_t first = all.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return "";
+  return std::string(all.substr(first, all.find_last_not_of(kBlanks) - first + 1));
 }
 
 std::string XmlReader::Text(const TiXmlElement& element, const char* attribute) const {
@@ -111,6 +137,19 @@ void XmlReader::CheckExpanded(const TiXmlElement& element) const {
   }
   for (auto* e = element.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
     CheckExpanded(*e);
+  }
+}
+
+void XmlReader::CheckNames(const TiXmlElement& element) const {
+  for (auto* a = element.FirstAttribute(); a != nullptr; a = a->Next()) {
+    if (!Contains(kNaming, a->Name())) continue;
+    const std::string name = Trimmed(element, a->Name());
+    if (name.find_first_of("\r\n") == std::string::npos) continue;
+    Fail(element, a->Name(), fmt::format("'{}', with a line break", InOneLine(name)),
+         "a name in one line");
+  }
+  for (auto* e = element.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+    CheckNames(*e);
   }
 }
 

@@ -19,8 +19,14 @@ class XmlReader {
   /// `where` names the file.
   explicit XmlReader(std::string where) : where_(std::move(where)) {}
 
+  /// That text.
+  std::string Describe(const TiXmlElement& element, std::string_view what, std::string_view got,
+                       std::string_view expected) const;
   [[noreturn]] void Fail(const TiXmlElement& element, std::string_view what, std::string_view got,
                          std::string_view expected) const;
+
+  /// The value of an attribute without blanks around it, as MoveIt takes it; "" if absent.
+  static std::string Trimmed(const TiXmlElement& element, const char* attribute);
 
   /// The value of an attribute that must be there and not empty.
   std::string Text(const TiXmlElement& element, const char* attribute) const;
@@ -37,6 +43,9 @@ class XmlReader {
   void CheckChildren(const TiXmlElement& element, const Names& once, const Names& repeated) const;
   /// Refuses xacro elements and ${...} or $(...) in attributes, of the element and all below.
   void CheckExpanded(const TiXmlElement& element) const;
+  /// Refuses names with a line break within, of the element and all below: in a message what
+  /// follows would pass for a line of its own.
+  void CheckNames(const TiXmlElement& element) const;
 
  private:
   std::string where_;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <string>
 
 namespace oca::models::internal {
@@ -19,6 +20,23 @@ TEST(ForeignTextTest, KnowsTheSequencesOfUtf8AndBothSidesOfTheirBounds) {
        {"\x80", "\xC1\xBF", "\xC2", "\xC2 ", "\xE0\x9F\xBF", "\xE2\x82", "\xED\xA0\x80",
         "\xF0\x8F\xBF\xBF", "\xF4\x90\x80\x80", "\xF5\x80\x80\x80", "\xFF"}) {
     EXPECT_EQ(Utf8Length(wrong), 0u) << static_cast<int>(static_cast<unsigned char>(wrong[0]));
+  }
+}
+
+TEST(ForeignTextTest, WritesACodePointAndReadsItBack) {
+  const auto written = [](std::uint32_t code) {
+    std::string text;
+    AppendUtf8(text, code);
+    return text;
+  };
+  EXPECT_EQ(written(0), std::string(1, '\0'));
+  EXPECT_EQ(written(0x41), "A");
+  EXPECT_EQ(written(0xe4), "\xC3\xA4");
+  EXPECT_EQ(written(0x20ac), "\xE2\x82\xAC");
+  EXPECT_EQ(written(0x1f916), "\xF0\x9F\xA4\x96");
+  for (const std::uint32_t code : {0x7fu, 0x80u, 0x7ffu, 0x800u, 0xffffu, 0x10000u, 0x10ffffu}) {
+    EXPECT_EQ(CodePoint(written(code)), code);
+    EXPECT_EQ(Utf8Length(written(code)), written(code).size());
   }
 }
 

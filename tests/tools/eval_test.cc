@@ -231,6 +231,12 @@ TEST_F(EvalTest, WrongParametersAndModelsEndWithTwo) {
   }
 }
 
+TEST_F(EvalTest, AZeroByteInANameEndsNoMessage) {
+  const auto answers = Eval("Gain --params '{\"gain\":2}'", "{\"a\\u0000b\":[1]}\n");
+  ASSERT_EQ(answers.size(), 1u);
+  EXPECT_THAT(answers[0]["error"].get<std::string>(), HasSubstr("no input port 'a\\x00b'"));
+}
+
 TEST_F(EvalTest, TakesRobotsInXacroWithTheirArguments) {
   const std::string arm = run.folder()
                               .Write("arm.xacro", R"(<robot name="arm" xmlns:xacro="x">

@@ -144,5 +144,38 @@ TEST_F(RobotCommandTest, ExpandsXacroAndTakesItsArguments) {
   EXPECT_EQ(run("$S robot expand missing.xacro").status, 2);
 }
 
+TEST_F(RobotCommandTest, PackagesNearTheRobotAreKnownToEveryCommand) {
+  run.folder().Write("ws/their_arm/inc/links.xacro",
+                     R"(<robot xmlns:xacro="x"><xacro:macro name="base"><link name="base">
+<collision><geometry><sphere radius="0.1"/></geometry></collision></link></xacro:macro></robot>)");
+  const std::string arm = run.folder().Write("ws/their_arm/urdf/arm.urdf.xacro",
+                                             R"xml(<robot name="arm" xmlns:xacro="x"><xacro:include
+filename="$(find their_arm)/inc/links.xacro"/><xacro:base/><link name="tip"/>
+<joint name="turn" type="continuous"><parent link="base"/><child link="tip"/>
+<origin xyz="0.25 0 0"/></joint></robot>)xml");
+  const Ran expanded = run("$S robot expand " + arm);
+  EXPECT_EQ(expanded.status, 0) << expanded.err;
+  EXPECT_THAT(expanded.out, HasSubstr("<link name=\"base\">"));
+  const Ran evaluated = run("$S eval RobotKinematics --model arm=" + arm, "{\"position\":[0]}\n");
+  EXPECT_EQ(evaluated.status, 0) << evaluated.err;
+  EXPECT_THAT(evaluated.out, HasSubstr("[0.25,0.0,0.0]"));
+  const Ran looked = run("$S robot check-collisions " + arm);
+  EXPECT_EQ(looked.status, 0) << looked.err;
+}
+
+TEST_F(RobotCommandTest, APackageThatIsNowhereIsToldWithTheWayToNameIt) {
+  const std::string arm = run.folder().Write(
+      "arm.xacro",
+      R"xml(<robot name="arm" xmlns:xacro="x"><link name="$(find no_such_arm)"/></robot>)xml");
+  for (const std::string& command :
+       {"robot expand " + arm, "robot show -o x.html " + arm, "robot check-collisions " + arm,
+        "eval RobotKinematics --model arm=" + arm}) {
+    const Ran ran = run("$S " + command);
+    EXPECT_EQ(ran.status, 2) << command;
+    EXPECT_THAT(ran.err, testing::AllOf(HasSubstr("'no_such_arm'"), HasSubstr("OCA_PACKAGE_PATH="),
+                                        HasSubstr("arm.xacro:1")));
+  }
+}
+
 }  // namespace robot_command_test
 }  // namespace oca::tools

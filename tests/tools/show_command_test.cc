@@ -55,6 +55,25 @@ TEST_F(ShowCommandTest, TellsTheWarningsOfTheLoad) {
   EXPECT_THAT(drawn.err, Not(HasSubstr("warning")));
 }
 
+TEST_F(ShowCommandTest, TellsAKindOfWarningOnceAndThePageEachAtItsLink) {
+  std::string text = "<robot name='arm' my:note='x' xmlns:my='y'>";
+  for (const char* name : {"a", "b", "c", "d", "e"}) {
+    text += std::string("<link name='") + name +
+            "'><inertial><mass value='-1'/></inertial><collision><geometry><sphere radius='1'/>"
+            "</geometry></collision></link>";
+    if (*name == 'a') continue;
+    text += std::string("<joint name='to_") + name + "' type='fixed' my:id='1'><parent link='a'/>" +
+            "<child link='" + name + "'/></joint>";
+  }
+  const Ran ran = Show(run.folder().Write("arm.urdf", text + "</robot>"));
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("left out: of link 'a' (line 1), of link 'b' (line 1), of link "
+                                 "'c' (line 1) and 2 more\n"));
+  std::size_t warnings = 0;
+  for (std::size_t at = 0; (at = ran.err.find("warning: ", at)) != ran.err.npos; ++at) ++warnings;
+  EXPECT_EQ(warnings, 2u) << ran.err;  // of inertias and of attributes
+}
+
 TEST_F(ShowCommandTest, FindsPackagesThatLieBesideTheRobot) {
   run.folder().Write("their_arm/meshes/a.obj",
                      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");

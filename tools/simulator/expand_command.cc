@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include "oca/diagrams/files/package_paths.h"
@@ -17,11 +18,15 @@ namespace oca::tools {
 int ExpandCommand(const ExpandArguments& arguments) {
   robot::XacroOptions options;
   options.arguments = ParseXacroArguments(arguments.arguments);
+  const std::filesystem::path xacro = files::ResolvePath(arguments.xacro, {}, {});
+  options.find_package = [&xacro](const std::string& package) {
+    return files::PackageFor(xacro, package);
+  };
   options.package_directories = files::PackageFolders();
+  options.package_advice = files::kPackageAdvice;
   options.warn = [](const std::string& line) { Tell("warning: {}\n", line); };
   models::OpenedFiles opened;
-  const robot::ExpandedXacro expanded =
-      robot::ExpandXacro(files::ResolvePath(arguments.xacro, {}, {}), options);
+  const robot::ExpandedXacro expanded = robot::ExpandXacro(xacro, options);
   if (arguments.output.empty()) {
     WriteData(expanded.urdf);
     return kFine;

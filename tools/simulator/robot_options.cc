@@ -39,6 +39,7 @@ void AddRobotOptions(CLI::App& command, RobotArguments& arguments) {
 robot::LoadOptions LoadOptionsOf(const RobotArguments& arguments) {
   robot::LoadOptions options;
   options.package_directories = files::PackageFolders();
+  options.package_advice = files::kPackageAdvice;
   options.find_package =
       [robot = files::ResolvePath(arguments.urdf, {}, {})](const std::string& package) {
         return files::PackageFor(robot, package);

@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "oca/diagrams/files/package_paths.h"
 #include "oca/diagrams/record/page.h"
@@ -37,18 +38,30 @@ struct ShowArguments {
   ViewArguments view;
 };
 
-record::RobotRecord ReadRobot(const ShowArguments& arguments) {
+/// A robot's record, and what a terminal is told of its load: a line a kind, where the page has one
+/// at each link.
+struct ShownRobot {
+  record::RobotRecord record;
+  std::vector<std::string> lines;
+};
+
+ShownRobot ReadRobot(const ShowArguments& arguments) {
   robot::LoadOptions options = LoadOptionsOf(arguments.robot);
   record::RobotSource source;
   source.file = arguments.robot.urdf;
   source.srdf = arguments.srdf;
   source.remedy = "--visual-as-collision missing";
   if (!arguments.srdf.empty()) options.srdf = files::ResolvePath(arguments.srdf, {}, {});
-  options.sum_up = false;  // so that each is marked at its link
-  options.warn = [&source](const std::string& line) { source.warnings.push_back(line); };
+  ShownRobot robot;
+  options.warn = [&robot](const std::string& line) { robot.lines.push_back(line); };
+  options.warn_each = [&source](const std::string& line) { source.warnings.push_back(line); };
   const auto model = std::make_shared<const robot::RobotModel>(
       robot::LoadUrdf(files::ResolvePath(arguments.robot.urdf, {}, {}), options));
-  return record::RecordRobot(model, source);
+  robot.record = record::RecordRobot(model, source);
+  // Those of the load are the first.
+  robot.lines.insert(robot.lines.end(), robot.record.warnings.begin() + std::ssize(source.warnings),
+                     robot.record.warnings.end());
+  return robot;
 }
 
 void WritePage(const std::string& file, const std::string& mcap) {
@@ -64,14 +77,14 @@ void WritePage(const std::string& file, const std::string& mcap) {
 
 int ShowCommand(const ShowArguments& arguments) {
   models::OpenedFiles opened;
-  record::RobotRecord record = ReadRobot(arguments);
-  const std::size_t told = std::min(record.warnings.size(), kMostTold);
-  for (const std::string& line : std::span(record.warnings).first(told)) {
+  auto [record, lines] = ReadRobot(arguments);
+  const std::size_t told = std::min(lines.size(), kMostTold);
+  for (const std::string& line : std::span(lines).first(told)) {
     Tell("{}: warning: {}\n", arguments.robot.urdf, line);
   }
-  if (record.warnings.size() > told) {
+  if (lines.size() > told) {
     Tell("{}: {}, on the page\n", arguments.robot.urdf,
-         models::Counted(record.warnings.size() - told, "more warning"));
+         models::Counted(lines.size() - told, "more warning"));
   }
   if (arguments.output.empty()) {
     return ServeRecord(arguments.robot.urdf, std::move(record.mcap), arguments.view);

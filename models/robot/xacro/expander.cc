@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "oca/models/error.h"
+#include "oca/models/robot/xml_file.h"
 
 namespace oca::robot::xacro {
 namespace {
@@ -38,6 +39,12 @@ bool Truth(const PythonValue& value) {
   const PythonValue literal = LiteralOf(*value.text());
   if (literal.is_whole()) return literal.truth();
   throw Mistake("condition", Shown(value), "true, false, a number or an expression");
+}
+
+/// Of an element or attribute to write.
+void CheckXmlName(std::string_view what, const std::string& name) {
+  if (IsXmlName(name)) return;
+  throw Mistake(what, Repr(PythonValue(name)), "a name of XML, such as 'link'");
 }
 
 }  // namespace
@@ -256,7 +263,7 @@ void Expander::Include(const Node& node, Scope& scope, Node& out) {
 void Expander::NamedElement(const Node& node, Scope& scope, Node& out) {
   auto renamed = std::make_shared<Node>(node);
   renamed->name = TextOf(node, "xacro:name", scope);
-  if (renamed->name.empty()) throw Mistake("xacro:name", "nothing", "a name");
+  CheckXmlName("xacro:name", renamed->name);
   std::erase_if(renamed->attributes, [](const auto& one) { return one.first == "xacro:name"; });
   Element(renamed, scope, out);
 }
@@ -264,7 +271,7 @@ void Expander::NamedElement(const Node& node, Scope& scope, Node& out) {
 void Expander::NamedAttribute(const Node& node, Scope& scope, Node& out) {
   CheckAttributes(node, {"name", "value"});
   const std::string name = TextOf(node, "name", scope);
-  if (name.empty()) throw Mistake("name", "nothing", "a name");
+  CheckXmlName("name", name);
   out.SetAttribute(name, TextOf(node, "value", scope));
 }
 

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 
+#include "oca/models/error.h"
 #include "oca/models/robot/xacro/python_value.h"
+#include "oca/models/robot/xml_file.h"
 
 namespace oca::robot::xacro {
 namespace {
@@ -31,7 +33,13 @@ class NodeWriter {
     written_.places.push_back(of.place.ToString());
   }
 
-  static std::string Escaped(std::string_view text) {
+  /// throws ModelError for what expressions made and XML cannot hold, as U+0000
+  static std::string Escaped(std::string_view text, const Node& of) {
+    if (XmlPrefix(text) < text.size()) {
+      throw models::ModelError(
+          fmt::format("{}: text; got {}; expected characters that XML may hold",
+                      of.place.ToString(), Shown(PythonValue(std::string(text)))));
+    }
     std::string escaped;
     for (const char c : text) {
       switch (c) {
@@ -69,7 +77,7 @@ class NodeWriter {
     const std::string indent(static_cast<std::size_t>(2 * std::min(depth, 40)), ' ');
     std::string tag = indent + "<" + node.name;
     for (const auto& [name, value] : node.attributes) {
-      tag += fmt::format(" {}=\"{}\"", name, Escaped(value));
+      tag += fmt::format(" {}=\"{}\"", name, Escaped(value, node));
     }
     std::vector<const Node*> inner;
     bool texts = true;
@@ -81,13 +89,13 @@ class NodeWriter {
     if (inner.empty()) return Line(tag + "/>", node);
     if (texts) {
       std::string text;
-      for (const Node* const part : inner) text += Escaped(part->text);
+      for (const Node* const part : inner) text += Escaped(part->text, *part);
       return Line(fmt::format("{}>{}</{}>", tag, Trimmed(text), node.name), node);
     }
     Line(tag + ">", node);
     for (const Node* const child : inner) {
       if (child->name.empty()) {
-        Line(indent + "  " + Escaped(Trimmed(child->text)), *child);
+        Line(indent + "  " + Escaped(Trimmed(child->text), *child), *child);
       } else {
         Element(*child, depth + 1);
       }

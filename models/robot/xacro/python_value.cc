@@ -78,6 +78,10 @@ void AppendQuoted(std::string& out, const std::string& text) {
       quoted += "\\n";
     } else if (c == '\t') {
       quoted += "\\t";
+    } else if (c == '\r') {
+      quoted += "\\r";
+    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      quoted += fmt::format("\\x{:02x}", static_cast<unsigned>(c));
     } else {
       if (c == quote || c == '\\') quoted += '\\';
       quoted += c;

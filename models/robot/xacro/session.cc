@@ -181,7 +181,8 @@ std::string Session::PackageFolder(const std::string& package) const {
   }
   throw Mistake(
       "package", fmt::format("'{}'", package),
-      fmt::format("one that is known{}", places.empty() ? "" : " or a folder in " + places));
+      fmt::format("one that is known{}{}", places.empty() ? "" : " or a folder in " + places,
+                  options_.package_advice));
 }
 
 fs::path Session::PathOf(const std::string& name, const SourcePlace& place) const {

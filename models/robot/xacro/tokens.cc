@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "oca/models/foreign_text.h"
 #include "oca/models/robot/xacro/expression.h"
 
 namespace oca::robot::xacro {
@@ -118,16 +119,11 @@ class TokenReader {
     const std::size_t from = at_;
     std::string text;
     while (at_ < text_.size() && text_[at_] != quote) {
-      if (text_[at_] == '\\' && at_ + 1 < text_.size()) {
-        ++at_;
-        constexpr std::string_view kWritten = "nt\\'\"", kMeant = "\n\t\\'\"";
-        const std::size_t known = kWritten.find(text_[at_]);
-        if (known == kWritten.npos) text += '\\';
-        text += known == kWritten.npos ? text_[at_] : kMeant[known];
+      if (text_[at_] == '\\') {
+        TakeEscape(text);
       } else {
-        text += text_[at_];
+        text += text_[at_++];
       }
-      ++at_;
     }
     if (at_ >= text_.size()) {
       Fail("text", fmt::format("{}{} without end", quote, text_.substr(from, 40)),
@@ -136,6 +132,48 @@ class TokenReader {
     ++at_;
     return {Token::Kind::kConstant, std::string(text_.substr(from, at_ - 1 - from)),
             PythonValue(std::move(text))};
+  }
+
+  /// What a backslash and what follows stand for. source Python, Lexical analysis, 2.4.1
+  void TakeEscape(std::string& text) {
+    constexpr std::string_view kWritten = "abfnrtv\\'\"", kMeant = "\a\b\f\n\r\t\v\\'\"";
+    ++at_;
+    const char kind = Peek();
+    if (const std::size_t known = kWritten.find(kind); known != kWritten.npos) {
+      text += kMeant[known];
+      ++at_;
+    } else if (kind == 'x' || kind == 'u' || kind == 'U') {
+      ++at_;
+      TakeCode(kind == 'x' ? 2 : kind == 'u' ? 4 : 8, kind, text);
+    } else if (kind >= '0' && kind <= '7') {
+      std::uint32_t code = 0;
+      for (int i = 0; i < 3 && Peek() >= '0' && Peek() <= '7'; ++i) {
+        code = 8 * code + static_cast<std::uint32_t>(text_[at_++] - '0');
+      }
+      models::internal::AppendUtf8(text, code);
+    } else if (kind == 'N') {
+      Fail("text", "\\N, a character by its name", "\\u and its number, or the character itself");
+    } else if (kind == '\n') {
+      ++at_;
+    } else {
+      text += '\\';  // as Python, which only warns
+    }
+  }
+
+  void TakeCode(std::size_t digits, char kind, std::string& text) {
+    const std::string_view written = text_.substr(at_, digits);
+    std::uint32_t code = 0;
+    const char* const end = written.data() + written.size();
+    const auto [stop, error] = std::from_chars(written.data(), end, code, 16);
+    if (written.size() < digits || error != std::errc() || stop != end) {
+      Fail("text", fmt::format("\\{}{}", kind, written),
+           fmt::format("{} hexadecimal digits behind \\{}", digits, kind));
+    }
+    if (code > 0x10ffff || (code >= 0xd800 && code < 0xe000)) {
+      Fail("text", fmt::format("\\{}{}", kind, written), "a character of Unicode");
+    }
+    models::internal::AppendUtf8(text, code);
+    at_ += digits;
   }
 
   Token Operator() {

@@ -3,11 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <charconv>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
+#include <regex>
 #include <string_view>
 #include <vector>
 
@@ -46,47 +50,77 @@ std::string WithoutUnderscores(std::string_view text) {
   return plain;
 }
 
-/// A whole number in YAML 1.1: decimal, 0b, 0x, octal with a leading 0.
-std::optional<PythonValue> WholeInYaml(std::string_view text) {
+/// Plain scalars that are no texts. source PyYAML, lib/yaml/resolver.py
+struct Patterns {
+  const std::regex whole{
+      "[-+]?0b[0-1_]+|[-+]?0[0-7_]+|[-+]?(0|[1-9][0-9_]*)|[-+]?0x[0-9a-fA-F_]+"
+      "|[-+]?[1-9][0-9_]*(:[0-5]?[0-9])+"};
+  const std::regex number{
+      "[-+]?[0-9][0-9_]*\\.[0-9_]*([eE][-+][0-9]+)?|\\.[0-9][0-9_]*([eE][-+][0-9]+)?"
+      "|[-+]?[0-9][0-9_]*(:[0-5]?[0-9])+\\.[0-9_]*"};
+  const std::regex date{
+      "[0-9]{4}-[0-9]{2}-[0-9]{2}|[0-9]{4}-[0-9]{1,2}-[0-9]{1,2}([Tt]|[ \\t]+)[0-9]{1,2}:[0-9]{2}"
+      ":[0-9]{2}(\\.[0-9]*)?([ \\t]*(Z|[-+][0-9]{1,2}(:[0-9]{2})?))?"};
+};
+
+bool TakeSign(std::string_view& text) {
   const bool negative = text.starts_with('-');
-  std::string_view digits = negative || text.starts_with('+') ? text.substr(1) : text;
-  if (digits.empty() || digits[0] < '0' || digits[0] > '9') return std::nullopt;
-  int base = 10;
-  if (digits.starts_with("0x") || digits.starts_with("0b")) {
-    base = digits[1] == 'x' ? 16 : 2;
-    digits.remove_prefix(2);
-  } else if (digits.size() > 1 && digits[0] == '0') {
-    base = 8;
-    digits.remove_prefix(1);
-  }
-  const std::string plain = WithoutUnderscores(digits);
-  const std::string_view known = std::string_view("0123456789abcdefABCDEF")
-                                     .substr(0, base == 16 ? 22 : static_cast<std::size_t>(base));
-  if (plain.empty() || plain.find_first_not_of(known) != plain.npos) return std::nullopt;
-  if (plain.size() > (base == 2 ? 62u : base == 16 ? 15u : 18u)) return std::nullopt;
-  const std::int64_t whole = std::stoll(plain, nullptr, base);
-  return PythonValue(negative ? -whole : whole);
+  if (negative || text.starts_with('+')) text.remove_prefix(1);
+  return negative;
 }
 
-/// A float in YAML 1.1 has a point, and a sign in its exponent.
-std::optional<PythonValue> FloatInYaml(std::string_view text) {
-  const std::string_view body =
-      text.starts_with('-') || text.starts_with('+') ? text.substr(1) : text;
-  if (IsOneOf(body, {".inf", ".Inf", ".INF"})) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    return PythonValue(text.starts_with('-') ? -kInfinity : kInfinity);
+/// Parts of base 60 between colons, `1:30` is 90; else one part of another base.
+/// throws Mistake beyond 64 bits
+PythonValue WholeInYaml(const std::string& written) {
+  const std::string plain = WithoutUnderscores(written);
+  std::string_view digits = plain;
+  const bool negative = TakeSign(digits);
+  const int base = digits.starts_with("0b")                       ? 2
+                   : digits.starts_with("0x")                     ? 16
+                   : digits.size() > 1 && digits.starts_with('0') ? 8
+                                                                  : 10;
+  if (base == 2 || base == 16) digits.remove_prefix(2);
+  __extension__ using Wide = __int128;
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+  Wide whole = 0;
+  while (true) {
+    const std::size_t end = std::min(digits.find(':'), digits.size());
+    std::int64_t part = 0;
+    const auto error = std::from_chars(digits.data(), digits.data() + end, part, base).ec;
+    whole = 60 * whole + part;
+    if (error != std::errc() || whole > kMost) {
+      throw Mistake("whole number", written, "one of 64 bits");
+    }
+    if (end == digits.size()) break;
+    digits.remove_prefix(end + 1);
   }
-  if (IsOneOf(text, {".nan", ".NaN", ".NAN"})) {
-    return PythonValue(std::numeric_limits<double>::quiet_NaN());
+  const auto value = static_cast<std::int64_t>(whole);
+  return PythonValue(negative ? -value : value);
+}
+
+/// `1:30.5` is 90.5.
+PythonValue FloatInYaml(const std::string& written) {
+  const std::string plain = WithoutUnderscores(written);
+  std::string_view digits = plain;
+  const bool negative = TakeSign(digits);
+  double number = 0.0;
+  while (true) {
+    const std::size_t end = std::min(digits.find(':'), digits.size());
+    const auto part = NumberOf(digits.substr(0, end));
+    if (!part) throw Mistake("number", written, "a number");
+    number = 60.0 * number + *part;
+    if (end == digits.size()) break;
+    digits.remove_prefix(end + 1);
   }
-  const std::size_t point = body.find('.'), e = body.find_first_of("eE");
-  if (point == body.npos || (point == 0 && body.size() == 1)) return std::nullopt;
-  if (body.find_first_not_of("0123456789_.eE+-") != body.npos) return std::nullopt;
-  if (e != body.npos && (e + 2 >= body.size() || (body[e + 1] != '+' && body[e + 1] != '-'))) {
-    return std::nullopt;
-  }
-  const auto number = NumberOf(WithoutUnderscores(text));
-  return number ? std::optional(PythonValue(*number)) : std::nullopt;
+  return PythonValue(negative ? -number : number);
+}
+
+std::optional<double> SpecialInYaml(std::string_view text) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (IsOneOf(text, {".nan", ".NaN", ".NAN"})) return std::numeric_limits<double>::quiet_NaN();
+  const bool negative = TakeSign(text);
+  if (!IsOneOf(text, {".inf", ".Inf", ".INF"})) return std::nullopt;
+  return negative ? -kInfinity : kInfinity;
 }
 
 PythonValue PlainValue(const std::string& text) {
@@ -97,9 +131,18 @@ PythonValue PlainValue(const std::string& text) {
   if (IsOneOf(text, {"false", "False", "FALSE", "no", "No", "NO", "off", "Off", "OFF"})) {
     return PythonValue(false);
   }
-  if (text.size() < 100) {
-    if (const auto whole = WholeInYaml(text)) return *whole;
-    if (const auto number = FloatInYaml(text)) return *number;
+  if (text == "=") throw Mistake("plain scalar", "=", "quotes around it");  // a tag of YAML 1.1
+  constexpr std::string_view kBegins = "-+0123456789.";
+  constexpr std::size_t kLongest = 1000;  // std::regex recurses
+  if (kBegins.find(text.front()) == kBegins.npos || text.size() > kLongest) {
+    return PythonValue(text);
+  }
+  static const Patterns patterns;
+  if (std::regex_match(text, patterns.number)) return FloatInYaml(text);
+  if (std::regex_match(text, patterns.whole)) return WholeInYaml(text);
+  if (const auto special = SpecialInYaml(text)) return PythonValue(*special);
+  if (std::regex_match(text, patterns.date)) {
+    throw Mistake("plain scalar", fmt::format("the date {}", text), "quotes around it");
   }
   return PythonValue(text);
 }
@@ -153,7 +196,9 @@ class ValueBuilder final : public models::internal::YamlEvents {
     if (node.tag == "!" || node.tag == "!!str" || node.tag == "tag:yaml.org,2002:str") {
       return PythonValue(text);
     }
-    if (node.tag.empty() || node.tag == "?") return PlainValue(text);
+    if (node.tag.empty() || node.tag == "?") {
+      return Checked(node.mark, [&] { return PlainValue(text); });
+    }
     for (const Unit& unit : kUnits) {
       if (node.tag != unit.tag) continue;
       return Checked(node.mark, [&] {

@@ -98,6 +98,25 @@ TEST_F(DraftTest, OfAnArmWithAGripperTouchesWithoutAvoidanceAndEvadesWithIt) {
                     Not(HasSubstr("safe_distance"))));
 }
 
+TEST_F(DraftTest, IsRefusedByTheRobotsJointWhereThatIsTooSlow) {
+  EXPECT_THAT([&] { Make(ArmWithGripper(1.0, "velocity='9e-4'")); },
+              testing::ThrowsMessage<ConfigError>(
+                  AllOf(HasSubstr("my_arm.urdf: joint 'j1': velocity limit; got 0.0009"),
+                        Not(HasSubstr("-s ")))));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out"));
+}
+
+TEST_F(DraftTest, KnowsTheMethodsBeforeItLooksAtTheRobot) {
+  DraftOptions options;
+  options.robot = folder_.path() / "none.urdf";
+  options.folder = folder_.path() / "out";
+  options.avoidance = "bogus";
+  EXPECT_THAT([&] { MakeDraft(options); },
+              testing::ThrowsMessage<ConfigError>(
+                  AllOf(HasSubstr("avoidance: got 'bogus'; expected one of: flacco, recommended"),
+                        HasSubstr("safety_filter"))));
+}
+
 TEST_F(DraftTest, OfASmallArmHasSmallDistances) {
   const Draft draft = Make(ArmWithGripper(0.3));
   EXPECT_TRUE(draft.attempt.contact());

@@ -55,8 +55,7 @@ class RobotRecordTest : public testing::Test {
     source.file = "arm.urdf";
     source.srdf = options.srdf;
     source.remedy = "REMEDY";
-    options.sum_up = false;
-    options.warn = [&](const std::string& line) { source.warnings.push_back(line); };
+    options.warn_each = [&](const std::string& line) { source.warnings.push_back(line); };
     RobotRecord record = RecordRobot(
         std::make_shared<const robot::RobotModel>(robot::ParseUrdf(urdf, "arm.urdf", options)),
         source);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oca/models/robot/srdf.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -14,6 +15,7 @@ namespace srdf_test {
 
 using testing::AllOf;
 using testing::ElementsAre;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Pair;
@@ -129,6 +131,105 @@ TEST(SrdfTest, WhatElementsNameMustBeThere) {
     EXPECT_THAT(RefusalOfElements(element), AllOf(HasSubstr("pairs.srdf:2:"), HasSubstr(got)))
         << element;
   }
+}
+
+/// A group g0 with g1 in it, g1 with g2, and so on, `count` groups in all.
+std::string GroupsInEachOther(int count) {
+  std::string elements;
+  for (int i = 0; i + 1 < count; ++i) {
+    elements += fmt::format("<group name='g{}'><group name='g{}'/></group>", i, i + 1);
+  }
+  return elements + fmt::format("<group name='g{}'><joint name='turn'/></group>", count - 1);
+}
+
+TEST(SrdfTest, GroupsInEachOtherAreBounded) {
+  EXPECT_EQ(RefusalOfElements(GroupsInEachOther(64)), "accepted");
+  EXPECT_THAT(RefusalOfElements(GroupsInEachOther(65)),
+              HasSubstr("pairs.srdf:2: <group>: nesting; got more than 64 groups in each other"));
+  EXPECT_THAT(RefusalOfElements(GroupsInEachOther(20000)), HasSubstr("more than 64 groups"));
+}
+
+TEST(SrdfTest, ASecondGroupOfANameIsRefusedWithTheLineOfTheFirst) {
+  EXPECT_THAT(RefusalOfElements("<group name='a'/>\n\n<group name=' a'/>"),
+              HasSubstr("pairs.srdf:4: <group>: name; got a second group 'a', the first is in line "
+                        "2; expected one group of a name"));
+}
+
+TEST(SrdfTest, NamesWithALineBreakAreRefusedInOneLine) {
+  for (const char* const element :
+       {"<group name='x&#10;y'/>", "<group name='x&#xd;y'/>", "<group name='x\ny'/>",
+        "<group name='g'><link name='x&#10;y'/></group>",
+        "<disable_collisions link1='x&#10;y' link2='arm'/>"}) {
+    const std::string refusal = RefusalOfElements(element);
+    EXPECT_THAT(refusal, HasSubstr("got 'x y', with a line break; expected a name in one line"));
+    EXPECT_EQ(refusal.find_first_of("\r\n"), refusal.npos) << element;
+  }
+  EXPECT_EQ(RefusalOfElements("<group name='\n  g\n'/>"), "accepted");  // around it, as MoveIt
+}
+
+/// Of a chain base - arm - hand whose joints turn within [-1, 2] and without end.
+std::vector<std::string> WarningsOf(const std::string& elements) {
+  SrdfRobot robot = kRobot;
+  robot.parents = {-1, 0, 1};
+  robot.limits = {{-1.0, 2.0}, {-kUnlimited, kUnlimited}};
+  const oca::test::TemporaryFolder folder;
+  return LoadSrdf(folder.Write("w.srdf", "<robot name='r'>\n" + elements + "</robot>"), robot)
+      .warnings;
+}
+
+TEST(SrdfTest, GroupsInACircleAreTold) {
+  EXPECT_THAT(
+      WarningsOf(
+          "<group name='a'><group name='b'/></group>\n"
+          "<group name='b'><joint name='turn'/><group name='c'/></group>\n"
+          "<group name='c'><group name='b'/></group><group name='d'><group name='d'/></group>"),
+      ElementsAre(
+          EndsWith("w.srdf:3: <group>: nesting; got 'b' in 'c' in 'b'; expected groups that "
+                   "are not in themselves; none of these can be used; and 1 more")));
+  EXPECT_THAT(WarningsOf("<group name='a'><group name='a'/></group>"),
+              ElementsAre(HasSubstr("got 'a' in 'a'")));
+  // The same group by two ways is no circle.
+  EXPECT_THAT(WarningsOf("<group name='a'><group name='b'/><group name='c'/></group>"
+                         "<group name='b'><group name='c'/></group>"
+                         "<group name='c'><joint name='turn'/></group>"),
+              IsEmpty());
+}
+
+TEST(SrdfTest, ChainsFromTipToBaseAndOfOneLinkAreTold) {
+  EXPECT_THAT(WarningsOf("<group name='g'><chain base_link='base' tip_link='hand'/></group>"),
+              IsEmpty());
+  EXPECT_THAT(
+      WarningsOf("<group name='g'><chain base_link='hand' tip_link='base'/></group>"),
+      ElementsAre(EndsWith("w.srdf:2: <chain>: base_link; got 'hand', which lies beyond the "
+                           "tip_link 'base'; expected the link nearer to the root; the joints "
+                           "between are taken")));
+  EXPECT_THAT(WarningsOf("<group name='g'><chain base_link='arm' tip_link='arm'/></group>"),
+              ElementsAre(HasSubstr("tip_link; got 'arm', the base_link too")));
+}
+
+TEST(SrdfTest, APairOfALinkWithItselfIsToldAndIsNone) {
+  const std::string twice = "<disable_collisions link1='arm' link2='arm'/>";
+  EXPECT_THAT(WarningsOf(twice), ElementsAre(HasSubstr("link2; got 'arm', the link1 too")));
+  EXPECT_THAT(Load("<robot name='r'>" + twice + "</robot>"), IsEmpty());
+}
+
+TEST(SrdfTest, StatesBeyondLimitsAreToldOnceAndCounted) {
+  const auto state = [](const char* joint, const char* value) {
+    return fmt::format(
+        "<group_state name='s' group='g'><joint name='{}' value='{}'/></group_state>", joint,
+        value);
+  };
+  const std::string group = "<group name='g'/>";
+  // The assistant rounds 2 - 3e-5 and the like to four decimals.
+  EXPECT_THAT(WarningsOf(group + state("turn", "2.00004") + state("grip", "900")), IsEmpty());
+  EXPECT_THAT(
+      WarningsOf(group + state("turn", "2.0001")),
+      ElementsAre(HasSubstr(
+          "w.srdf:2: joint 'turn' <joint>: value; got 2.0001; expected -1 to 2, its limits")));
+  EXPECT_THAT(WarningsOf(group + state("grip", "1e9") + state("turn", "-1.1")),
+              ElementsAre(AllOf(
+                  HasSubstr("joint 'grip' <joint>: value; got 1e+09; expected -1e+06 to 1e+06"),
+                  EndsWith("; and 1 more"))));
 }
 
 TEST(SrdfTest, AnotherRobotsFileAndXacroAreRefused) {

@@ -134,6 +134,28 @@ TEST(UrdfRefusalTest, ZeroAxis) {
   EXPECT_NO_THROW(ParseUrdf(Joint("fixed", "<axis xyz='0 0 0'/>"), "good.urdf"));
 }
 
+TEST(UrdfRefusalTest, NumbersThatNoRobotHasAreToldWithTheirLine) {
+  ExpectRefused(Joint("revolute", "<axis xyz='0 1e200 1e200'/>" + kLimit),
+                "bad.urdf:3: joint 'elbow' <axis>: xyz; got '0 1e200 1e200'; expected a direction, "
+                "of a length from 1e-06 to 1e+06");
+  EXPECT_NO_THROW(ParseUrdf(Joint("revolute", "<axis xyz='0 0 1e6'/>" + kLimit), "good.urdf"));
+  ExpectRefused(
+      Joint("revolute", "<origin xyz='0 0 -1.1e6'/>" + kLimit),
+      "bad.urdf:3: joint 'elbow' <origin>: xyz; got '0 0 -1.1e6'; expected at most 1e+06");
+  EXPECT_NO_THROW(ParseUrdf(Joint("revolute", "<origin xyz='0 0 -1e6'/>" + kLimit), "good.urdf"));
+  ExpectRefused(Link("<collision><origin xyz='1e15 0 0'/><geometry><sphere radius='1'/></geometry>"
+                     "</collision>"),
+                "bad.urdf:2: link 'arm' <origin>: xyz; got '1e15 0 0'");
+  const auto limit = [](const char* velocity) {
+    return std::string("<limit lower='-1' upper='1' effort='1' velocity='") + velocity + "'/>";
+  };
+  ExpectRefused(
+      Joint("revolute", limit("9e-7")),
+      "bad.urdf:3: joint 'elbow' <limit>: velocity; got 9e-07; expected 0 or more, and at "
+      "least 1e-06");
+  EXPECT_NO_THROW(ParseUrdf(Joint("revolute", limit("1e-6")), "good.urdf"));
+}
+
 TEST(UrdfRefusalTest, LimitsThatAreMissingOrReversed) {
   ExpectRefused(Joint("revolute", ""), "limit; got none", "'elbow'");
   ExpectRefused(Joint("prismatic", ""), "limit; got none", "'elbow'");

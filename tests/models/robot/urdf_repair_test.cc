@@ -47,16 +47,12 @@ TEST(UrdfRepairTest, KindsAreSummedUpOrToldEach) {
         "</joint>",
         name, name);
   }
-  const auto warnings = [&](bool sum_up) {
-    std::vector<std::string> lines;
-    LoadOptions options;
-    options.sum_up = sum_up;
-    options.warn = [&](const std::string& line) { lines.push_back(line); };
-    ParseUrdf("<robot name='r'>\n" + links + "</robot>", "r.urdf", options);
-    return lines;
-  };
-  EXPECT_THAT(warnings(true), ElementsAre(AllOf(HasSubstr("link 'c'"), HasSubstr("and 2 more"))));
-  const auto each = warnings(false);
+  std::vector<std::string> sums, each;
+  LoadOptions options;
+  options.warn = [&](const std::string& line) { sums.push_back(line); };
+  options.warn_each = [&](const std::string& line) { each.push_back(line); };
+  ParseUrdf("<robot name='r'>\n" + links + "</robot>", "r.urdf", options);
+  EXPECT_THAT(sums, ElementsAre(AllOf(HasSubstr("link 'c'"), HasSubstr("and 2 more"))));
   ASSERT_EQ(each.size(), 5u);
   EXPECT_THAT(each[4], HasSubstr("visuals of no size, not drawn: of link 'e'"));
 }

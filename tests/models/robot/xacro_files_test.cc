@@ -106,6 +106,46 @@ TEST_F(XacroFilesTest, LoadsYamlWithUnits) {
                 "unknown key; got 'q'; expected one of b");
 }
 
+// Values by PyYAML 6.0, yaml.safe_load.
+TEST_F(XacroFilesTest, PlainScalarsOfYamlAreThoseOfPyYaml) {
+  folder.Write("y.yaml",
+               "[1:30, -1:30, 190:20:30, 1:30.5, +0:1.25, 0b11, -0b1_1, 0x1F, 1_000, 010, 0_7, 00, "
+               "-0, .5, 5., 1_0.5, 6.8523015e+5, 9223372036854775807]");
+  EXPECT_EQ(Expanded("<x v=\"${load_yaml('y.yaml')}\"/>"),
+            "<x v=\"[90, -90, 685230, 90.5, 1.25, 3, -3, 31, 1000, 8, 7, 0, 0, 0.5, 5.0, 10.5, "
+            "685230.15, 9223372036854775807]\"/>");
+  folder.Write("t.yaml", "[0o17, -.5, 1e3, 1:60, 01:30, 08, 1.5e3, 0x, 1.2.3, '1:30', 2001-1-1]");
+  EXPECT_EQ(Expanded("<x v=\"${load_yaml('t.yaml')}\"/>"),
+            "<x v=\"['0o17', '-.5', '1e3', '1:60', '01:30', '08', '1.5e3', '0x', "
+            "'1.2.3', '1:30', '2001-1-1']\"/>");
+  for (const char* const scalar :
+       {"2001-12-14", "2001-12-14t21:59:43.10-05:00", "=", "9223372036854775808",
+        "153722867280912931:00", "0xFFFFFFFFFFFFFFFF"}) {
+    folder.Write("r.yaml", "a: 1\nb: " + std::string(scalar) + "\n");
+    ExpectRefused("<x v=\"${load_yaml('r.yaml')}\"/>", "2: <x>", "r.yaml:2: ");
+  }
+}
+
+TEST_F(XacroFilesTest, NamesOfElementsAndAttributesAreThoseOfXml) {
+  EXPECT_EQ(Expanded("<xacro:element xacro:name='${\"a\" + \"-1.b:c\"}'><xacro:attribute name='_x' "
+                     "value='1'/></xacro:element>"),
+            "<a-1.b:c _x=\"1\"/>");
+  EXPECT_EQ(Expanded("<xacro:element xacro:name='\xC3\xA4'/>"), "<\xC3\xA4/>");
+  for (const char* const name : {"", "a b", "a&gt;&lt;x", "1", "-a", "a=", "a&quot;", "\xC3\x97"}) {
+    ExpectRefused("\n<xacro:element xacro:name='" + std::string(name) + "'/>",
+                  "3: <xacro:element>: xacro:name; got '", "expected a name of XML");
+    ExpectRefused("<x>\n<xacro:attribute name='" + std::string(name) + "' value='1'/></x>",
+                  "3: <xacro:attribute>: name; got '", "expected a name of XML");
+  }
+}
+
+TEST_F(XacroFilesTest, WhatXmlCannotHoldIsRefusedWithItsPlace) {
+  ExpectRefused(R"(<x v="${'a\0'}"/>)",
+                "2: ", R"(text; got 'a\x00'; expected characters that XML)");
+  ExpectRefused(R"(<x>${'\x01'}</x>)", "2: ", R"(got '\x01')");
+  EXPECT_EQ(Expanded(R"(<x v="${'\x41\t\u00e4'}"/>)"), "<x v=\"A\t\xC3\xA4\"/>");
+}
+
 TEST_F(XacroFilesTest, TellsWhatTheFileHasToSay) {
   std::vector<std::string> lines;
   options.warn = [&](const std::string& line) { lines.push_back(line); };

@@ -42,6 +42,30 @@ TEST(XacroExpressionTest, DoesNotWorkOutWhatIsNotChosen) {
   EXPECT_EQ(xacro::ToText(ValueOf("2 < 1 < nothing")), "False");
 }
 
+TEST(XacroExpressionTest, BackslashesMeanWhatTheyMeanToPython) {
+  const auto text = [](const std::string& expression) {
+    return xacro::ToText(ValueOf(expression));
+  };
+  EXPECT_EQ(text(R"('\a\b\f\n\r\t\v\\\'\"')"), "\a\b\f\n\r\t\v\\'\"");
+  EXPECT_EQ(text(R"('\x41\x7e\xe4')"), "A~\xC3\xA4");
+  EXPECT_EQ(text(R"('\u00e4\u20AC\U0001f916')"), "\xC3\xA4\xE2\x82\xAC\xF0\x9F\xA4\x96");
+  EXPECT_EQ(text(R"('\101\0601\18\777')"),
+            "A01\x01"
+            "8\xC7\xBF");
+  EXPECT_EQ(text(R"('\0')"), std::string(1, '\0'));
+  EXPECT_EQ(text("'a\\\nb'"), "ab");
+  EXPECT_EQ(text(R"('\d\8\%')"), R"(\d\8\%)");
+  EXPECT_EQ(text(R"(len('\x41\u00e4\n\0'))"), "4");
+  EXPECT_EQ(text(R"(repr('\0\r\x1f\x7f'))"), R"('\x00\r\x1f\x7f')");
+  ExpectRefused(R"('\x4')", "text; got \\x4");
+  ExpectRefused(R"('\xg1')", "2 hexadecimal digits");
+  ExpectRefused(R"('\u+123')", "4 hexadecimal digits");
+  ExpectRefused(R"('\ud800')", "a character of Unicode");
+  ExpectRefused(R"('\U00110000')", "a character of Unicode");
+  ExpectRefused(R"('\N{DEGREE SIGN}')", "by its name");
+  ExpectRefused(R"('a\')", "without end");
+}
+
 TEST(XacroExpressionTest, RefusesWithWhatItKnows) {
   ExpectRefused("", "got nothing");
   ExpectRefused("1 +", "got its end");
