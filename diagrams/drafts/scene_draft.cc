@@ -22,6 +22,7 @@
 #include "oca/models/robot/collision_check.h"
 #include "oca/models/scenes/motion_request.h"
 #include "oca/models/scenes/planning_scene.h"
+#include "oca/models/whole_file.h"
 
 namespace oca::drafts {
 namespace {
@@ -264,7 +265,7 @@ class SceneDraftMaker {
       fs::path file = options_.diagram;
       file.replace_filename(options_.diagram.stem().string() + "_limits.yaml");
       internal::CheckAbsent(file);
-      internal::WriteDraft(file, text_.limits_text);
+      models::WriteWhole(file, text_.limits_text);
       draft_.files.push_back(file);
       text_.limits = file.filename().string();
       Tell("no limits of speed in the robot's description: " + file.string() + " has guesses");
@@ -274,7 +275,7 @@ class SceneDraftMaker {
     text_.scene = options_.scene.filename().string();
     text_.request = options_.request.filename().string();
     const std::string text = internal::SceneDiagramText(robot_options_, draft_.robot, text_);
-    internal::WriteDraft(options_.diagram, text);
+    models::WriteWhole(options_.diagram, text);
     draft_.files.insert(draft_.files.begin(), options_.diagram);
     draft_.files.insert(draft_.files.end(), shapes_->files().begin(), shapes_->files().end());
     if (!model_->acceleration_limits().allFinite()) {
@@ -315,8 +316,8 @@ void WriteSceneProblem(const fs::path& folder, int number, const robot::RobotMod
   const fs::path request = folder / fmt::format("request{:04}.yaml", number);
   internal::CheckAbsent(scene);
   internal::CheckAbsent(request);
-  internal::WriteDraft(scene, scenes::SceneYaml(model, problem));
-  internal::WriteDraft(request, scenes::RequestYaml(model, problem));
+  models::WriteWhole(scene, scenes::SceneYaml(model, problem));
+  models::WriteWhole(request, scenes::RequestYaml(model, problem));
 }
 
 SceneDraft DraftScene(const SceneDraftOptions& options) { return SceneDraftMaker(options).Make(); }
