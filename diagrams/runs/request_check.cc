@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <string_view>
 
 #include "oca/diagrams/foresight/foresight.h"
 #include "oca/diagrams/foresight/motion_ahead.h"
@@ -26,6 +27,8 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr int kRequestSamples = 1000;
+constexpr double kTurnApart = 1e-3;      // rad; of start and request
+constexpr double kSlideApart = 1e-3;     // m
 constexpr double kLimitRounding = 1e-9;  // of a limit: what digits of a file take from it
 
 /// What is asked of one robot.
@@ -57,6 +60,7 @@ class RequestJudge {
   std::vector<std::string> Run() {
     if (!ahead_) return {};
     JudgeStart();
+    JudgeEnds();
     const auto& speed = model_.velocity_limits();
     const auto& acceleration = model_.acceleration_limits();
     JudgeRequest({0, "go to", "", "no method goes there"}, model_.lower_limits(),
@@ -96,6 +100,34 @@ class RequestJudge {
     }
   }
 
+  /// A request that begins elsewhere is a jump; of one that ends after the run the end is missing.
+  void JudgeEnds() {
+    const VectorXd begin = ahead_->motion->Evaluate(0.0, 0);
+    std::vector<Index> apart;
+    for (Index j = 0; start_.size() == begin.size() && j < begin.size(); ++j) {
+      const bool slides = std::string_view(UnitOf(j)) == "m";
+      if (std::fabs(begin[j] - start_[j]) > (slides ? kSlideApart : kTurnApart)) apart.push_back(j);
+    }
+    if (!apart.empty()) {
+      const Index j = apart.front();
+      Add(*ahead_->source,
+          fmt::format("the request begins elsewhere than the arm: {} at {:.4g} {}, where it stands "
+                      "at {:.4g}{}",
+                      JointText(j), begin[j], UnitOf(j), start_[j], AndMore(apart.size() - 1)));
+    }
+    const double last = ahead_->motion->times().back();
+    if (last <= loaded_.simulator.duration) return;
+    Add(*ahead_->source,
+        fmt::format("the request ends at {:g} s, after the run, which ends at {:g} "
+                    "s: the goal is not reached",
+                    last, loaded_.simulator.duration));
+  }
+
+  static std::string AndMore(std::size_t joints) {
+    return joints == 0 ? ""
+                       : fmt::format("; and {} likewise", models::Counted(joints, "more joint"));
+  }
+
   /// Of a derivative of the request: what is said of it.
   struct Demand {
     int derivative;
@@ -133,11 +165,9 @@ class RequestJudge {
         demand.derivative == 0
             ? fmt::format("its limits are [{:.4g}, {:.4g}]", lower[worst], upper[worst])
             : fmt::format("its limit is {:.4g}", upper[worst]);
-    Add(*ahead_->source,
-        fmt::format(
-            "{} is to {} {:.4g} {}{} at {:.3g} s; {}: {}{}", JointText(worst), demand.verb,
-            worst_value, UnitOf(worst), demand.per, when, limits, demand.consequence,
-            more > 0 ? fmt::format("; and {} likewise", models::Counted(more, "more joint")) : ""));
+    Add(*ahead_->source, fmt::format("{} is to {} {:.4g} {}{} at {:.3g} s; {}: {}{}",
+                                     JointText(worst), demand.verb, worst_value, UnitOf(worst),
+                                     demand.per, when, limits, demand.consequence, AndMore(more)));
   }
 
   void JudgeContacts() {

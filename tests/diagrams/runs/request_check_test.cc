@@ -78,7 +78,24 @@ TEST_F(RequestCheckFile, AGoalBeyondALimitIsNamedWithItsPlace) {
 
 TEST_F(RequestCheckFile, AStartBeyondALimitIsNamed) {
   EXPECT_THAT(Told({"systems.plant.initial_position=[3.5, 0]"}),
-              ElementsAre(AllOf(HasSubstr("systems.plant: joint 'j1' starts at 3.5 rad"))));
+              ElementsAre(HasSubstr("systems.plant: joint 'j1' starts at 3.5 rad"),
+                          HasSubstr("the request begins elsewhere")));
+}
+
+TEST_F(RequestCheckFile, ARequestThatBeginsElsewhereIsNamed) {
+  EXPECT_THAT(Told({"systems.plant.initial_position=[0, 0.01]"}),
+              ElementsAre(HasSubstr("systems.spline: the request begins elsewhere than the arm: "
+                                    "joint 'j2' at 0 rad, where it stands at 0.01")));
+  EXPECT_THAT(Told({"systems.plant.initial_position=[0.01, 0.01]"}),
+              ElementsAre(HasSubstr("; and 1 more joint likewise")));
+  EXPECT_THAT(Told({"systems.plant.initial_position=[0, 0.0009]"}), IsEmpty());
+}
+
+TEST_F(RequestCheckFile, ARequestThatEndsAfterTheRunIsNamed) {
+  EXPECT_THAT(Told({"simulator.duration=1"}),
+              ElementsAre(HasSubstr("systems.spline: the request ends at 3.5 s, after the run, "
+                                    "which ends at 1 s")));
+  EXPECT_THAT(Told({"simulator.duration=3.5"}), IsEmpty());
 }
 
 TEST_F(RequestCheckFile, ARequestTooFastIsNamedWithItsSpeed) {
