@@ -15,6 +15,7 @@
 #include "oca/diagrams/drafts/scene_frames.h"
 #include "oca/diagrams/drafts/scene_joints.h"
 #include "oca/diagrams/drafts/scene_shapes.h"
+#include "oca/diagrams/loading/loader.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/error.h"
 #include "oca/models/file_cache.h"
@@ -163,7 +164,7 @@ class SceneDraftMaker {
     if (!start_joints_.positions.empty() || request_) {
       start_ =
           internal::PositionsOf(*model_, start_joints_, request_ ? request_->file : scene_.file,
-                                "start_state", draft_.decided);
+                                "start_state", &draft_.decided);
       return;
     }
     start_ = internal::NeutralPositions(*model_);
@@ -235,7 +236,7 @@ class SceneDraftMaker {
     text_.duration = kSceneMotion;
     if (request_->pose) return AddPose(*request_->pose, frames);
     text_.goal = internal::PositionsOf(*model_, request_->goal, request_->file,
-                                       "goal_constraints[0]", draft_.decided);
+                                       "goal_constraints[0]", nullptr);
     const double needed = internal::StraightTime(*model_, start_, *text_.goal, kSceneAcceleration);
     if (needed <= kSceneMotion) return;
     text_.duration = std::ceil(needed);
@@ -278,11 +279,25 @@ class SceneDraftMaker {
     models::WriteWhole(options_.diagram, text);
     draft_.files.insert(draft_.files.begin(), options_.diagram);
     draft_.files.insert(draft_.files.end(), shapes_->files().begin(), shapes_->files().end());
+    RequireThatItLoads();
     if (!model_->acceleration_limits().allFinite()) {
       Tell(
           fmt::format("limits of acceleration: {:g} rad/s^2 or m/s^2, where the robot's "
                       "description has none",
                       kSceneAcceleration));
+    }
+  }
+
+  /// What only the whole diagram tells: whether the pose can be reached, among others.
+  void RequireThatItLoads() const {
+    try {
+      loading::LoadDiagram(options_.diagram);
+    } catch (const Error& error) {
+      const std::string where = !request_        ? scene_.file
+                                : request_->pose ? request_->pose->where
+                                                 : request_->goal.where;
+      throw ConfigError(
+          fmt::format("{}: makes a diagram that cannot be loaded: {}", where, error.what()));
     }
   }
 
