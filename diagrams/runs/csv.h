@@ -19,6 +19,8 @@ class Csv final : public RunOutput {
   explicit Csv(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   std::vector<OutputFile> Files(const loading::LoadedDiagram& loaded) const override;
+  /// throws ConfigError if the diagram records nothing.
+  void Prepare(const RunStart& run) override;
   /// throws ModelError if a file cannot be made. A signal that a run of another diagram began
   /// without is left out; at the instant of a change there is the row before it.
   void Begin(const RunStart& run) override;
