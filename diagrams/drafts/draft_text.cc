@@ -55,6 +55,22 @@ std::string SmallerDistances(double reach) {
                      reach / kUsualReach);
 }
 
+std::string SplineUnit(const robot::RobotModel& model) {
+  return model.position_unit() == "m" ? "    unit: m\n" : "";
+}
+
+std::string PlantText(const robot::RobotModel& model, const std::string& start) {
+  return fmt::format("  plant: {{initial_position: {}{}}}\n", start,
+                     model.position_unit() == "m" ? ", unit: m" : "");
+}
+
+std::string ExpectText(const robot::RobotModel& model) {
+  const std::string unit =
+      model.position_unit() == "mixed" ? "rad or m" : std::string(model.position_unit());
+  return fmt::format("{:<43}# {}; and no contact, as of every run\n",
+                     "expect: {final_error: {at_most: 0.01}}", unit);
+}
+
 std::string PackagesText(const DraftRobot& robot) {
   if (robot.packages.empty()) return "";
   std::string text = "packages:\n";
@@ -167,13 +183,14 @@ std::string DiagramText(const DraftOptions& options, const DraftRobot& robot,
       "      - {}\n"
       "  spline:                                   # the request: {}\n"
       "    type: SplineGenerator\n"
-      "    period: ${{1 / rate}}\n"
+      "    period: ${{1 / rate}}\n{}"
       "    key_points:\n"
       "      - {}\n"
       "      - {}\n",
-      motion.ball, Quoted(fmt::format("{}", fmt::join(joints, ", "))), motion.first, motion.second);
-  text += fmt::format("  plant: {{initial_position: {}}}\n", motion.start);
-  text += "expect: {final_error: {at_most: 0.01}}     # rad; and no contact, as of every run\n";
+      motion.ball, Quoted(fmt::format("{}", fmt::join(joints, ", "))), SplineUnit(*robot.model),
+      motion.first, motion.second);
+  text += PlantText(*robot.model, motion.start);
+  text += ExpectText(*robot.model);
   return text;
 }
 

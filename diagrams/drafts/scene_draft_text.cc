@@ -94,8 +94,8 @@ std::string RequestText(const DraftRobot& robot, const SceneText& scene) {
       "  spline:                                   # {}\n"
       "    type: SplineGenerator\n"
       "    kind: quintic\n"
-      "    period: ${{1 / rate}}\n",
-      Quoted(fmt::format("the request: {}", fmt::join(joints, ", "))));
+      "    period: ${{1 / rate}}\n{}",
+      Quoted(fmt::format("the request: {}", fmt::join(joints, ", "))), SplineUnit(*robot.model));
   if (scene.pose) text += "    model: arm\n";
   text +=
       fmt::format("    key_points:\n      - {{time: 0, position: {}}}\n", NumbersText(scene.start));
@@ -161,10 +161,8 @@ std::string SceneDiagramText(const DraftOptions& options, const DraftRobot& robo
   text += PackagesText(robot);
   text += ModelsText(options, robot, scene);
   text += "systems:\n" + ObstaclesText(scene) + RequestText(robot, scene) + IgnoreText(scene);
-  text += fmt::format("  plant: {{initial_position: {}}}\n", NumbersText(scene.start));
-  if (moves) {
-    text += "expect: {final_error: {at_most: 0.01}}     # rad; and no contact, as of every run\n";
-  }
+  text += PlantText(*robot.model, NumbersText(scene.start));
+  if (moves) text += ExpectText(*robot.model);
   return text;
 }
 

@@ -19,6 +19,7 @@ using robot::RobotModel;
 constexpr std::size_t kLeastBeforeHand = 4;  // joints of an arm that may end in a hand
 constexpr int kLongestFinger = 5;            // joints
 constexpr double kWidestJaw = 0.15;          // m
+constexpr double kSameLine = 0.01;           // sine of the angle between two
 
 bool HasPosition(const Joint& joint) { return joint.position_index >= 0; }
 
@@ -113,12 +114,41 @@ class ArmSearch {
   bool IsJaw(int j) const {
     const Joint& joint = model_.joints()[j];
     if (IsNamedJaw(joint)) return true;
-    if (joint.type == robot::JointType::kPrismatic) {
-      return joint.upper_limit - joint.lower_limit <= kWidestJaw;
-    }
+    if (joint.type != robot::JointType::kPrismatic) return IsMimicked(j);
+    return joint.upper_limit - joint.lower_limit <= kWidestJaw && !CarriesTurning(j) &&
+           !IsTelescope(j);
+  }
+
+  bool IsMimicked(int j) const {
     return std::any_of(model_.joints().begin(), model_.joints().end(), [j](const Joint& other) {
       return other.mimic.has_value() && other.mimic->joint == j;
     });
+  }
+
+  /// Whether a joint beyond joint j turns: a wrist.
+  bool CarriesTurning(int j) const {
+    for (const int next : Next(model_.joints()[j].child_link)) {
+      if (model_.joints()[next].type != robot::JointType::kPrismatic || CarriesTurning(next)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// Whether the next joint with a position before it slides along the same line.
+  bool IsTelescope(int j) const {
+    const Joint& joint = model_.joints()[j];
+    Eigen::Vector3d axis = joint.X_PJ.linear() * joint.axis;  // in the frame of its parent link
+    for (int link = joint.parent_link; link != 0;) {          // which joint link - 1 carries
+      const Joint& before = model_.joints()[link - 1];
+      if (HasPosition(before)) {
+        return before.type == robot::JointType::kPrismatic &&
+               axis.cross(before.axis).norm() <= kSameLine;
+      }
+      axis = before.X_PJ.linear() * axis;
+      link = before.parent_link;
+    }
+    return false;
   }
 
   /// Of what is fixed to a link.

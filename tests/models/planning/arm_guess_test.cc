@@ -107,6 +107,26 @@ TEST(ArmGuessTest, EndsAtAJawThatItsNameTells) {
   }
 }
 
+TEST(ArmGuessTest, AShortSlideThatCarriesAWristIsNoJaw) {
+  const Guess guess = GuessOf(
+      Tree().Chain("j", "base", 4).Add("slide", "j4", "prismatic").Add("wrist", "slide").Robot());
+  EXPECT_THAT(guess.joints, ElementsAre("j1", "j2", "j3", "j4", "slide", "wrist"));
+  EXPECT_THAT(guess.others, IsEmpty());
+}
+
+TEST(ArmGuessTest, ATelescopeIsNoJawAndASlideAcrossIs) {
+  Tree lift;
+  lift.Chain("j", "base", 3).Add("s1", "j3", "prismatic", "<axis xyz='0 1 0'/>");
+  lift.Add("plate", "s1", "fixed");
+  Tree across = lift;
+  const Guess telescope =
+      GuessOf(lift.Add("s2", "plate", "prismatic", "<axis xyz='0 -1 0'/>").Robot());
+  EXPECT_THAT(telescope.joints, ElementsAre("j1", "j2", "j3", "s1", "s2"));
+  const Guess jaw = GuessOf(across.Add("s2", "plate", "prismatic", "<axis xyz='1 0 0'/>").Robot());
+  EXPECT_THAT(jaw.joints, ElementsAre("j1", "j2", "j3", "s1"));
+  EXPECT_THAT(jaw.others, ElementsAre("s2"));
+}
+
 TEST(ArmGuessTest, OfAHandWithFingersOfFourJointsIsTheArmAlone) {
   Tree tree;
   tree.Chain("j", "base", 6);
