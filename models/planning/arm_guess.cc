@@ -38,7 +38,7 @@ class ArmSearch {
     }
   }
 
-  ArmGuess Run() {
+  ArmGuess Run() const {
     ArmGuess guess;
     int at = 0;
     while (true) {
@@ -65,7 +65,24 @@ class ArmSearch {
     return guess;
   }
 
+  /// Whether joint j, the last of a chain, is a jaw by its name or by a finger that mimics it.
+  bool EndsInJaw(int j) const {
+    const auto mimics = [this, j](const Joint& other) {
+      return other.mimic.has_value() && other.mimic->joint == j && !Carries(j, other.parent_link);
+    };
+    return IsNamedJaw(model_.joints()[j]) ||
+           std::any_of(model_.joints().begin(), model_.joints().end(), mimics);
+  }
+
  private:
+  /// Whether a link is beyond joint j.
+  bool Carries(int j, int link) const {
+    while (link != 0 && link != model_.joints()[j].child_link) {
+      link = model_.joints()[link - 1].parent_link;
+    }
+    return link != 0;
+  }
+
   /// Of the longest chain that begins with joint j, in joints that have a position.
   int LengthFrom(int j) const {
     const Joint& joint = model_.joints()[j];
@@ -180,5 +197,16 @@ class ArmSearch {
 }  // namespace
 
 ArmGuess GuessArm(const RobotModel& model) { return ArmSearch(model).Run(); }
+
+std::vector<int> JointsBesideArm(const RobotModel& model) {
+  const ArmSearch search(model);
+  try {
+    ArmGuess guess = search.Run();
+    if (search.EndsInJaw(guess.joints.back())) guess.others.push_back(guess.joints.back());
+    return std::move(guess.others);
+  } catch (const models::ModelError&) {
+    return {};
+  }
+}
 
 }  // namespace oca::planning

@@ -127,6 +127,34 @@ TEST(ArmGuessTest, ATelescopeIsNoJawAndASlideAcrossIs) {
   EXPECT_THAT(jaw.others, ElementsAre("s2"));
 }
 
+Names BesideArm(const robot::RobotModel& model) {
+  Names names;
+  for (const int j : JointsBesideArm(model)) names.push_back(model.joints()[j].name.text());
+  return names;
+}
+
+TEST(JointsBesideArmTest, AreFingersOfHoweverShortAnArm) {
+  EXPECT_THAT(BesideArm(Tree()
+                            .Chain("j", "base", 2)
+                            .Add("left", "j2", "prismatic")
+                            .Add("right", "j2", "prismatic", Mimic("left"))
+                            .Robot()),
+              ElementsAre("left"));
+  EXPECT_THAT(BesideArm(Tree().Chain("j", "base", 2).Add("gripper", "j2").Robot()),
+              ElementsAre("gripper"));
+  EXPECT_THAT(BesideArm(Tree().Chain("j", "base", 6).Add("left_finger", "j6").Robot()),
+              ElementsAre("left_finger"));
+}
+
+TEST(JointsBesideArmTest, AreNoneOfAnArmAlone) {
+  EXPECT_THAT(BesideArm(Tree().Chain("j", "base", 3).Robot()), IsEmpty());
+  // A linkage that the last joint carries keeps the hand level.
+  EXPECT_THAT(
+      BesideArm(Tree().Chain("j", "base", 3).Add("level", "j3", "revolute", Mimic("j3")).Robot()),
+      IsEmpty());
+  EXPECT_THAT(BesideArm(Tree().Add("j1", "base").Robot()), IsEmpty());
+}
+
 TEST(ArmGuessTest, OfAHandWithFingersOfFourJointsIsTheArmAlone) {
   Tree tree;
   tree.Chain("j", "base", 6);
