@@ -15,6 +15,7 @@
 #include "oca/models/error.h"
 #include "oca/models/robot/collision_check.h"
 #include "oca/models/robot/srdf.h"
+#include "oca/models/whole_file.h"
 
 namespace oca::drafts {
 namespace {
@@ -122,7 +123,7 @@ class DraftMaker {
   }
 
   void Keep(const fs::path& file, const std::string& text) {
-    internal::WriteDraft(file, text);
+    models::WriteWhole(file, text);
     draft_.files.push_back(file);
   }
 
@@ -144,10 +145,9 @@ class DraftMaker {
   void WriteDiagram(const planning::FirstMotion& motion) {
     const std::string srdf = srdf_.empty() ? internal::PathFrom(options_.folder, options_.srdf)
                                            : srdf_.filename().string();
-    internal::WriteDraft(
-        draft_.diagram,
-        internal::DiagramText(options_, draft_.robot, internal::TextOf(motion, draft_.robot), srdf,
-                              limits_.filename().string()));
+    models::WriteWhole(draft_.diagram, internal::DiagramText(options_, draft_.robot,
+                                                             internal::TextOf(motion, draft_.robot),
+                                                             srdf, limits_.filename().string()));
     if (draft_.files.empty() || draft_.files.front() != draft_.diagram) {
       draft_.files.insert(draft_.files.begin(), draft_.diagram);
     }

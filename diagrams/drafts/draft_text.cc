@@ -72,6 +72,22 @@ std::string SmallerDistances(double reach) {
                      reach / kUsualReach);
 }
 
+std::string SplineUnit(const robot::RobotModel& model) {
+  return model.position_unit() == "m" ? "    unit: m\n" : "";
+}
+
+std::string PlantText(const robot::RobotModel& model, const std::string& start) {
+  return fmt::format("  plant: {{initial_position: {}{}}}\n", start,
+                     model.position_unit() == "m" ? ", unit: m" : "");
+}
+
+std::string ExpectText(const robot::RobotModel& model) {
+  const std::string unit =
+      model.position_unit() == "mixed" ? "rad or m" : std::string(model.position_unit());
+  return fmt::format("{:<43}# {}; and no contact, as of every run\n",
+                     "expect: {final_error: {at_most: 0.01}}", unit);
+}
+
 std::string PackagesText(const DraftRobot& robot) {
   if (robot.packages.empty()) return "";
   std::string text = "packages:\n";
@@ -175,7 +191,9 @@ std::string DiagramText(const DraftOptions& options, const DraftRobot& robot,
                                 {"joints", Quoted(fmt::format("{}", fmt::join(joints, ", ")))},
                                 {"first", motion.first},
                                 {"second", motion.second},
-                                {"start", motion.start}});
+                                {"unit", SplineUnit(*robot.model)},
+                                {"plant", PlantText(*robot.model, motion.start)},
+                                {"expect", ExpectText(*robot.model)}});
 }
 
 std::string LimitsText(const robot::RobotModel& model) {

@@ -27,6 +27,11 @@ std::string Filled(std::string_view text, const std::map<std::string_view, std::
 std::string Quoted(const std::string& text);
 /// Parameters of the parts, for an arm that is smaller than those that their distances are for.
 std::string SmallerDistances(double reach);
+/// What an arm of sliders alone needs, whose positions are in m: a line of the spline, the plant.
+std::string SplineUnit(const robot::RobotModel& model);
+std::string PlantText(const robot::RobotModel& model, const std::string& start);
+/// Section `expect`: that it arrives.
+std::string ExpectText(const robot::RobotModel& model);
 /// Section `packages`.
 std::string PackagesText(const DraftRobot& robot);
 /// What is below `models.arm`; `srdf` and `limits` (empty: none) as the diagram names them.

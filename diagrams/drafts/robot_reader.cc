@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <fstream>
 #include <set>
 #include <system_error>
 
@@ -79,13 +78,6 @@ void CheckAbsent(const fs::path& file) {
   if (!fs::exists(file, error)) return;
   throw ConfigError(
       fmt::format("{} is there already; expected a name that is not taken", file.string()));
-}
-
-void WriteDraft(const fs::path& file, const std::string& text) {
-  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
-  stream << text;
-  stream.close();
-  if (!stream) throw ConfigError(fmt::format("{} cannot be written", file.string()));
 }
 
 }  // namespace internal

@@ -32,7 +32,5 @@ class RobotReader {
 void CheckAvoidance(const DraftOptions& options);
 /// throws ConfigError if a file is there already
 void CheckAbsent(const std::filesystem::path& file);
-/// A text file of a draft. throws ConfigError if it cannot be written
-void WriteDraft(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace oca::drafts::internal

@@ -15,6 +15,7 @@
 #include "oca/diagrams/drafts/scene_frames.h"
 #include "oca/diagrams/drafts/scene_joints.h"
 #include "oca/diagrams/drafts/scene_shapes.h"
+#include "oca/diagrams/loading/loader.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/error.h"
 #include "oca/models/file_cache.h"
@@ -22,6 +23,7 @@
 #include "oca/models/robot/collision_check.h"
 #include "oca/models/scenes/motion_request.h"
 #include "oca/models/scenes/planning_scene.h"
+#include "oca/models/whole_file.h"
 
 namespace oca::drafts {
 namespace {
@@ -163,7 +165,7 @@ class SceneDraftMaker {
     if (!start_joints_.positions.empty() || request_) {
       start_ =
           internal::PositionsOf(*model_, start_joints_, request_ ? request_->file : scene_.file,
-                                "start_state", draft_.decided);
+                                "start_state", &draft_.decided);
       return;
     }
     start_ = internal::NeutralPositions(*model_);
@@ -235,7 +237,7 @@ class SceneDraftMaker {
     text_.duration = kSceneMotion;
     if (request_->pose) return AddPose(*request_->pose, frames);
     text_.goal = internal::PositionsOf(*model_, request_->goal, request_->file,
-                                       "goal_constraints[0]", draft_.decided);
+                                       "goal_constraints[0]", nullptr);
     const double needed = internal::StraightTime(*model_, start_, *text_.goal, kSceneAcceleration);
     if (needed <= kSceneMotion) return;
     text_.duration = std::ceil(needed);
@@ -265,7 +267,7 @@ class SceneDraftMaker {
       fs::path file = options_.diagram;
       file.replace_filename(options_.diagram.stem().string() + "_limits.yaml");
       internal::CheckAbsent(file);
-      internal::WriteDraft(file, text_.limits_text);
+      models::WriteWhole(file, text_.limits_text);
       draft_.files.push_back(file);
       text_.limits = file.filename().string();
       Tell("no limits of speed in the robot's description: " + file.string() + " has guesses");
@@ -275,14 +277,28 @@ class SceneDraftMaker {
     text_.scene = options_.scene.filename().string();
     text_.request = options_.request.filename().string();
     const std::string text = internal::SceneDiagramText(robot_options_, draft_.robot, text_);
-    internal::WriteDraft(options_.diagram, text);
+    models::WriteWhole(options_.diagram, text);
     draft_.files.insert(draft_.files.begin(), options_.diagram);
     draft_.files.insert(draft_.files.end(), shapes_->files().begin(), shapes_->files().end());
+    RequireThatItLoads();
     if (!model_->acceleration_limits().allFinite()) {
       Tell(
           fmt::format("limits of acceleration: {:g} rad/s^2 or m/s^2, where the robot's "
                       "description has none",
                       kSceneAcceleration));
+    }
+  }
+
+  /// What only the whole diagram tells: whether the pose can be reached, among others.
+  void RequireThatItLoads() const {
+    try {
+      loading::LoadDiagram(options_.diagram);
+    } catch (const Error& error) {
+      const std::string where = !request_        ? scene_.file
+                                : request_->pose ? request_->pose->where
+                                                 : request_->goal.where;
+      throw ConfigError(
+          fmt::format("{}: makes a diagram that cannot be loaded: {}", where, error.what()));
     }
   }
 
@@ -316,8 +332,8 @@ void WriteSceneProblem(const fs::path& folder, int number, const robot::RobotMod
   const fs::path request = folder / fmt::format("request{:04}.yaml", number);
   internal::CheckAbsent(scene);
   internal::CheckAbsent(request);
-  internal::WriteDraft(scene, scenes::SceneYaml(model, problem));
-  internal::WriteDraft(request, scenes::RequestYaml(model, problem));
+  models::WriteWhole(scene, scenes::SceneYaml(model, problem));
+  models::WriteWhole(request, scenes::RequestYaml(model, problem));
 }
 
 SceneDraft DraftScene(const SceneDraftOptions& options) { return SceneDraftMaker(options).Make(); }

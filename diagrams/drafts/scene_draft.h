@@ -39,7 +39,8 @@ struct SceneDraft {
 /// robot's root, its links where they stand at the start, fixed transforms, objects and subframes
 /// ("object/subframe").
 /// throws ModelError, ConfigError for files that are wrong, an unknown frame, a joint of the arm of
-///        which start or goal is missing, a file that is there already or cannot be written
+///        which start or goal is missing, a goal beyond a limit, a file that is there already or
+///        cannot be written, and what makes a diagram that cannot be loaded, as a pose out of reach
 SceneDraft DraftScene(const SceneDraftOptions& options);
 
 /// Writes sceneNNNN.yaml and requestNNNN.yaml of a problem into the folder, which is made if need

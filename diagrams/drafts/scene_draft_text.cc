@@ -153,10 +153,9 @@ std::string SceneDiagramText(const DraftOptions& options, const DraftRobot& robo
        {"joints", Quoted(fmt::format("the request: {}", fmt::join(joints, ", ")))},
        {"request", RequestText(scene)},
        {"ignore", IgnoreText(scene)},
-       {"start", NumbersText(scene.start)},
-       {"expect", moves ? "expect: {final_error: {at_most: 0.01}}     # rad; and no contact, as of "
-                          "every run\n"
-                        : ""}});
+       {"unit", SplineUnit(*robot.model)},
+       {"plant", PlantText(*robot.model, NumbersText(scene.start))},
+       {"expect", moves ? ExpectText(*robot.model) : ""}});
 }
 
 }  // namespace oca::drafts::internal

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "oca/models/error.h"
+#include "oca/models/nearest_name.h"
 
 namespace oca::drafts::internal {
 namespace {
@@ -15,6 +16,22 @@ namespace {
 // the middle, its second one at 1/2 - 1/sqrt(12).
 constexpr double kQuinticSpeed = 1.875;
 constexpr double kQuinticAcceleration = 5.7735026918962576;
+
+constexpr double kDigits = 1e-4;  // rad or m; what a file of four digits takes from a limit
+
+/// The names of joints that the robot does not have, which may be misspelt.
+void AddUnknown(const robot::RobotModel& model, const scenes::JointPositions& joints,
+                const std::string& where, models::ModelErrors& errors) {
+  std::vector<std::string> known;
+  for (const robot::Joint& joint : model.joints()) known.push_back(joint.name.text());
+  for (const auto& [name, position] : joints.positions) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    errors.Add(
+        fmt::format("{}: joint '{}'; got a name that the robot does not have; expected one "
+                    "of its joints, nearest is '{}'",
+                    where, name, models::NearestName(name, known)));
+  }
+}
 
 }  // namespace
 
@@ -42,23 +59,33 @@ Eigen::VectorXd NeutralPositions(const robot::RobotModel& model) {
 
 Eigen::VectorXd PositionsOf(const robot::RobotModel& model, const scenes::JointPositions& joints,
                             const std::string& file, const char* what,
-                            std::vector<std::string>& told) {
+                            std::vector<std::string>* told) {
+  const std::string where = fmt::format("{}: {}", joints.where.empty() ? file : joints.where, what);
   Eigen::VectorXd q = Eigen::VectorXd::Zero(model.num_positions());
   models::ModelErrors errors;
+  bool missing = false;
   for (Eigen::Index i = 0; i < q.size(); ++i) {
     const std::string& name = model.position_names()[static_cast<std::size_t>(i)].text();
     const double* const position = joints.Find(name);
     if (position == nullptr) {
-      errors.Add(fmt::format("{}: {}: joint '{}'; got none; expected its position",
-                             joints.where.empty() ? file : joints.where, what, name));
+      missing = true;
+      errors.Add(fmt::format("{}: joint '{}'; got none; expected its position", where, name));
       continue;
     }
     q[i] = *position;
     const double lower = model.lower_limits()[i], upper = model.upper_limits()[i];
     if (q[i] >= lower && q[i] <= upper) continue;
-    told.push_back(fmt::format("{}: {}: joint '{}' at {} is beyond its limits, {} to {}",
-                               joints.where, what, name, q[i], lower, upper));
+    if (told != nullptr) {
+      told->push_back(fmt::format("{}: joint '{}' at {} is beyond its limits, {} to {}", where,
+                                  name, q[i], lower, upper));
+    } else if (std::max(lower - q[i], q[i] - upper) > kDigits) {
+      errors.Add(
+          fmt::format("{}: joint '{}'; got {}; expected a position within its limits, {} to "
+                      "{}",
+                      where, name, q[i], lower, upper));
+    }
   }
+  if (missing) AddUnknown(model, joints, where, errors);
   errors.Throw();
   return q;
 }

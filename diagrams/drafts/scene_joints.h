@@ -13,12 +13,14 @@ namespace oca::drafts::internal {
 /// What two states say, `over` wherever it says something.
 scenes::JointPositions Over(const scenes::JointPositions& over, scenes::JointPositions under);
 
-/// One a position of the arm. A line for each that is beyond its limits goes to `told`.
-/// throws ModelError `file:line: what: joint ...`, a line for each that is missing; `file` stands
-///        for the place of a state that says nothing
+/// One a position of the arm. A line for each that is beyond its limits goes to `told`; without it
+/// those are refused that are so by more than digits of a file take.
+/// throws ModelError `file:line: what: joint ...`, a line for each that is missing or refused, and,
+///        if some are missing, for each that the robot does not have; `file` stands for the place of
+///        a state that says nothing
 Eigen::VectorXd PositionsOf(const robot::RobotModel& model, const scenes::JointPositions& joints,
                             const std::string& file, const char* what,
-                            std::vector<std::string>& told);
+                            std::vector<std::string>* told);
 /// At 0, or the limit nearest to it.
 Eigen::VectorXd NeutralPositions(const robot::RobotModel& model);
 

@@ -13,6 +13,7 @@
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/error.h"
 #include "oca/models/geometry/mesh_surface.h"
+#include "oca/models/whole_file.h"
 
 namespace oca::drafts::internal {
 namespace {
@@ -90,7 +91,7 @@ fs::path SceneShapes::Keep(const std::string& id, const geometry::TriangleMesh& 
     file = folder / fmt::format("{}_{}_{}.obj", stem, PlainName(id), i);
   }
   CheckAbsent(file);
-  WriteDraft(file, ObjText(mesh));
+  models::WriteWhole(file, ObjText(mesh));
   files_.push_back(file);
   return file;
 }

@@ -28,8 +28,9 @@ const Eigen::Isometry3d& LinksAhead::X_WL(int link, double time) {
 bool LinksAhead::Stands(double duration) {
   if (model_->num_positions() == 0) return true;
   const Eigen::VectorXd first = positions_(0.0);
-  for (long k = 1; k < StepsOf(duration); ++k) {
-    if (positions_(TimeOfStep(k)) != first) return false;
+  const TimeSteps steps(duration);
+  for (long k = 1; k < steps.size(); ++k) {
+    if (positions_(steps[k]) != first) return false;
   }
   return true;
 }

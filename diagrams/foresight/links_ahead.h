@@ -22,7 +22,7 @@ class LinksAhead {
   const robot::RobotModel& model() const { return *model_; }
   /// Pose in the world of a link by its number; valid until the next look.
   const Eigen::Isometry3d& X_WL(int link, double time);
-  /// Whether no link moves from 0 to `duration`, s, looked at every millisecond.
+  /// Whether no link moves from 0 to `duration`, s, looked at as TimeSteps are.
   bool Stands(double duration);
 
  private:

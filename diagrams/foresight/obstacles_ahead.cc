@@ -28,10 +28,10 @@ struct Seen {
   bool moves{false};
 };
 
-std::vector<Seen> LookAtAll(ObstaclesAhead& ahead, long steps) {
+std::vector<Seen> LookAtAll(ObstaclesAhead& ahead, const TimeSteps& steps) {
   std::vector<Seen> seen;
-  for (long k = 0; k < steps; ++k) {
-    const auto& obstacles = ahead.At(TimeOfStep(k)).obstacles;
+  for (long k = 0; k < steps.size(); ++k) {
+    const auto& obstacles = ahead.At(steps[k]).obstacles;
     for (std::size_t place = 0; place < obstacles.size(); ++place) {
       const Obstacle& obstacle = obstacles[place];
       const auto same = [&](const Seen& entry) { return entry.body == obstacle.body; };
@@ -95,10 +95,10 @@ const systems::ObstacleSet& ObstaclesAhead::At(double time) {
 
 std::vector<planning::BandBody> BodiesInTime(const std::shared_ptr<ObstaclesAhead>& obstacles,
                                              double duration) {
-  const long steps = StepsOf(duration);
+  const TimeSteps steps(duration);
   std::vector<planning::BandBody> bodies;
   for (const Seen& entry : LookAtAll(*obstacles, steps)) {
-    const bool stands = !entry.moves && entry.times == steps;
+    const bool stands = !entry.moves && entry.times == steps.size();
     const auto pose = [obstacles, body = entry.body, place = entry.place, X = entry.X_WO,
                        stands](double time) {
       return stands ? X : PoseOf(obstacles->At(time).obstacles, *body, place);

@@ -37,6 +37,9 @@ class LiveServer::Server::Client : public std::enable_shared_from_this<Client> {
     stream_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
       response.set(http::field::sec_websocket_protocol, kProtocol);
     }));
+    stream_.control_callback([this](websocket::frame_type type, beast::string_view payload) {
+      if (type == websocket::frame_type::pong && payload == question_) asked_.reset();
+    });
     stream_.async_accept(request, [self = shared_from_this()](const Error& error) {
       if (!error) self->Guarded([&self] { self->Greet(); });
     });
@@ -72,6 +75,22 @@ class LiveServer::Server::Client : public std::enable_shared_from_this<Client> {
     Error ignored;
     stream_.next_layer().socket().close(ignored);
     queue_.clear();
+  }
+
+  /// Pings it, unless it has one to answer.
+  void Ask() {
+    if (asked_ || closed_) return;
+    asked_ = std::chrono::steady_clock::now();
+    question_ = RandomToken();  // so that nobody answers who has not read it
+    stream_.async_ping(websocket::ping_data(question_.c_str()),
+                       [self = shared_from_this()](const Error& error) {
+                         if (error) self->Close();
+                       });
+  }
+  /// How long it has not answered; 0: it has.
+  std::chrono::steady_clock::duration Owes(std::chrono::steady_clock::time_point now) const {
+    return asked_ ? std::max(now - *asked_, std::chrono::steady_clock::duration(1))
+                  : std::chrono::steady_clock::duration(0);
   }
 
   void Forget() { subscriptions_.clear(); }
@@ -246,6 +265,8 @@ class LiveServer::Server::Client : public std::enable_shared_from_this<Client> {
   std::size_t queued_bytes_{0}, text_bytes_{0}, greeting_bytes_{0};
   std::uint64_t dropped_{0}, confessed_{0};
   std::chrono::steady_clock::time_point last_confession_{};
+  std::optional<std::chrono::steady_clock::time_point> asked_;  ///< since when a ping is open
+  std::string question_;                                        ///< the payload of the last ping
   bool writing_{false}, closed_{false}, watches_{false}, heard_{false};
   const std::uint64_t number_{++server_.greeted_};
 };

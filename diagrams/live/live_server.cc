@@ -19,6 +19,7 @@ constexpr std::size_t kKept = 1000;   // messages for clients that come later
 constexpr int kPostsInFlight = 1000;  // messages between the threads
 constexpr std::size_t kBytesInFlight = std::size_t{32} << 20;
 constexpr auto kAcceptAgainAfter = std::chrono::milliseconds(100);
+constexpr auto kLookAgainAfter = std::chrono::milliseconds(20);  // for room
 constexpr auto kDrainFor = std::chrono::milliseconds(300);
 constexpr std::size_t kReasonsTold = 10;  // why requests were refused
 
@@ -84,34 +85,81 @@ void LiveServer::Server::Drain() {
 }
 
 /// Whoever has not asked for anything, or not ended to ask, goes first; then clients that never said
-/// anything: none of them keeps others out.
+/// anything; then those that do not read: none of them keeps others out.
 bool LiveServer::Server::MakeRoom() {
   for (Connection* const waiting : waiting_) {
     if (!waiting->open()) continue;
     waiting->Drop();
+    TellCrowd(gave_way_, "a connection that asked for nothing gave way to a new one");
     return true;
   }
-  std::shared_ptr<Client> silent;
+  const auto silent = Silent();
+  if (!silent) return false;
+  TellCrowd(gave_way_, silent->heard() ? "a client that did not read gave way to a new one"
+                                       : "a client that never said anything gave way to a new one");
+  silent->Close();
+  return true;
+}
+
+/// The client that goes first; none if all are in use.
+std::shared_ptr<LiveServer::Server::Client> LiveServer::Server::Silent() const {
+  std::shared_ptr<Client> first;
+  const auto now = std::chrono::steady_clock::now();
   for (const auto& client : clients_) {
-    const bool older = silent == nullptr || client->number() < silent->number();
-    if (!client->heard() && older) silent = client;
+    if (client->heard() && !(client->Owes(now) >= options_.patience)) continue;
+    const auto before = [now](const Client& one, const Client& other) {
+      if (one.heard() != other.heard()) return other.heard();
+      if (!one.heard()) return one.number() < other.number();
+      return one.Owes(now) > other.Owes(now);
+    };
+    if (!first || before(*client, *first)) first = client;
   }
-  if (silent) silent->Close();
-  return silent != nullptr;
+  return first;
+}
+
+void LiveServer::Server::TellCrowd(std::atomic<std::uint64_t>& count, const std::string& what) {
+  ++count;
+  if (crowd_.insert(what).second && options_.crowded) options_.crowded(what);
+}
+
+void LiveServer::Server::Admit(tcp::socket socket) {
+  Error ignored;
+  socket.set_option(tcp::no_delay(true), ignored);
+  std::make_shared<Connection>(*this, std::move(socket))->Start();
+}
+
+/// Whoever waits gets the first place that somebody leaves, or none if all answer.
+void LiveServer::Server::Hold() {
+  const bool room = sockets_ < options_.max_clients || MakeRoom();
+  const bool waits = !room && std::any_of(clients_.begin(), clients_.end(), [](const auto& client) {
+    return client->Owes(std::chrono::steady_clock::now()).count() > 0;
+  });
+  if (waits) {
+    pause_.expires_after(kLookAgainAfter);
+    pause_.async_wait([this](const Error& stopped) {
+      if (!stopped) Hold();
+    });
+    return;
+  }
+  tcp::socket socket = std::move(*held_);
+  held_.reset();
+  if (room) {
+    Admit(std::move(socket));
+  } else {
+    TellCrowd(refused_, "a new connection was refused: as many as there may be are in use");
+  }
+  Accept();
 }
 
 void LiveServer::Server::Accept() {
   acceptor_.async_accept([this](const Error& error, tcp::socket socket) {
     if (!acceptor_.is_open()) return;
     if (!error) {
-      if (sockets_ < options_.max_clients || MakeRoom()) {
-        Error ignored;
-        socket.set_option(tcp::no_delay(true), ignored);
-        std::make_shared<Connection>(*this, std::move(socket))->Start();
-      } else {
-        ++refused_;
+      held_ = std::move(socket);
+      if (sockets_ >= options_.max_clients) {
+        for (const auto& client : std::set(clients_)) client->Ask();
       }
-      return Accept();
+      return Hold();
     }
     pause_.expires_after(kAcceptAgainAfter);  // no file is left, perhaps
     pause_.async_wait([this](const Error& stopped) {
@@ -244,7 +292,7 @@ std::vector<LiveParameter> LiveServer::Server::TakeChanges() {
 }
 
 LiveStatistics LiveServer::Server::statistics() const {
-  return {client_count_, sent_, dropped_, refused_, forbidden_, malformed_, faults_};
+  return {client_count_, sent_, dropped_, refused_, gave_way_, forbidden_, malformed_, faults_};
 }
 
 LiveServer::LiveServer(LiveOptions options)

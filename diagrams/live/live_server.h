@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -27,9 +28,13 @@ struct LiveOptions {
   std::string record{};              ///< MCAP, served at `/record.mcap` unless empty
   std::size_t queue_bytes{std::size_t{4} << 20};  ///< of messages that wait for one client
   int max_clients{64};  ///< connections at a time; one that is silent goes for a new one
+  std::chrono::milliseconds patience{
+      2000};                           ///< with clients that answer no ping, while others wait
   std::vector<std::string> origins{};  ///< of other pages that may connect, see Access
   /// Told why a request was refused, each reason once and some only; on the server's own thread.
   std::function<void(const std::string& why)> forbidden{};
+  /// Told of connections that gave way or were kept out, each kind once; on the same thread.
+  std::function<void(const std::string& what)> crowded{};
 };
 
 enum class StatusLevel { kInfo = 0, kWarning = 1, kError = 2 };
@@ -39,6 +44,7 @@ struct LiveStatistics {
   std::uint64_t sent{0};       ///< messages to all clients
   std::uint64_t dropped{0};    ///< messages that a slow client, or all of them, did not get
   std::uint64_t refused{0};    ///< connections beyond max_clients, all of them in use
+  std::uint64_t gave_way{0};   ///< connections that ended in favour of new ones
   std::uint64_t forbidden{0};  ///< requests that Access refused
   std::uint64_t malformed{0};  ///< client messages that made no sense
   std::uint64_t faults{0};     ///< connections that ended since something went wrong here
@@ -51,8 +57,9 @@ struct LiveStatistics {
 /// on /scene/robots and /scene/obstacles are kept for clients that come later.
 ///
 /// At most max_clients connections are open. A new one takes the place of the oldest that has not
-/// asked for anything within 10 s at most, else of the oldest client that never said anything; else
-/// it is refused. An exception on the server's thread ends the connection that it is about.
+/// asked for anything within 10 s at most, else of the oldest client that never said anything, else
+/// of the one that has owed the answer to a ping longest, if for `patience`: that does not read.
+/// It waits until all have been asked that long, and is refused if all answered. An exception on the server's thread ends the connection that it is about.
 ///
 /// Access decides who is answered. On an address that others reach, a request needs the token that
 /// stands in url(). Its session is one that no other server has, so that clients see a new run.

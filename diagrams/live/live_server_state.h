@@ -80,7 +80,11 @@ class LiveServer::Server {
   // On the server's own thread.
   void Drain();
   void Accept();
+  void Admit(tcp::socket socket);
+  void Hold();
   bool MakeRoom();
+  std::shared_ptr<Client> Silent() const;
+  void TellCrowd(std::atomic<std::uint64_t>& count, const std::string& what);
   void Serve();
   void Publish(const SharedMessage& message);
   void ToAll(const std::string& text);
@@ -95,11 +99,13 @@ class LiveServer::Server {
   const std::string token_;  ///< empty: none is needed
   std::optional<Access> access_;
   std::set<std::string> told_;      ///< why requests were refused
+  std::set<std::string> crowd_;     ///< what was told of who gave way
   int sockets_{0};                  // outlives, as the next, the handlers that io_ holds
   std::list<Connection*> waiting_;  ///< those that are no clients yet, the oldest first
   asio::io_context io_;
   tcp::acceptor acceptor_{io_};
   asio::steady_timer pause_{io_};
+  std::optional<tcp::socket> held_;  ///< of who waits for room; no other is accepted meanwhile
   std::set<std::shared_ptr<Client>> clients_;
   std::vector<record::RecordChannel> channels_;
   std::deque<SharedMessage> kept_;
@@ -110,8 +116,8 @@ class LiveServer::Server {
   std::atomic<int> posts_{0};
   std::atomic<std::size_t> posted_bytes_{0};
   std::atomic<int> client_count_{0};
-  std::atomic<std::uint64_t> sent_{0}, dropped_{0}, refused_{0}, forbidden_{0}, malformed_{0},
-      faults_{0};
+  std::atomic<std::uint64_t> sent_{0}, dropped_{0}, refused_{0}, gave_way_{0}, forbidden_{0},
+      malformed_{0}, faults_{0};
   std::vector<char> keep_;  ///< by channel; of the writing thread
   mutable std::mutex mutex_;
   std::vector<LiveParameter> parameters_, changes_;  ///< under mutex_

@@ -2,12 +2,10 @@
 #include "oca/diagrams/record/record_plots.h"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
 #include <set>
 #include <utility>
 
@@ -15,6 +13,7 @@
 #include "oca/diagrams/record/series.h"
 #include "oca/diagrams/record/temporary_name.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/models/whole_file.h"
 
 namespace oca::record {
 namespace {
@@ -36,27 +35,19 @@ int RunProgram(const std::vector<std::string>& words) {
   return WEXITSTATUS(status);
 }
 
-void WriteText(const fs::path& file, const std::string& text) {
-  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
-  stream << text;
-  if (!stream.flush()) throw ConfigError(fmt::format("{}: cannot be written", file.string()));
-}
-
 /// librsvg's rsvg-convert makes the pixels, two a unit.
 void WritePng(const fs::path& file, const std::string& svg) {
-  std::string drawing = internal::TemporaryName("oca_plot");
-  const int descriptor = mkstemp(drawing.data());
-  if (descriptor < 0) throw ConfigError(fmt::format("{}: cannot be made", drawing));
-  close(descriptor);
-  WriteText(drawing, svg);
-  const int status = RunProgram({"rsvg-convert", "--zoom=2", "-o", file.string(), drawing});
-  std::error_code ignored;
-  fs::remove(drawing, ignored);
+  models::WholeFile pixels(file);
+  models::UnfinishedFile drawing(internal::TemporaryFolder());
+  models::WriteWhole(drawing.path(), svg);
+  const int status = RunProgram(
+      {"rsvg-convert", "--zoom=2", "-o", pixels.part().string(), drawing.path().string()});
   if (status == 127) {
     throw ConfigError(fmt::format(
         "{}: PNG needs rsvg-convert (package librsvg2-bin); or name a .svg file", file.string()));
   }
   if (status != 0) throw ConfigError(fmt::format("{}: cannot be written", file.string()));
+  pixels.Commit();
 }
 
 }  // namespace
@@ -107,7 +98,7 @@ void WritePlot(const fs::path& file, const std::vector<PlotPanel>& panels) {
   }
   const std::string svg = SvgPlot(panels);
   if (file.extension() == ".svg") {
-    WriteText(file, svg);
+    models::WriteWhole(file, svg);
   } else {
     WritePng(file, svg);
   }

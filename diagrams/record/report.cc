@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oca/diagrams/record/report.h"
 
-#include <fmt/format.h>
-
-#include <fstream>
 #include <utility>
 
 #include "oca/diagrams/record/mcap_sink.h"
 #include "oca/diagrams/record/page.h"
-#include "oca/framework/dataflow/error.h"
+#include "oca/models/whole_file.h"
 
 namespace oca::record {
 namespace {
@@ -47,14 +44,7 @@ void Report::Begin(const runs::RunStart& run) {
 
 void Report::End(const runs::RunResult& result) {
   Recording::End(result);
-  std::ofstream stream(file_, std::ios::binary | std::ios::trunc);
-  stream << PageWithRecord(page_, bytes_.view());
-  stream.close();
-  if (!stream) {
-    throw ConfigError(
-        fmt::format("report: file; got {}, which could not be written to the end; expected room",
-                    file_.string()));
-  }
+  models::WriteWhole(file_, PageWithRecord(page_, bytes_.view()));
 }
 
 }  // namespace oca::record

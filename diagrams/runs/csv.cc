@@ -6,6 +6,7 @@
 
 #include "oca/diagrams/runs/signal_facts.h"
 #include "oca/framework/dataflow/dynamic_port.h"
+#include "oca/framework/dataflow/error.h"
 
 namespace oca::runs {
 namespace {
@@ -25,6 +26,13 @@ std::vector<OutputFile> Csv::Files(const loading::LoadedDiagram& loaded) const {
     files.push_back({"csv", SignalTable::FileOf(folder_, signal.name, IsVector(signal))});
   }
   return files;
+}
+
+void Csv::Prepare(const RunStart& run) {
+  if (!run.loaded.record.empty()) return;
+  throw ConfigError(
+      "csv: section `record`; got no signals, so there is nothing to write; expected some, as in "
+      "`-s 'record.signals={\"*\": 100}'`, which takes all of them a hundred times a second");
 }
 
 Csv::File& Csv::Add(const files::RecordedSignal& signal, const loading::LoadedDiagram& loaded,

@@ -19,10 +19,12 @@ class Csv final : public RunOutput {
   explicit Csv(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   std::vector<OutputFile> Files(const loading::LoadedDiagram& loaded) const override;
-  /// throws ConfigError if a file cannot be made. A signal that a run of another diagram began
+  /// throws ConfigError if the diagram records nothing.
+  void Prepare(const RunStart& run) override;
+  /// throws ModelError if a file cannot be made. A signal that a run of another diagram began
   /// without is left out; at the instant of a change there is the row before it.
   void Begin(const RunStart& run) override;
-  /// Closes the files. throws ConfigError naming one that could not be written to the end.
+  /// Closes the files. throws ModelError naming one that could not be written to the end.
   void End(const RunResult& result) override;
 
  private:

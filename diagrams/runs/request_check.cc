@@ -2,11 +2,13 @@
 #include "oca/diagrams/runs/request_check.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <string_view>
 
 #include "oca/diagrams/foresight/foresight.h"
 #include "oca/diagrams/foresight/motion_ahead.h"
@@ -15,6 +17,7 @@
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/counted.h"
 #include "oca/models/error.h"
+#include "oca/models/planning/arm_guess.h"
 #include "oca/models/robot/clearance.h"
 #include "oca/models/robot/joint_limits.h"
 #include "oca/systems/signals/roles.h"
@@ -26,6 +29,8 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr int kRequestSamples = 1000;
+constexpr double kTurnApart = 1e-3;      // rad; of start and request
+constexpr double kSlideApart = 1e-3;     // m
 constexpr double kLimitRounding = 1e-9;  // of a limit: what digits of a file take from it
 
 /// What is asked of one robot.
@@ -52,11 +57,14 @@ class RequestJudge {
     const auto start = EvalVector(*position, context);
     start_ = Eigen::Map<const VectorXd>(start.data(), static_cast<Index>(start.size()));
     at_start_ = position->system;
+    at_start_port_ = *position;
   }
 
   std::vector<std::string> Run() {
     if (!ahead_) return {};
     JudgeStart();
+    JudgeEnds();
+    JudgeBeside();
     const auto& speed = model_.velocity_limits();
     const auto& acceleration = model_.acceleration_limits();
     JudgeRequest({0, "go to", "", "no method goes there"}, model_.lower_limits(),
@@ -96,6 +104,92 @@ class RequestJudge {
     }
   }
 
+  /// A request that begins elsewhere is a jump; of one that ends after the run the end is missing.
+  void JudgeEnds() {
+    const VectorXd begin = ahead_->motion->Evaluate(0.0, 0);
+    std::vector<Index> apart;
+    for (Index j = 0; start_.size() == begin.size() && j < begin.size(); ++j) {
+      const bool slides = std::string_view(UnitOf(j)) == "m";
+      if (std::fabs(begin[j] - start_[j]) > (slides ? kSlideApart : kTurnApart)) apart.push_back(j);
+    }
+    if (!apart.empty()) {
+      const Index j = apart.front();
+      Add(*ahead_->source,
+          fmt::format("the request begins elsewhere than the arm: {} at {:.4g} {}, where it stands "
+                      "at {:.4g}{}",
+                      JointText(j), begin[j], UnitOf(j), start_[j], AndMore(apart.size() - 1)));
+    }
+    const double last = ahead_->motion->times().back();
+    if (last <= loaded_.simulator.duration) return;
+    Add(*ahead_->source,
+        fmt::format("the request ends at {:g} s, after the run, which ends at {:g} "
+                    "s: the goal is not reached",
+                    last, loaded_.simulator.duration));
+  }
+
+  /// Joints beside the arm that are asked to stay, and that what evades moves all the same.
+  void JudgeBeside() {
+    if (!Evades()) return;
+    const std::vector<int> beside = planning::JointsBesideArm(model_);
+    const std::vector<char> asked = AskedToMove();
+    std::vector<std::string> held;
+    for (const int j : beside) {
+      const robot::Joint& joint = model_.joints()[static_cast<std::size_t>(j)];
+      const bool task = std::any_of(beside.begin(), beside.end(), [&](int other) {
+        return asked[static_cast<std::size_t>(PlaceOf(other))] != 0 && OneBranch(j, other);
+      });
+      if (task) continue;
+      const double stays = ahead_->motion->Evaluate(0.0, 0)[joint.position_index];
+      held.push_back(fmt::format("{}: {:.4g}", joint.name.text(), stays));
+    }
+    if (held.empty()) return;
+    Add(*ahead_->source,
+        fmt::format("what evades moves joints of model '{}' too that are not of its arm and that "
+                    "nothing asks to move; `held: {{{}}}` of the model, or a `group`, holds them",
+                    name_, fmt::join(held, ", ")));
+  }
+
+  Index PlaceOf(int joint) const {
+    return model_.joints()[static_cast<std::size_t>(joint)].position_index;
+  }
+
+  /// Whether one of two joints carries the other, or they are one.
+  bool OneBranch(int one, int other) const {
+    int low = std::min(one, other);
+    for (int j = std::max(one, other); j >= low; j = model_.joints()[j].parent_link - 1) {
+      if (j == low) return true;
+    }
+    return false;
+  }
+
+  /// Whether what the arm does depends on distances that somebody measures.
+  bool Evades() const {
+    const auto upstream = loaded_.diagram->UpstreamOf(at_start_port_, Through::kStates).outputs;
+    return std::any_of(upstream.begin(), upstream.end(), [](const auto& entry) {
+      return entry.output.system->template role<systems::MeasuresDistances>() != nullptr;
+    });
+  }
+
+  /// By position: whether the request moves it.
+  std::vector<char> AskedToMove() const {
+    const auto& times = ahead_->motion->times();
+    const VectorXd first = ahead_->motion->Evaluate(times.front(), 0);
+    std::vector<char> asked(static_cast<std::size_t>(first.size()), 0);
+    for (int i = 1; i <= kRequestSamples; ++i) {
+      const double time = times.front() + (times.back() - times.front()) * i / kRequestSamples;
+      const VectorXd q = ahead_->motion->Evaluate(time, 0);
+      for (Index j = 0; j < q.size(); ++j) {
+        if (q[j] != first[j]) asked[static_cast<std::size_t>(j)] = 1;
+      }
+    }
+    return asked;
+  }
+
+  static std::string AndMore(std::size_t joints) {
+    return joints == 0 ? ""
+                       : fmt::format("; and {} likewise", models::Counted(joints, "more joint"));
+  }
+
   /// Of a derivative of the request: what is said of it.
   struct Demand {
     int derivative;
@@ -133,11 +227,9 @@ class RequestJudge {
         demand.derivative == 0
             ? fmt::format("its limits are [{:.4g}, {:.4g}]", lower[worst], upper[worst])
             : fmt::format("its limit is {:.4g}", upper[worst]);
-    Add(*ahead_->source,
-        fmt::format(
-            "{} is to {} {:.4g} {}{} at {:.3g} s; {}: {}{}", JointText(worst), demand.verb,
-            worst_value, UnitOf(worst), demand.per, when, limits, demand.consequence,
-            more > 0 ? fmt::format("; and {} likewise", models::Counted(more, "more joint")) : ""));
+    Add(*ahead_->source, fmt::format("{} is to {} {:.4g} {}{} at {:.3g} s; {}: {}{}",
+                                     JointText(worst), demand.verb, worst_value, UnitOf(worst),
+                                     demand.per, when, limits, demand.consequence, AndMore(more)));
   }
 
   void JudgeContacts() {
@@ -183,6 +275,7 @@ class RequestJudge {
   std::optional<foresight::MotionAhead> ahead_;
   VectorXd start_;
   const System* at_start_{nullptr};
+  OutputHandle at_start_port_{};
   std::vector<std::string> lines_;
 };
 

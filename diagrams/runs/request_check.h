@@ -12,6 +12,10 @@ namespace oca::runs {
 /// place, found without a run: of each robot that is judged and whose request is known ahead
 ///
 /// - a start or a request beyond the limits of a position
+/// - a request that begins elsewhere than the arm stands, by more than 1e-3 rad or m, or ends after
+///   the run
+/// - joints beside the arm (planning::JointsBesideArm) that the request leaves where they are, on a
+///   branch of which it moves none, and that what evades may move
 /// - a request faster than a limit of a speed, or that needs more than one of an acceleration
 /// - contact at the start, and at the end of the request with what is there then
 /// - a request to whose end a bounded search found no way past what stands (NoWayText)

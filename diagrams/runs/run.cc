@@ -218,7 +218,7 @@ class Runner final : public RunControl {
   void End(RunOutput& output) {
     try {
       output.End(result_);
-    } catch (const ConfigError& error) {
+    } catch (const Error& error) {
       if (!result_.failure) result_.failure = RunFailure{"", "", result_.duration, error.what()};
     }
   }

@@ -40,7 +40,7 @@ class RunOutput {
   /// What the diagram is warned of from now on.
   virtual void SetWarnings(const std::vector<std::string>& /*warnings*/) {}
   /// After the last step; a run that failed ends in its last state before that.
-  /// throws ConfigError if it could not be written to the end.
+  /// throws Error if it could not be written to the end.
   virtual void End(const RunResult& result) = 0;
   /// Takes what systems log too, from kInfo on; nullptr if it does not.
   virtual Log* log() { return nullptr; }

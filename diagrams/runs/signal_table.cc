@@ -48,16 +48,14 @@ fs::path SignalTable::FileOf(const fs::path& folder, const std::string& signal, 
 
 SignalTable::SignalTable(const fs::path& folder, const std::string& signal,
                          const std::optional<std::vector<std::string>>& columns)
-    : file_(FileOf(folder, signal, columns.has_value())),
-      stream_(file_, std::ios::binary | std::ios::trunc) {
-  if (!stream_) throw ConfigError(fmt::format("{}: cannot be written", file_.string()));
+    : file_(FileOf(folder, signal, columns.has_value())) {
   if (!columns) return;
   line_ = "time";
   for (const std::string& column : models::UniqueColumns(*columns)) {
     line_ += ',';
     models::AppendCsvName(line_, column);
   }
-  stream_ << line_ << '\n';
+  file_.stream() << line_ << '\n';
 }
 
 void SignalTable::Write(std::int64_t nanoseconds, std::span<const double> numbers) {
@@ -67,21 +65,16 @@ void SignalTable::Write(std::int64_t nanoseconds, std::span<const double> number
     fmt::format_to(std::back_inserter(line_), ",{}", number);
   }
   line_ += '\n';
-  stream_.write(line_.data(), static_cast<std::streamsize>(line_.size()));
+  file_.stream().write(line_.data(), static_cast<std::streamsize>(line_.size()));
 }
 
 void SignalTable::Write(std::int64_t nanoseconds, std::string_view json) {
   line_.clear();
   fmt::format_to(std::back_inserter(line_), "{{\"time\":{},\"value\":{}}}\n", Seconds(nanoseconds),
                  json);
-  stream_.write(line_.data(), static_cast<std::streamsize>(line_.size()));
+  file_.stream().write(line_.data(), static_cast<std::streamsize>(line_.size()));
 }
 
-void SignalTable::Finish() {
-  stream_.close();
-  if (stream_) return;
-  throw ConfigError(
-      fmt::format("{}: could not be written to the end (disk full?)", file_.string()));
-}
+void SignalTable::Finish() { file_.Commit(); }
 
 }  // namespace oca::runs

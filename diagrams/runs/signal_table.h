@@ -3,12 +3,13 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "oca/models/whole_file.h"
 
 namespace oca::runs {
 
@@ -19,7 +20,7 @@ namespace oca::runs {
 /// first, then the joints or PORT[0], PORT[1], ...; names are quoted where need be (RFC 4180), and
 /// a joint called time becomes time_2. Anything else becomes `SIGNAL.jsonl`, one object {"time",
 /// "value"} a line, the value as MakeObject has it. All numbers have as many digits as it takes to
-/// read back the same bits; times are whole nanoseconds, as in records, in s.
+/// read back the same bits; times are whole nanoseconds, as in records, in s. It is a WholeFile.
 class SignalTable {
  public:
   /// The columns of a vector: its joints, or numbered.
@@ -29,19 +30,18 @@ class SignalTable {
   static std::filesystem::path FileOf(const std::filesystem::path& folder,
                                       const std::string& signal, bool in_columns);
 
-  /// Without columns it takes values as JSON. throws ConfigError if the file cannot be made.
+  /// Without columns it takes values as JSON. throws ModelError if the file cannot be made.
   SignalTable(const std::filesystem::path& folder, const std::string& signal,
               const std::optional<std::vector<std::string>>& columns);
 
   /// No heap once a row of that length was written.
   void Write(std::int64_t nanoseconds, std::span<const double> numbers);
   void Write(std::int64_t nanoseconds, std::string_view json);
-  /// Closes the file. throws ConfigError naming it if it could not be written to the end.
+  /// Puts the file in its place. throws ModelError naming it if it could not be written to the end.
   void Finish();
 
  private:
-  const std::filesystem::path file_;
-  std::ofstream stream_;
+  models::WholeFile file_;
   std::string line_;
 };
 

@@ -17,6 +17,7 @@
 
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/file_bytes.h"
+#include "oca/models/whole_file.h"
 #include "oca/systems/signals/config_errors.h"
 
 namespace oca::sweep {
@@ -127,12 +128,10 @@ Results ReadResults(const fs::path& file, std::size_t* end) {
 
 void WriteResults(const fs::path& file, const Campaign& campaign,
                   const std::vector<SampleRow>& rows) {
-  const fs::path fresh = file.string() + ".new";
-  std::ofstream stream(fresh, std::ios::binary | std::ios::trunc);
-  stream << campaign.Header() << '\n';
-  for (const SampleRow& row : rows) stream << row.Line() << '\n';
-  stream.close();
-  if (!stream || std::rename(fresh.c_str(), file.c_str()) != 0) throw CannotWrite(file);
+  models::WholeFile whole(file);
+  whole.stream() << campaign.Header() << '\n';
+  for (const SampleRow& row : rows) whole.stream() << row.Line() << '\n';
+  whole.Commit();
 }
 
 ResultFile::ResultFile(const fs::path& folder, const Campaign& campaign, const Shard& shard)

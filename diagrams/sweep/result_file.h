@@ -26,7 +26,7 @@ struct Results {
 Results ReadResults(const std::filesystem::path& file, std::size_t* end = nullptr);
 
 /// Writes the campaign and its rows, a line each, under another name first.
-/// throws ConfigError if it cannot be written.
+/// throws ModelError if it cannot be written.
 void WriteResults(const std::filesystem::path& file, const Campaign& campaign,
                   const std::vector<SampleRow>& rows);
 

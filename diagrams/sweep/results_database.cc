@@ -5,17 +5,16 @@
 #include <sqlite3.h>
 
 #include <array>
-#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <system_error>
 
 #include "oca/diagrams/sweep/campaign_tree.h"
 #include "oca/diagrams/sweep/summary.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/json_text.h"
+#include "oca/models/whole_file.h"
 
 namespace oca::sweep {
 namespace {
@@ -42,9 +41,10 @@ struct CloseDatabase {
 
 class Database {
  public:
-  explicit Database(const fs::path& file) : file_(file) {
+  /// Makes it in `part`; errors name `file`.
+  Database(const fs::path& part, const fs::path& file) : file_(file) {
     sqlite3* opened = nullptr;
-    const int status = sqlite3_open(file.c_str(), &opened);
+    const int status = sqlite3_open(part.c_str(), &opened);
     database_.reset(opened);
     Check(status);
     Execute("PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF; BEGIN;");
@@ -163,20 +163,16 @@ void AddTimings(const Database& database, const std::vector<SampleTiming>& timin
 }  // namespace
 
 void WriteDatabase(const fs::path& file, const Results& results) {
-  const fs::path fresh = file.string() + ".new";
-  std::error_code ignored;
-  fs::remove(fresh, ignored);
+  models::WholeFile whole(file);
   {
-    Database database(fresh);
+    Database database(whole.part(), file);
     database.Execute(kTables);
     AddCampaign(database, results.campaign);
     AddRows(database, results);
     AddTimings(database, results.timings);
     database.Execute("COMMIT;");
   }
-  if (std::rename(fresh.c_str(), file.c_str()) != 0) {
-    throw ConfigError(fmt::format("{}: cannot be written", file.string()));
-  }
+  whole.Commit();
 }
 
 }  // namespace oca::sweep

@@ -2,19 +2,17 @@
 #include "oca/models/geometry/decomposition_cache.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <atomic>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <string_view>
 
 #include "oca/models/error.h"
 #include "oca/models/file_bytes.h"
 #include "oca/models/geometry/decomposition.h"
 #include "oca/models/table_text.h"
+#include "oca/models/whole_file.h"
 
 namespace oca::geometry {
 namespace {
@@ -122,17 +120,12 @@ void DecompositionEntry::Write(const std::vector<std::shared_ptr<const ConvexHul
   }
   std::error_code error;
   fs::create_directories(file_.parent_path(), error);
-  static std::atomic<int> writers{0};
-  const fs::path own = file_.string() + fmt::format(".{}.{}", ::getpid(), writers++);
-  bool written = false;
-  {
-    std::ofstream stream(own, std::ios::binary);
-    stream << kMagic << BytesOf(Hash(body, 0)) << body;
-    stream.close();
-    written = stream.good();
+  try {
+    models::WholeFile file(file_);
+    file.stream() << kMagic << BytesOf(Hash(body, 0)) << body;
+    file.Commit();
+  } catch (const models::ModelError&) {  // it is made anew another time
   }
-  if (written) fs::rename(own, file_, error);
-  if (!written || error) fs::remove(own, error);
 }
 
 }  // namespace internal

@@ -19,6 +19,7 @@ using robot::RobotModel;
 constexpr std::size_t kLeastBeforeHand = 4;  // joints of an arm that may end in a hand
 constexpr int kLongestFinger = 5;            // joints
 constexpr double kWidestJaw = 0.15;          // m
+constexpr double kSameLine = 0.01;           // sine of the angle between two
 
 bool HasPosition(const Joint& joint) { return joint.position_index >= 0; }
 
@@ -37,7 +38,7 @@ class ArmSearch {
     }
   }
 
-  ArmGuess Run() {
+  ArmGuess Run() const {
     ArmGuess guess;
     int at = 0;
     while (true) {
@@ -64,7 +65,24 @@ class ArmSearch {
     return guess;
   }
 
+  /// Whether joint j, the last of a chain, is a jaw by its name or by a finger that mimics it.
+  bool EndsInJaw(int j) const {
+    const auto mimics = [this, j](const Joint& other) {
+      return other.mimic.has_value() && other.mimic->joint == j && !Carries(j, other.parent_link);
+    };
+    return IsNamedJaw(model_.joints()[j]) ||
+           std::any_of(model_.joints().begin(), model_.joints().end(), mimics);
+  }
+
  private:
+  /// Whether a link is beyond joint j.
+  bool Carries(int j, int link) const {
+    while (link != 0 && link != model_.joints()[j].child_link) {
+      link = model_.joints()[link - 1].parent_link;
+    }
+    return link != 0;
+  }
+
   /// Of the longest chain that begins with joint j, in joints that have a position.
   int LengthFrom(int j) const {
     const Joint& joint = model_.joints()[j];
@@ -113,12 +131,41 @@ class ArmSearch {
   bool IsJaw(int j) const {
     const Joint& joint = model_.joints()[j];
     if (IsNamedJaw(joint)) return true;
-    if (joint.type == robot::JointType::kPrismatic) {
-      return joint.upper_limit - joint.lower_limit <= kWidestJaw;
-    }
+    if (joint.type != robot::JointType::kPrismatic) return IsMimicked(j);
+    return joint.upper_limit - joint.lower_limit <= kWidestJaw && !CarriesTurning(j) &&
+           !IsTelescope(j);
+  }
+
+  bool IsMimicked(int j) const {
     return std::any_of(model_.joints().begin(), model_.joints().end(), [j](const Joint& other) {
       return other.mimic.has_value() && other.mimic->joint == j;
     });
+  }
+
+  /// Whether a joint beyond joint j turns: a wrist.
+  bool CarriesTurning(int j) const {
+    for (const int next : Next(model_.joints()[j].child_link)) {
+      if (model_.joints()[next].type != robot::JointType::kPrismatic || CarriesTurning(next)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// Whether the next joint with a position before it slides along the same line.
+  bool IsTelescope(int j) const {
+    const Joint& joint = model_.joints()[j];
+    Eigen::Vector3d axis = joint.X_PJ.linear() * joint.axis;  // in the frame of its parent link
+    for (int link = joint.parent_link; link != 0;) {          // which joint link - 1 carries
+      const Joint& before = model_.joints()[link - 1];
+      if (HasPosition(before)) {
+        return before.type == robot::JointType::kPrismatic &&
+               axis.cross(before.axis).norm() <= kSameLine;
+      }
+      axis = before.X_PJ.linear() * axis;
+      link = before.parent_link;
+    }
+    return false;
   }
 
   /// Of what is fixed to a link.
@@ -150,5 +197,16 @@ class ArmSearch {
 }  // namespace
 
 ArmGuess GuessArm(const RobotModel& model) { return ArmSearch(model).Run(); }
+
+std::vector<int> JointsBesideArm(const RobotModel& model) {
+  const ArmSearch search(model);
+  try {
+    ArmGuess guess = search.Run();
+    if (search.EndsInJaw(guess.joints.back())) guess.others.push_back(guess.joints.back());
+    return std::move(guess.others);
+  } catch (const models::ModelError&) {
+    return {};
+  }
+}
 
 }  // namespace oca::planning

@@ -2,18 +2,16 @@
 #include "oca/models/robot/srdf.h"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 #include <tinyxml.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
 #include <string_view>
 #include <system_error>
 
 #include "oca/models/error.h"
 #include "oca/models/robot/srdf_reader.h"
 #include "oca/models/robot/xml_file.h"
+#include "oca/models/whole_file.h"
 
 namespace oca::robot {
 namespace {
@@ -113,32 +111,7 @@ void SaveDisabledPairs(const std::filesystem::path& file, const std::string& rob
   TiXmlPrinter printer;
   printer.SetIndent("  ");
   document->Accept(&printer);
-  // Whole or not at all, beside what is replaced: where a link leads, and over no other file.
-  namespace fs = std::filesystem;
-  std::error_code error;
-  fs::path target = file;
-  for (int hops = 0; hops < 40 && fs::is_symlink(target, error); ++hops) {
-    target = target.parent_path() / fs::read_symlink(target, error);
-  }
-  std::string part = target.string() + ".XXXXXX";
-  const auto kept = fs::status(target, error).permissions();
-  const bool replaces = fs::exists(target, error);
-  const int descriptor = mkstemp(part.data());
-  if (descriptor >= 0) close(descriptor);
-  std::ofstream out;
-  if (descriptor >= 0) out.open(part, std::ios::binary);
-  out << printer.Str();
-  out.close();
-  error.clear();
-  if (out) fs::permissions(part, replaces ? kept : fs::perms{0644}, error);
-  if (out && !error) fs::rename(part, target, error);
-  if (out && !error) return;
-  const std::string reason = error ? error.message() : "no file";
-  if (descriptor >= 0) fs::remove(part, error);
-  throw models::ModelError(
-      fmt::format("{}: SRDF to write; got {}; expected a folder and a file that can "
-                  "be written",
-                  file.string(), reason));
+  models::WriteWhole(file, printer.Str());
 }
 
 }  // namespace oca::robot

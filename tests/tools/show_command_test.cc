@@ -112,6 +112,15 @@ TEST_F(ShowCommandTest, RefusesWhatItCannotShow) {
   EXPECT_THAT(misspelt.err, HasSubstr("did you mean '--srdf'?"));
 }
 
+TEST_F(ShowCommandTest, APageThatIsThereStaysIfNoneCanBeMade) {
+  run.folder().Write("out.html", "old");
+  EXPECT_EQ(run("OCA_VIEWER=/nowhere.html $S robot show package://planar2/planar2.urdf -o " +
+                (run.folder().path() / "out.html").string())
+                .status,
+            2);
+  EXPECT_EQ(run.Read("out.html"), "old");
+}
+
 TEST_F(ShowCommandTest, WritesOverNothingThatItReads) {
   const std::string urdf = (run.folder().path() / "arm.urdf").string();
   const Ran ran = run("cp models/robots/planar2/planar2.urdf " + urdf +

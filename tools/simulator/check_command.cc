@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "oca/diagrams/foresight/time_steps.h"
 #include "oca/diagrams/loading/loader.h"
 #include "oca/diagrams/runs/request_check.h"
 #include "oca/diagrams/runs/run_warnings.h"
@@ -31,6 +32,17 @@ void PrintNotes(const Diagram& diagram) {
   }
 }
 
+/// Of a long run, what was not looked at.
+void PrintLooks(double duration) {
+  using Steps = foresight::TimeSteps;
+  if (duration <= Steps::kEachUntil) return;
+  const Steps steps(duration);
+  Print(
+      "  simulator.duration: what moves was sought at {} times up to {:g} s: each millisecond of "
+      "the first {:g} s, then at intervals that grow with the time\n",
+      steps.size(), duration, Steps::kEachUntil);
+}
+
 }  // namespace
 
 int CheckCommand(const std::vector<std::string>& files, const std::vector<std::string>& texts,
@@ -48,6 +60,7 @@ int CheckCommand(const std::vector<std::string>& files, const std::vector<std::s
             CountConnections(*loaded.diagram));
       std::fflush(stdout);
       PrintNotes(*loaded.diagram);
+      PrintLooks(loaded.simulator.duration);
     } catch (const std::exception& error) {
       Tell("{}\n", oca::internal::Explain(error));
       status = kBadInput;

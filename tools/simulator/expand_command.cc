@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <fmt/format.h>
-
-#include <filesystem>
-#include <fstream>
-
 #include "oca/diagrams/files/package_paths.h"
 #include "oca/diagrams/runs/output_files.h"
-#include "oca/framework/dataflow/error.h"
 #include "oca/models/opened_files.h"
 #include "oca/models/robot/xacro.h"
+#include "oca/models/whole_file.h"
 #include "tools/simulator/commands.h"
 #include "tools/simulator/terminal.h"
 #include "tools/simulator/xacro_arguments.h"
@@ -33,12 +28,7 @@ int ExpandCommand(const ExpandArguments& arguments) {
   }
   runs::CheckOutputs({{"--output", arguments.output}},
                      runs::InputsOf(opened.files(), "what is expanded"));
-  std::ofstream stream(arguments.output, std::ios::binary | std::ios::trunc);
-  stream << expanded.urdf;
-  stream.close();
-  if (!stream) {
-    throw ConfigError(fmt::format("--output: {} cannot be written", arguments.output));
-  }
+  models::WriteWhole(arguments.output, expanded.urdf);
   Tell("wrote {}\n", arguments.output);
   return kFine;
 }

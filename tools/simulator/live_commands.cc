@@ -17,6 +17,7 @@
 #include "oca/diagrams/record/extracted_record.h"
 #include "oca/diagrams/record/page.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/models/counted.h"
 #include "oca/models/file_bytes.h"
 #include "tools/simulator/interrupt.h"
 #include "tools/simulator/terminal.h"
@@ -42,6 +43,8 @@ void SayWhere(const std::string& what, const live::LiveServer& server, const std
 
 void SayForbidden(const std::string& why) { Tell("warning: a request was refused: {}\n", why); }
 
+void SayCrowded(const std::string& what) { Tell("warning: {}\n", what); }
+
 std::string RecordBytes(const std::string& file) {
   if (!record::IsRecord(file)) {
     throw ConfigError(fmt::format("view: file; got {}; expected a record (.mcap)", file));
@@ -61,6 +64,7 @@ live::LiveOptions ServerOptions(const RunArguments& arguments) {
   }
   options.origins = arguments.live_origins;
   options.forbidden = SayForbidden;
+  options.crowded = SayCrowded;
   return options;
 }
 
@@ -98,6 +102,11 @@ int RunLiveCommand(const RunArguments& arguments, const std::vector<files::Overr
   if (statistics.dropped > 0) {
     Tell("warning: {} messages left out for clients that were too slow\n", statistics.dropped);
   }
+  if (statistics.gave_way + statistics.refused > 0) {
+    Tell("warning: {} gave way to new ones, {} refused\n",
+         models::Counted(statistics.gave_way, "silent connection"),
+         models::Counted(statistics.refused, "connection"));
+  }
   if (!result.run.failure) return result.run.interrupted ? kInterrupted : kFine;
   Tell("error: {}\n", result.run.failure->message);
   return kRunFailed;
@@ -117,6 +126,7 @@ int ServeRecord(const std::string& what, std::string record, const ViewArguments
   options.record = std::move(record);
   options.page = record::PageWithSource(record::LoadPage(), "record.mcap");
   options.forbidden = SayForbidden;
+  options.crowded = SayCrowded;
   const live::LiveServer server(options);
   CatchInterrupts();
   SayWhere(what + ", in a browser; Ctrl-C ends it", server, arguments.address, "read the record");

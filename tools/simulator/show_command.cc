@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <span>
 #include <string>
@@ -20,6 +19,7 @@
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/counted.h"
 #include "oca/models/opened_files.h"
+#include "oca/models/whole_file.h"
 #include "tools/simulator/commands.h"
 #include "tools/simulator/file_name.h"
 #include "tools/simulator/live_commands.h"
@@ -64,17 +64,6 @@ ShownRobot ReadRobot(const ShowArguments& arguments) {
   return robot;
 }
 
-void WritePage(const std::string& file, const std::string& mcap) {
-  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
-  stream << record::PageWithRecord(record::LoadPage(), mcap);
-  stream.close();
-  if (!stream) {
-    throw ConfigError(fmt::format(
-        "--output: got {}, which could not be written to the end; expected room", file));
-  }
-  Tell("wrote {}\n", file);
-}
-
 int ShowCommand(const ShowArguments& arguments) {
   models::OpenedFiles opened;
   auto [record, lines] = ReadRobot(arguments);
@@ -91,7 +80,8 @@ int ShowCommand(const ShowArguments& arguments) {
   }
   runs::CheckOutputs({{"--output", arguments.output}},
                      runs::InputsOf(opened.files(), "what the robot is read from"));
-  WritePage(arguments.output, record.mcap);
+  models::WriteWhole(arguments.output, record::PageWithRecord(record::LoadPage(), record.mcap));
+  Tell("wrote {}\n", arguments.output);
   return kFine;
 }
 

@@ -19,6 +19,7 @@
 #include "oca/version.h"
 #include "tools/simulator/commands.h"
 #include "tools/simulator/file_name.h"
+#include "tools/simulator/interrupt.h"
 #include "tools/simulator/live_commands.h"
 #include "tools/simulator/record_commands.h"
 #include "tools/simulator/scene_commands.h"
@@ -75,7 +76,9 @@ class CommandLine {
     });
     try {
       const int status = command_();
-      return FlushOutput() ? status : kRunFailed;
+      if (!FlushOutput()) return kRunFailed;
+      // One that came when there was nothing left to end counts too.
+      return status == kFine && Interrupted() ? kInterrupted : status;
     } catch (const SimulationError& error) {
       Tell("error: {}\n", error.what());
       return kRunFailed;
@@ -333,6 +336,7 @@ class CommandLine {
 
 int SimulatorMain(int argc, char** argv, const files::Catalogue& catalogue) {
   PrepareTerminal();
+  EndOnInterrupts();
   try {
     return CommandLine(catalogue).Main(argc, argv);
   } catch (const std::exception& error) {

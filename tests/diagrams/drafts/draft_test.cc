@@ -124,6 +124,40 @@ TEST_F(DraftTest, OfASmallArmHasSmallDistances) {
   EXPECT_THAT(Content(draft.diagram), HasSubstr("  scale: 0.4"));
 }
 
+/// A rail along x, a lift, and a boom of two segments along y with a tool at its end.
+std::string Gantry() {
+  std::string text = "<robot name='gantry'><link name='base'/>";
+  const auto add = [&text](const std::string& link, const std::string& parent,
+                           const std::string& origin, const std::string& axis,
+                           const std::string& range, const std::string& solid) {
+    text += "<link name='" + link + "'><collision>" + solid + "</collision></link><joint name='j" +
+            link + "' type='prismatic'><parent link='" + parent + "'/><child link='" + link +
+            "'/><origin xyz='" + origin + "'/><axis xyz='" + axis + "'/><limit lower='0' upper='" +
+            range + "' velocity='1' effort='1'/></joint>";
+  };
+  add("rail", "base", "0 0 0.5", "1 0 0", "1.6", "<geometry><box size='0.1 0.1 0.1'/></geometry>");
+  add("lift", "rail", "0 0 0.1", "0 0 1", "0.4", "<geometry><box size='0.1 0.1 0.1'/></geometry>");
+  add("boom", "lift", "0 0 0", "0 1 0", "0.3",
+      "<origin xyz='0 0.3 0'/><geometry><box size='0.06 0.4 0.06'/></geometry>");
+  add("inner", "boom", "0 0.3 0", "0 1 0", "0.13",
+      "<origin xyz='0 0.3 0'/><geometry><box size='0.04 0.3 0.04'/></geometry>");
+  return text +
+         "<link name='tool'><collision><geometry><sphere radius='0.04'/></geometry></collision>"
+         "</link><joint name='at' type='fixed'><parent link='inner'/><child link='tool'/><origin "
+         "xyz='0 0.5 0'/></joint></robot>";
+}
+
+TEST_F(DraftTest, OfSlidersAloneIsInMetres) {
+  const Draft draft = Make(Gantry());
+  EXPECT_EQ(draft.robot.model->num_positions(), 4);
+  EXPECT_TRUE(draft.robot.held.empty());
+  EXPECT_TRUE(draft.attempt.contact());
+  const std::string text = Content(draft.diagram);
+  EXPECT_THAT(text, AllOf(HasSubstr("    unit: m\n"), HasSubstr(", unit: m}"),
+                          HasSubstr("# m; and no contact")));
+  EXPECT_NO_THROW(loading::LoadDiagram(draft.diagram));
+}
+
 TEST_F(DraftTest, FillsInLimitsThatAreMissing) {
   const Draft draft = Make(ArmWithGripper(1.0, "velocity='0'"));
   ASSERT_EQ(draft.files.size(), 3);

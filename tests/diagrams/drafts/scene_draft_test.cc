@@ -201,12 +201,49 @@ world:
 }
 
 TEST_F(SceneDraftTest, TakesAsLongAsTheLimitsWant) {
-  std::string far = kRequest;
-  far.replace(far.find("position: 1}"), 11, "position: 200");
-  const SceneDraft draft = Make("world: {}\n", far);
-  // 1.875 times 200 rad at 2 rad/s.
-  EXPECT_THAT(text_, HasSubstr("{time: 188, position: [200, "));
-  EXPECT_THAT(draft.decided, Contains(HasSubstr("joint 'one_joint' at 200 is beyond its limits")));
+  std::string slow = ArmUrdf();
+  for (std::size_t at = 0; (at = slow.find("velocity='2'", at)) != std::string::npos;) {
+    slow.replace(at, 12, "velocity='0.02'");
+  }
+  options_.draft.robot = folder_.Write("slow.urdf", slow);
+  Make("world: {}\n");
+  // 1.875 times 1 rad at 0.02 rad/s.
+  EXPECT_THAT(text_, HasSubstr("{time: 94, position: [1, "));
+}
+
+TEST_F(SceneDraftTest, AGoalBeyondALimitIsRefusedButForItsDigits) {
+  std::string request = kRequest;
+  const std::size_t at = request.find("position: 1}");
+  request.replace(at, 12, "position: 2.1}");
+  EXPECT_THAT(RefusalOf("world: {}\n", request),
+              HasSubstr("request.yaml:7: goal_constraints[0]: joint 'one_joint'; got 2.1; expected "
+                        "a position within its limits, -2 to 2"));
+  EXPECT_FALSE(std::filesystem::exists(options_.diagram));
+  request.replace(at, 14, "position: 2.00005}");
+  EXPECT_EQ(RefusalOf("world: {}\n", request), "accepted");
+}
+
+TEST_F(SceneDraftTest, AStartBeyondALimitIsTold) {
+  std::string request = kRequest;
+  request.replace(request.find("[0, 0.5, 0,"), 11, "[2.1, 0.5, 0,");
+  EXPECT_THAT(Make("world: {}\n", request).decided,
+              Contains(HasSubstr("start_state: joint 'one_joint' at 2.1 is beyond its limits")));
+}
+
+TEST_F(SceneDraftTest, WhatCannotBeLoadedIsRefusedAtTheRequest) {
+  const std::string pose = R"(group_name: arm
+start_state: {joint_state: {name: [one_joint, two_joint, hand_joint], position: [0, 0.5, 0]}}
+goal_constraints:
+  - position_constraints:
+      - link_name: hand
+        constraint_region:
+          primitives: [{type: sphere, dimensions: [0.001]}]
+          primitive_poses: [{position: [9, 9, 9], orientation: [0, 0, 0, 1]}]
+)";
+  EXPECT_THAT(RefusalOf("world: {}\n", pose),
+              AllOf(HasSubstr("request.yaml:5: makes a diagram that cannot be loaded: "),
+                    HasSubstr("out of reach")));
+  EXPECT_FALSE(std::filesystem::exists(options_.diagram));
 }
 
 TEST_F(SceneDraftTest, WritesAnSrdfWhereNothingAllowsCollisions) {
@@ -231,7 +268,9 @@ TEST_F(SceneDraftTest, WhatIsMissingOrUnknownIsRefusedAndLeavesNoFile) {
   std::string less = kRequest;
   less.replace(less.find("hand_joint, position"), 10, "other_one_");
   EXPECT_THAT(RefusalOf("world: {}\n", less),
-              HasSubstr("request.yaml:7: goal_constraints[0]: joint 'hand_joint'; got none"));
+              AllOf(HasSubstr("request.yaml:7: goal_constraints[0]: joint 'hand_joint'; got none"),
+                    HasSubstr("joint 'other_one_'; got a name that the robot does not have"),
+                    HasSubstr("nearest is '")));
   EXPECT_THAT(RefusalOf("world: {}\n",
                         "group_name: arm\ngoal_constraints: [{joint_constraints: [{joint_name: "
                         "one_joint, position: 0}]}]\n"),

@@ -32,6 +32,24 @@ TEST(LinksAheadTest, StandAsLongAsNoPositionChanges) {
   EXPECT_FALSE(links.Stands(1.002));
 }
 
+TEST(LinksAheadTest, OfAVeryLongRunAreLookedAtSoOftenAndNotMore) {
+  long looks = 0;
+  const auto rests = [&looks](double time) -> Eigen::VectorXd {
+    ++looks;
+    return Vector2d(time > 5000.0 && time < 5001.0 ? 1.0 : 0.0, 0.5);  // but for one second
+  };
+  LinksAhead links(systems::LoadTestModel("planar2"), rests);
+  EXPECT_TRUE(links.Stands(4999.0));
+  EXPECT_FALSE(links.Stands(1e7));
+  LinksAhead still(systems::LoadTestModel("planar2"), [&looks](double) -> Eigen::VectorXd {
+    ++looks;
+    return Vector2d(0.0, 0.5);
+  });
+  looks = 0;
+  EXPECT_TRUE(still.Stands(1e7));
+  EXPECT_LE(looks, 300'001);
+}
+
 TEST(LinksAheadTest, OfAFrameStandWithoutPositions) {
   LinksAhead frame(systems::LoadTestModel("table_frame"), {});
   EXPECT_TRUE(frame.Stands(100.0));

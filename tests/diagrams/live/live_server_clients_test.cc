@@ -29,6 +29,16 @@ using testing::HasSubstr;
 using testing::Not;
 using namespace std::chrono_literals;
 
+/// Reads from a client until that is dropped.
+class Reading {
+ public:
+  explicit Reading(Client& client)
+      : thread_([&client] { EXPECT_THROW(for (;;) client.Read(), boost::system::system_error); }) {}
+
+ private:
+  std::jthread thread_;
+};
+
 TEST(LiveServerClientsTest, OutlivesGarbage) {
   LiveServer server(AnyPort());
   server.Begin(kChannels);
@@ -132,16 +142,54 @@ TEST(LiveServerClientsTest, NeverWaitsForAClientThatStopsReading) {
 TEST(LiveServerClientsTest, RefusesMoreConnectionsThanItWants) {
   LiveOptions options = AnyPort();
   options.max_clients = 2;
+  std::atomic<int> told{0};
+  options.crowded = [&](const std::string& what) { told += what.starts_with("a new connection"); };
   LiveServer server(options);
   Client one(server.port()), two(server.port());
   one.Settle();
   two.Settle();
+  const Reading reads_one(one), reads_two(two);  // and so answers pings
   EXPECT_THROW(Client(server.port()), boost::system::system_error);
   EXPECT_EQ(server.statistics().refused, 1u);
-  one.Close();
+  EXPECT_EQ(server.statistics().gave_way, 0u);
+  EXPECT_EQ(told, 1);
+  one.Drop();
   EXPECT_TRUE(Eventually([&] { return server.statistics().clients == 1; }));
   Client three(server.port());
   three.Settle();
+  two.Drop();
+}
+
+TEST(LiveServerClientsTest, ClientsThatDoNotReadGiveWayToNewOnes) {
+  LiveOptions options = AnyPort();
+  options.max_clients = 4;
+  options.patience = 300ms;
+  std::atomic<int> told{0};
+  options.crowded = [&](const std::string& what) { told += what.starts_with("a client that did"); };
+  LiveServer server(options);
+  server.Begin(kChannels);
+  Client reader(server.port());
+  reader.Settle();
+  const Reading reads(reader);
+  std::deque<Client> silent;  // they subscribed, and neither read nor answer
+  for (int i = 0; i < 3; ++i) {
+    silent.emplace_back(server.port()).Subscribe(2, 1);
+    silent.back().Settle();
+  }
+  const auto start = std::chrono::steady_clock::now();
+  std::deque<Client> fresh;
+  for (int i = 0; i < 3; ++i) fresh.emplace_back(server.port()).Settle();
+  const auto took = std::chrono::steady_clock::now() - start;
+  EXPECT_GE(took, 300ms);  // so long they may take to answer
+  EXPECT_LT(took, 10s);    // not a minute
+  for (Client& client : silent) {
+    EXPECT_THROW(for (;;) client.Read(), boost::system::system_error);
+  }
+  EXPECT_EQ(server.statistics().gave_way, 3u);
+  EXPECT_EQ(server.statistics().refused, 0u);
+  EXPECT_EQ(told, 1);                         // once of a kind
+  EXPECT_EQ(server.statistics().clients, 4);  // the one that reads among them
+  reader.Drop();
 }
 
 TEST(LiveServerClientsTest, IdleSocketsKeepNobodyOut) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <sys/socket.h>
+
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
@@ -70,6 +72,8 @@ class Client {
     while (ReadOp("parameterValues").value("id", "") != "settle") {
     }
   }
+  /// Ends the connection under whoever reads from it on another thread.
+  void Drop() { ::shutdown(stream_.next_layer().native_handle(), SHUT_RDWR); }
   void Close() { stream_.close(websocket::close_code::normal); }
 
  private:

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -78,7 +80,62 @@ TEST_F(RequestCheckFile, AGoalBeyondALimitIsNamedWithItsPlace) {
 
 TEST_F(RequestCheckFile, AStartBeyondALimitIsNamed) {
   EXPECT_THAT(Told({"systems.plant.initial_position=[3.5, 0]"}),
-              ElementsAre(AllOf(HasSubstr("systems.plant: joint 'j1' starts at 3.5 rad"))));
+              ElementsAre(HasSubstr("systems.plant: joint 'j1' starts at 3.5 rad"),
+                          HasSubstr("the request begins elsewhere")));
+}
+
+TEST_F(RequestCheckFile, ARequestThatBeginsElsewhereIsNamed) {
+  EXPECT_THAT(Told({"systems.plant.initial_position=[0, 0.01]"}),
+              ElementsAre(HasSubstr("systems.spline: the request begins elsewhere than the arm: "
+                                    "joint 'j2' at 0 rad, where it stands at 0.01")));
+  EXPECT_THAT(Told({"systems.plant.initial_position=[0.01, 0.01]"}),
+              ElementsAre(HasSubstr("; and 1 more joint likewise")));
+  EXPECT_THAT(Told({"systems.plant.initial_position=[0, 0.0009]"}), IsEmpty());
+}
+
+TEST_F(RequestCheckFile, ARequestThatEndsAfterTheRunIsNamed) {
+  EXPECT_THAT(Told({"simulator.duration=1"}),
+              ElementsAre(HasSubstr("systems.spline: the request ends at 3.5 s, after the run, "
+                                    "which ends at 1 s")));
+  EXPECT_THAT(Told({"simulator.duration=3.5"}), IsEmpty());
+}
+
+// The same arm with two fingers, one of which mimics the other.
+class GripperCheckFile : public RequestCheckFile {
+ protected:
+  GripperCheckFile() {
+    const std::string finger =
+        "<parent link='fore'/><origin xyz='0.5 0 0'/><axis xyz='0 1 0'/><limit lower='0' "
+        "upper='0.04' velocity='0.2' effort='1'/>";
+    std::ifstream in(folder_.path() / "arm.urdf");
+    std::string urdf(std::istreambuf_iterator<char>(in), {});
+    urdf.replace(urdf.find("</robot>"), 8,
+                 "<link name='left'/><link name='right'/><joint name='l' type='prismatic'><child "
+                 "link='left'/>" +
+                     finger + "</joint><joint name='r' type='prismatic'><child link='right'/>" +
+                     finger + "<mimic joint='l'/></joint></robot>");
+    folder_.Write("arm.urdf", urdf);
+  }
+  std::vector<std::string> OfFingers(const std::string& goal) const {
+    return Told(
+        {"systems.spline.key_points=[{time: 0.5, position: [0, 0, 0.02]}, {time: 3.5, position: "
+         "[1, "
+         "0, " +
+             goal + "]}]",
+         "systems.plant.initial_position=[0, 0, 0.02]"});
+  }
+};
+
+TEST_F(GripperCheckFile, FingersThatAreAskedToStayAreNamedSinceWhatEvadesMovesThem) {
+  EXPECT_THAT(
+      OfFingers("0.02"),
+      ElementsAre(AllOf(HasSubstr("systems.spline: what evades moves joints of model 'arm'"),
+                        HasSubstr("`held: {l: 0.02}`"))));
+}
+
+TEST_F(GripperCheckFile, FingersThatTheTaskMovesOrTheModelHoldsAreNot) {
+  EXPECT_THAT(OfFingers("0.03"), IsEmpty());
+  EXPECT_THAT(Told({"models.arm.held={l: 0.02}"}), IsEmpty());
 }
 
 TEST_F(RequestCheckFile, ARequestTooFastIsNamedWithItsSpeed) {

@@ -105,6 +105,15 @@ TEST_F(RunTest, WritesTablesOfWhatTheFileRecords) {
   EXPECT_THAT(Text(folder / "first.metrics.jsonl"), HasSubstr("{\"time\":1,\"value\":{"));
 }
 
+TEST_F(RunTest, RefusesTablesOfADiagramThatRecordsNothing) {
+  const fs::path folder = folder_.path() / "csv";
+  Csv csv(folder);
+  const LoadedDiagram loaded = Load("systems: {c: {type: Constant, value: [1]}}\n");
+  EXPECT_THAT([&] { runs::Run(loaded, {.duration = 1.0, .outputs = {&csv}}); },
+              ThrowsMessage<ConfigError>(HasSubstr("csv: section `record`; got no signals")));
+  EXPECT_FALSE(fs::exists(folder));
+}
+
 TEST_F(RunTest, RefusesOutputsThatWouldReplaceWhatItReadsOrOneAnotherBeforeAnythingIsWritten) {
   const LoadedDiagram loaded = Load(kRamp);
   const std::string before = Text(loaded.file);

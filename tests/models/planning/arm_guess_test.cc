@@ -107,6 +107,54 @@ TEST(ArmGuessTest, EndsAtAJawThatItsNameTells) {
   }
 }
 
+TEST(ArmGuessTest, AShortSlideThatCarriesAWristIsNoJaw) {
+  const Guess guess = GuessOf(
+      Tree().Chain("j", "base", 4).Add("slide", "j4", "prismatic").Add("wrist", "slide").Robot());
+  EXPECT_THAT(guess.joints, ElementsAre("j1", "j2", "j3", "j4", "slide", "wrist"));
+  EXPECT_THAT(guess.others, IsEmpty());
+}
+
+TEST(ArmGuessTest, ATelescopeIsNoJawAndASlideAcrossIs) {
+  Tree lift;
+  lift.Chain("j", "base", 3).Add("s1", "j3", "prismatic", "<axis xyz='0 1 0'/>");
+  lift.Add("plate", "s1", "fixed");
+  Tree across = lift;
+  const Guess telescope =
+      GuessOf(lift.Add("s2", "plate", "prismatic", "<axis xyz='0 -1 0'/>").Robot());
+  EXPECT_THAT(telescope.joints, ElementsAre("j1", "j2", "j3", "s1", "s2"));
+  const Guess jaw = GuessOf(across.Add("s2", "plate", "prismatic", "<axis xyz='1 0 0'/>").Robot());
+  EXPECT_THAT(jaw.joints, ElementsAre("j1", "j2", "j3", "s1"));
+  EXPECT_THAT(jaw.others, ElementsAre("s2"));
+}
+
+Names BesideArm(const robot::RobotModel& model) {
+  Names names;
+  for (const int j : JointsBesideArm(model)) names.push_back(model.joints()[j].name.text());
+  return names;
+}
+
+TEST(JointsBesideArmTest, AreFingersOfHoweverShortAnArm) {
+  EXPECT_THAT(BesideArm(Tree()
+                            .Chain("j", "base", 2)
+                            .Add("left", "j2", "prismatic")
+                            .Add("right", "j2", "prismatic", Mimic("left"))
+                            .Robot()),
+              ElementsAre("left"));
+  EXPECT_THAT(BesideArm(Tree().Chain("j", "base", 2).Add("gripper", "j2").Robot()),
+              ElementsAre("gripper"));
+  EXPECT_THAT(BesideArm(Tree().Chain("j", "base", 6).Add("left_finger", "j6").Robot()),
+              ElementsAre("left_finger"));
+}
+
+TEST(JointsBesideArmTest, AreNoneOfAnArmAlone) {
+  EXPECT_THAT(BesideArm(Tree().Chain("j", "base", 3).Robot()), IsEmpty());
+  // A linkage that the last joint carries keeps the hand level.
+  EXPECT_THAT(
+      BesideArm(Tree().Chain("j", "base", 3).Add("level", "j3", "revolute", Mimic("j3")).Robot()),
+      IsEmpty());
+  EXPECT_THAT(BesideArm(Tree().Add("j1", "base").Robot()), IsEmpty());
+}
+
 TEST(ArmGuessTest, OfAHandWithFingersOfFourJointsIsTheArmAlone) {
   Tree tree;
   tree.Chain("j", "base", 6);

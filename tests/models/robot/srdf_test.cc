@@ -284,7 +284,8 @@ TEST(SrdfTest, WritingRefusesAFileOfAnotherRobotAndLeavesItAsItIs) {
   EXPECT_THAT([&] { SaveDisabledPairs(urdf, "r", {}); },
               ThrowsMessage<models::ModelError>(HasSubstr("got a URDF")));
   EXPECT_THAT([&] { SaveDisabledPairs(folder.path() / "none" / "x.srdf", "r", {}); },
-              ThrowsMessage<models::ModelError>(HasSubstr("x.srdf: SRDF to write")));
+              ThrowsMessage<models::ModelError>(
+                  HasSubstr("x.srdf: cannot be written; got No such file or directory; expected")));
 }
 
 }  // namespace srdf_test
