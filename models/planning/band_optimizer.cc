@@ -49,6 +49,14 @@ BandOptimizer::BandOptimizer(const robot::Clearance& arm, const BandSettings& se
   }
 }
 
+void BandOptimizer::AskAhead(int count, double reach) {
+  candidates_ = {};
+  if (!something_near_) return;
+  if (!batch_) batch_.emplace(clearance_, moving_);
+  ++batches_;
+  candidates_ = batch_->Near(ahead_, count, reach, balls_ahead_);
+}
+
 void BandOptimizer::Visit(const Sample& sample, int lane, double reach) {
   ++evaluations_;
   q_ = ahead_.col(lane);

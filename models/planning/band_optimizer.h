@@ -74,6 +74,8 @@ struct BandCheck {
   double violation{0.0};
   /// The same, but what stands and own links are asked for hard_distance only.
   double breach{0.0};
+  /// The same, but what moves is asked for flying_distance only.
+  double contact{0.0};
   double first{0.0};  ///< s; first and last time at which it is not wide
   double last{0.0};
   /// s; first and last times at which something is nearer than what is wanted, a second apart
@@ -87,6 +89,8 @@ struct BandCheck {
   bool wide() const { return !(violation > 0.0); }
   /// No pair below what it must keep, and within the limits.
   bool clear() const { return !(breach > 0.0); }
+  /// It may be nearer to what moves than what is clear, but not so near that a filter must help.
+  bool evades() const { return !(contact > 0.0); }
   /// s; first time at which a filter has to help.
   double touch() const {
     return std::min({clear() ? touch_hard : touch_trust, touch_flying, touch_limits});
@@ -144,6 +148,12 @@ class BandOptimizer {
   /// Improves a band by at most `most` steps; its cost. Never makes it dearer.
   double Relax(BandCurve& curve, int most);
   BandCheck Check(const BandCurve& curve);
+  /// Which of the first `count` columns of q (num_positions() rows, at most 8) evade all at the end of
+  /// the grid, a bit each. After Prepare and YieldAt.
+  unsigned EvadesAtEnd(const Eigen::Ref<const Eigen::MatrixXd>& q, int count);
+  /// BandCheck::evades() of a band, looked at from `from` (s) on, then from its start up to there, up
+  /// to the first point that does not.
+  bool EvadesAll(const BandCurve& curve, double from);
   /// Away from these times (BandCheck::near of what is requested), return_nearness is the price of a
   /// deviation: from 0.2 s before the end of each more and more, up to `before` s before the begin of
   /// the next. After Prepare, which says that nearness is the price.
@@ -212,6 +222,9 @@ class BandOptimizer {
   /// `deviation` (a sample, into a vector) tells.
   template <class Deviation>
   void LookAhead(std::span<const Sample> samples, double reach, const Deviation& deviation);
+  void AskAhead(int count, double reach);
+  /// Whether at what was visited all is evaded, and, of a band, limits are kept.
+  bool Evades(const Sample& sample, const BandCurve* curve);
   /// Of sample `lane` of those: brings the robot there, and, if need be, the bodies; the pairs within
   /// that reach are pairs_ then.
   void Visit(const Sample& sample, int lane, double reach);
@@ -232,7 +245,7 @@ class BandOptimizer {
   double LeftByEnds(const robot::NearPair& pair, double time) const;
   /// What lacks of a sample, placed, whose nearest distance is known; into the check.
   struct Lack {
-    double wide{0.0}, hard{0.0};
+    double wide{0.0}, hard{0.0}, contact{0.0};
   };
   Lack LackAt(double nearest, double time, BandCheck& check);
   /// m; what is farther than this from a sample is not known to a check.
@@ -280,7 +293,6 @@ class BandOptimizer {
 template <class Deviation>
 void BandOptimizer::LookAhead(std::span<const Sample> samples, double reach,
                               const Deviation& deviation) {
-  candidates_ = {};
   if (samples.size() > BatchClearance::kLanes) samples = samples.first(BatchClearance::kLanes);
   balls_ahead_.clear();
   Eigen::VectorXd x(q_.size());
@@ -290,10 +302,7 @@ void BandOptimizer::LookAhead(std::span<const Sample> samples, double reach,
     const auto ball = balls_.begin() + samples[k].first_ball;
     balls_ahead_.insert(balls_ahead_.end(), ball, ball + std::ssize(moving_));
   }
-  if (!something_near_) return;
-  if (!batch_) batch_.emplace(clearance_, moving_);
-  ++batches_;
-  candidates_ = batch_->Near(ahead_, static_cast<int>(samples.size()), reach, balls_ahead_);
+  AskAhead(static_cast<int>(samples.size()), reach);
 }
 
 }  // namespace oca::planning

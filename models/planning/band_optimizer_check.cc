@@ -75,6 +75,7 @@ BandOptimizer::Lack BandOptimizer::LackAt(double nearest, double time, BandCheck
       const double lacking = std::max(clear - pair.distance, 0.0);
       lack.wide = std::max(lack.wide, lacking);
       lack.hard = std::max(lack.hard, lacking);
+      lack.contact = std::max(lack.contact, settings_.flying_distance - pair.distance);
       if (pair.distance < settings_.flying_distance) {
         check.touch_flying = std::min(check.touch_flying, time);
       }
@@ -86,6 +87,7 @@ BandOptimizer::Lack BandOptimizer::LackAt(double nearest, double time, BandCheck
     if (pair.distance < wide) check.kept = std::min(check.kept, pair.distance / pair.scale);
     lack.wide = std::max(lack.wide, wide - pair.distance);
     lack.hard = std::max(lack.hard, hard - pair.distance);
+    lack.contact = std::max(lack.contact, hard - pair.distance);
     if (pair.distance < std::min(settings_.trust_distance, most)) {
       check.touch_trust = std::min(check.touch_trust, time);
     }
@@ -131,6 +133,7 @@ BandCheck BandOptimizer::Check(const BandCurve& curve) {
     const double excess = std::max(AddedExcess(sample, curve) - kExcessTolerance, 0.0);
     const Lack lack = LackAt(pair.distance, sample.time, check);
     if (excess > 0.0) check.touch_limits = std::min(check.touch_limits, sample.time);
+    check.contact += sample.weight * (lack.contact + kExcessPrice * excess);
     check.breach += sample.weight * (lack.hard + kExcessPrice * excess);
     if (!(lack.wide > 0.0 || excess > 0.0)) continue;
     if (check.wide()) check.first = sample.time;
@@ -138,6 +141,53 @@ BandCheck BandOptimizer::Check(const BandCurve& curve) {
     check.violation += sample.weight * (lack.wide + kExcessPrice * excess);
   }
   return check;
+}
+
+bool BandOptimizer::Evades(const Sample& sample, const BandCurve* curve) {
+  BandCheck check{};
+  double nearest = robot::kUnlimited;
+  for (const robot::NearPair& pair : pairs_) nearest = std::min(nearest, pair.distance);
+  if (LackAt(nearest, sample.time, check).contact > 0.0) return false;
+  return curve == nullptr || AddedExcess(sample, *curve) <= kExcessTolerance;
+}
+
+unsigned BandOptimizer::EvadesAtEnd(const Eigen::Ref<const Eigen::MatrixXd>& q, int count) {
+  const Sample& end = checks_.back();
+  balls_ahead_.clear();
+  for (int k = 0; k < count; ++k) {
+    const auto ball = balls_.begin() + end.first_ball;
+    balls_ahead_.insert(balls_ahead_.end(), ball, ball + std::ssize(moving_));
+  }
+  ahead_.leftCols(count) = q.leftCols(count);
+  AskAhead(count, Reach());
+  unsigned evading = 0;
+  for (int k = 0; k < count; ++k) {
+    Visit(end, k, Reach());
+    if (Evades(end, nullptr)) evading |= 1u << k;
+  }
+  return evading;
+}
+
+bool BandOptimizer::EvadesAll(const BandCurve& curve, double from) {
+  const auto later = static_cast<std::size_t>(
+      std::lower_bound(checks_.begin(), checks_.end(), from,
+                       [](const Sample& sample, double time) { return sample.time < time; }) -
+      checks_.begin());
+  const auto evades = [&](std::span<const Sample> samples) {
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const int lane = static_cast<int>(i % BatchClearance::kLanes);
+      if (lane == 0) {
+        LookAhead(samples.subspan(i), Reach(), [&](const Sample& at, Eigen::VectorXd& into) {
+          curve.Evaluate(at.time, 0, into);
+        });
+      }
+      Visit(samples[i], lane, Reach());
+      if (!Evades(samples[i], &curve)) return false;
+    }
+    return true;
+  };
+  const std::span<const Sample> all(checks_);
+  return evades(all.subspan(later)) && evades(all.first(later));
 }
 
 BandOptimizer::Room BandOptimizer::RoomAt(const Eigen::VectorXd& q, double time) {

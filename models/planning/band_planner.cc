@@ -207,6 +207,7 @@ void BandPlanner::Certify(const BandTask& task, BandPlan& plan) {
 bool BandPlanner::Better(const BandPlan& plan, const BandPlan& best) const {
   const bool clear = plan.check.clear();
   if (clear != best.check.clear()) return clear;
+  if (!clear && plan.check.evades() != best.check.evades()) return plan.check.evades();
   if (!clear) return plan.check.violation < 0.95 * best.check.violation;
   // What stands may set off, where other things move.
   if (moving_ && (plan.level == 0) != (best.level == 0)) return plan.level == 0;
@@ -222,28 +223,6 @@ void BandPlanner::Keep(const BandTask& task, BandPlan plan, BandPlan& best) {
   if (!Better(plan, best)) return;
   Certify(task, plan);
   if (Better(plan, best)) best = std::move(plan);
-}
-
-std::optional<BandPlan> BandPlanner::KeepLast(const BandTask& task, const BandCurve* last) {
-  if (Moves(task.bodies) || last == nullptr || last->empty()) return std::nullopt;
-  if (last->end() < task.request_end || last->end() < task.start + kFine) return std::nullopt;
-  VectorXd x(last->size());
-  for (int d = 0; d < 3; ++d) {
-    last->Evaluate(task.start, d, x);
-    if ((x - task.deviation[d]).cwiseAbs().maxCoeff() > kSameState) return std::nullopt;
-  }
-  band_.Prepare(*last, task.request, task.bodies, true, task.start);
-  FixEnd(task, last->end());
-  x = last->controls().rightCols(1);
-  if (task.end.size() > 0) x -= task.end;
-  end_fixed_ = end_fixed_ && x.cwiseAbs().maxCoeff() < kSameState;
-  if (!end_fixed_) return std::nullopt;
-  BandPlan plan{.curve = *last, .start = BandStart::kLast};
-  plan.cost = band_.Cost(plan.curve);
-  Judge(plan);
-  Certify(task, plan);
-  if (!plan.check.clear()) return std::nullopt;
-  return plan;
 }
 
 BandPlan BandPlanner::Plan(const BandTask& task, const BandCurve* last) {
@@ -272,7 +251,8 @@ bool BandPlanner::HasArrived(const BandTask& task) const {
 }
 
 BandPlan BandPlanner::PlanAnew(const BandTask& task, const BandCurve* last) {
-  Prepare(task, GridOf(task, last, Moves(task.bodies)));
+  Prepare(task, GridOf(task, last, moving_));
+  LookLessFarInNeed(task, last);
   const bool at_rest = task.deviation[0].cwiseAbs().maxCoeff() < kAtRest &&
                        task.deviation[1].cwiseAbs().maxCoeff() < kAtRest;
   BandPlan best{.curve = zero_, .start = BandStart::kRequest};
@@ -300,24 +280,21 @@ bool BandPlanner::MayReturn(const BandTask& task, const BandCheck& trouble) {
   return true;
 }
 
+void BandPlanner::SetEndFixed(bool fixed) {
+  end_fixed_ = fixed;
+  band_.FixEnd(fixed);
+}
+
+BandPlan BandPlanner::Unrelaxed(BandStart kind, BandCurve curve) {
+  BandPlan plan{.curve = std::move(curve), .start = kind};
+  plan.cost = band_.Cost(plan.curve);
+  Judge(plan);
+  return plan;
+}
+
 BandPlan BandPlanner::Bend(const BandTask& task, const BandCheck& trouble, const BandCurve* last) {
   if (MayReturn(task, trouble)) band_.ReturnBetween(trouble.near, kEvadeAhead);
-  BandCurve warm = zero_;
-  if (last != nullptr && !last->empty()) {
-    VectorXd x(zero_.size());
-    warm = Shaped(task, [&](double time) -> VectorXd {
-      last->Evaluate(time, 0, x);
-      return x;
-    });
-  }
-  BandPlan best = Finish(BandStart::kLast, warm, settings_.iterations);
-  Certify(task, best);
-  if (!best.check.wide() && end_fixed_ && moving_) {
-    // What flies may be between the arm and where it is to be at the end.
-    end_fixed_ = false;
-    band_.FixEnd(false);
-    Keep(task, Finish(BandStart::kLast, std::move(warm), settings_.iterations), best);
-  }
+  BandPlan best = GoOnWith(task, last);
   if (trouble.wide() || !best.check.wide()) {
     BandPlan back = Finish(BandStart::kRequest, zero_, settings_.iterations);
     if (!best.check.wide() || back.cost < kMuchCheaper * best.cost) {

@@ -17,9 +17,11 @@
 namespace oca::planning {
 
 /// Which start won: the request itself, the last band, the last band or the request relaxed, a
-/// pause, a joint that goes out of the way, all of them at random, or a path of RrtConnect.
-enum class BandStart { kRequest, kLast, kPause, kDetour, kRandom, kPath };
-inline constexpr std::array kBandStartNames{"request", "last", "pause", "detour", "random", "path"};
+/// pause, a joint that goes out of the way, all of them at random, a path past what stands, or an
+/// escape.
+enum class BandStart { kRequest, kLast, kPause, kDetour, kRandom, kPath, kEscape };
+inline constexpr std::array kBandStartNames{"request", "last", "pause", "detour",
+                                            "random",  "path", "escape"};
 inline std::span<const char* const> EnumNames(BandStart) { return kBandStartNames; }
 
 struct BandPlannerSettings {
@@ -87,12 +89,16 @@ inline constexpr int kFewestBandSteps = 5;  ///< on a start; less is no trial
 /// Finds bands: keeps the last one where it can be made clear, else tries many starts.
 ///
 /// 1. The request, if nothing deviates and it is clear.
-/// 2. The last band, relaxed; or the way straight back, if that is clear and much cheaper.
+/// 2. The last band, relaxed; or the way straight back, if that is clear and much cheaper. While
+///    something moves and the last band is not clear either: escapes, straight motions at once to
+///    where the arm is out of reach, which are tested rather than relaxed: where everything closes in,
+///    a gradient leads nowhere.
 /// 3. If that is not clear, or the task is fresh: retreats along the gradient of the distance,
 ///    pauses before what moves, detours of each joint around the time in question, random ones, and
 ///    if these are not clear, paths of RrtConnect past what stands; the cheapest few are relaxed,
 ///    and of those that are clear the one wins whose joints go the shortest way, a missing margin
-///    counted at kMarginWay. If none is clear: what lacks least.
+///    counted at kMarginWay. If none is clear: one that evades what moves (BandCheck::evades), then
+///    what lacks least.
 ///
 /// A plan looks at about most_evaluations configurations, if that is above 0: a search then tries
 /// some of the starts, the next one (BandTask::search) goes on with others, every third tries one
@@ -148,6 +154,16 @@ class BandPlanner {
   Eigen::VectorXd GoalAt(const BandTask& task, double time) const;
   void Certify(const BandTask& task, BandPlan& plan);
   BandCurve Shaped(const BandTask& task, const std::function<Eigen::VectorXd(double)>& shape) const;
+  void SetEndFixed(bool fixed);
+  BandPlan Unrelaxed(BandStart kind, BandCurve curve);
+  /// The last band on the grid at hand; its end is the goal if the end is fixed.
+  BandCurve Followed(const BandTask& task, const BandCurve* last) const;
+  /// Whether the last band left its end free, which now could be the goal.
+  bool EndsElsewhere(const BandCurve* last) const;
+  /// Where the last band, whose grid goes on beyond moving_horizon, meets something: a shorter grid.
+  void LookLessFarInNeed(const BandTask& task, const BandCurve* last);
+  /// The last band, relaxed; as it is, if only that is clear; escapes, if neither is.
+  BandPlan GoOnWith(const BandTask& task, const BandCurve* last);
   BandPlan Finish(BandStart kind, BandCurve curve, int iterations);
   void Judge(BandPlan& plan);
   /// Whether the arm stands where it is to end, the request rests and nothing moves.
@@ -165,6 +181,9 @@ class BandPlanner {
                    std::vector<Start>& starts);
   void AddPauses(const BandTask& task, const BandCheck& trouble, std::vector<Start>& starts) const;
   void AddDetours(const BandTask& task, const BandCheck& trouble, std::vector<Start>& starts) const;
+  /// Straight motions from the start to positions, drawn at random, that evade all at the end of the
+  /// grid and on the way.
+  void TryEscapes(const BandTask& task, BandPlan& best);
   /// Where nothing moves: a band that goes on as near to the request as is clear, and ends there.
   void Wait(const BandTask& task, BandPlan& best);
   void TryPaths(const BandTask& task, BandPlan& best);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "oca/models/planning/band_planner.h"
+#include "oca/models/planning/path_timing.h"
 #include "oca/models/planning/rrt_connect.h"
 #include "oca/models/planning/smooth_step.h"
 #include "oca/models/random.h"
@@ -23,41 +24,6 @@ constexpr std::uint64_t kPathTurn = 3;  // one of so many plans looks for paths,
 constexpr double kPathRoom = 1.3;       // times what a band keeps, so that it may bend
 constexpr double kEndRoom = 1.02;       // times what must be kept: as much is left at an end
 constexpr double kEndShare = 0.9;       // of what the ends of a path leave, if that is less
-constexpr double kPathSpeed = 2.0;      // rad/s, in the 2-norm; more takes more points of a band
-// Of SmoothStep: its largest slope and curvature.
-constexpr double kStepSlope = 15.0 / 8.0;
-constexpr double kStepBend = 5.7735;
-
-/// The largest share of a limit; nothing moves where a limit is 0, which then is none.
-double MostOf(const VectorXd& values, const VectorXd& limits) {
-  double most = 0.0;
-  for (Eigen::Index j = 0; j < values.size(); ++j) {
-    if (values[j] > 0.0 && limits[j] > 0.0) most = std::max(most, values[j] / limits[j]);
-  }
-  return most;
-}
-
-/// How long each part of a path takes at least, s, within kPathSpeed and the limits of speed.
-std::vector<double> TimesAlong(const robot::RobotModel& model, const std::vector<VectorXd>& path) {
-  std::vector<double> times{0.0};
-  for (std::size_t k = 1; k < path.size(); ++k) {
-    const VectorXd way = (path[k] - path[k - 1]).cwiseAbs();
-    const double least = MostOf(way, model.velocity_limits());
-    times.push_back(times.back() + std::max(least, way.norm() / kPathSpeed));
-  }
-  return times;
-}
-
-/// In which SmoothStep goes along a path within the limits of speed and acceleration, but for its
-/// corners, s.
-double DurationAlong(const robot::RobotModel& model, const std::vector<VectorXd>& path,
-                     double limit_share) {
-  VectorXd way = VectorXd::Zero(path.front().size());
-  for (std::size_t k = 1; k < path.size(); ++k) way += (path[k] - path[k - 1]).cwiseAbs();
-  const double bend = MostOf(way, model.acceleration_limits());
-  return std::max(kStepSlope * TimesAlong(model, path).back(), std::sqrt(kStepBend * bend)) /
-         limit_share;
-}
 
 }  // namespace
 
@@ -196,10 +162,7 @@ void BandPlanner::TryPath(const BandTask& task, const std::vector<VectorXd>& pat
   for (const double interval : {0.25, 0.15, 0.1}) {
     Prepare(task, {duration + settings_.tail, interval});
     const BandCurve along = Along(task, path);
-    BandPlan raw{.curve = along, .start = BandStart::kPath};
-    raw.cost = band_.Cost(along);
-    Judge(raw);
-    Keep(task, std::move(raw), best);
+    Keep(task, Unrelaxed(BandStart::kPath, along), best);
     Keep(task, Finish(BandStart::kPath, along, settings_.start_iterations), best);
     if (best.check.clear() || moving_) return;
     duration *= 1.4;

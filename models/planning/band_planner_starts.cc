@@ -68,8 +68,7 @@ void BandPlanner::Explore(const BandTask& task, const BandCheck& trouble, const 
 }
 
 void BandPlanner::Wait(const BandTask& task, BandPlan& best) {
-  end_fixed_ = false;
-  band_.FixEnd(false);
+  SetEndFixed(false);
   VectorXd stop(zero_.size()), v(zero_.size()), request(zero_.size());
   task.request(task.start, 0, stop);
   task.request(task.start, 1, v);
@@ -78,13 +77,9 @@ void BandPlanner::Wait(const BandTask& task, BandPlan& best) {
     task.request(time, 0, request);
     return stop - request;
   });
-  BandPlan stay{.curve = here, .start = BandStart::kPause};
-  stay.cost = band_.Cost(here);
-  Judge(stay);
-  Keep(task, std::move(stay), best);
+  Keep(task, Unrelaxed(BandStart::kPause, here), best);
   Keep(task, Finish(BandStart::kPause, std::move(here), settings_.iterations), best);
-  end_fixed_ = true;
-  band_.FixEnd(true);
+  SetEndFixed(true);
 }
 
 void BandPlanner::AddPauses(const BandTask& task, const BandCheck& trouble,

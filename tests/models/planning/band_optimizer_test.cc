@@ -295,5 +295,39 @@ TEST(BandOptimizerTest, WithoutBodiesTheRequestIsBest) {
   EXPECT_LT(curve.controls().cwiseAbs().maxCoeff(), 1e-6);
 }
 
+TEST(BandOptimizerTest, WhatEvadesAllIsFoundAsCheckFindsIt) {
+  Sweep sweep;
+  const robot::PlacedBody ball = test::BoxAt({0.15, 0.15, 0.15}, {0.5, 0.0, 1.2});
+  sweep.bodies.push_back({models::Name("flying"), ball.collider,
+                          [X = ball.X_WO](double time) {
+                            Eigen::Isometry3d moved = X;
+                            moved.translation().y() += 0.1 * time;
+                            return moved;
+                          },
+                          false});
+  BandOptimizer band(sweep.model, {});
+  BandCurve curve = sweep.Curve();
+  band.Prepare(curve, sweep.request(), sweep.bodies, false);
+  models::Random random(11);
+  int evading = 0, near = 0;
+  for (int i = 0; i < 200; ++i) {
+    VectorXd out(7);
+    for (double& x : out) x = random.Uniform(-1.2, 1.2);
+    curve.Follow([&](double time) -> VectorXd { return std::min(time, 1.0) * out; });
+    const BandCheck check = band.Check(curve);
+    EXPECT_EQ(band.EvadesAll(curve, random.Uniform(-1.0, 11.0)), check.evades()) << i;
+    evading += check.evades();
+    near += check.evades() && !check.clear();
+    // Where it ends, nothing is evaded that the band does not evade.
+    VectorXd end(7), x(7);
+    sweep.request()(curve.end(), 0, end);
+    curve.Evaluate(curve.end(), 0, x);
+    if (check.evades()) EXPECT_EQ(band.EvadesAtEnd(end + x, 1), 1u) << i;
+  }
+  EXPECT_GT(evading, 10);
+  EXPECT_LT(evading, 190);
+  EXPECT_GT(near, 0);
+}
+
 }  // namespace band_optimizer_test
 }  // namespace oca::planning
