@@ -38,7 +38,7 @@ Value::Held Value::Hold(Data data) {
         if constexpr (std::is_same_v<T, List> || std::is_same_v<T, Map>) {
           return std::make_shared<T>(std::move(one));
         } else {
-          return std::move(one);
+          return Held(std::move(one));
         }
       },
       std::move(data));

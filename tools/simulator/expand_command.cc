@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <filesystem>
+
 #include "oca/diagrams/files/package_paths.h"
 #include "oca/diagrams/runs/output_files.h"
 #include "oca/models/opened_files.h"

@@ -113,7 +113,7 @@ const char* PlanFooter() {
   speed_judged, acceleration_judged
                        all joints of the model have such limits; false: judged without
   jerk_judged          false, if the model has limits of the jerk: they are not looked at
-  start                what the motion was made from: request, pause, detour, random, path
+  start                what the motion was made from: request, pause, detour, random, path, escape
   tries                motions that it took; 0: the request itself is clear
   path_length          of the joints along that motion, the 2-norm of each step, summed
   time_to_goal         s; from which on it is within 0.01 of the request's end; null: it is not
