@@ -322,7 +322,9 @@ TEST(BandOptimizerTest, WhatEvadesAllIsFoundAsCheckFindsIt) {
     VectorXd end(7), x(7);
     sweep.request()(curve.end(), 0, end);
     curve.Evaluate(curve.end(), 0, x);
-    if (check.evades()) EXPECT_EQ(band.EvadesAtEnd(end + x, 1), 1u) << i;
+    if (check.evades()) {
+      EXPECT_EQ(band.EvadesAtEnd(end + x, 1), 1u) << i;
+    }
   }
   EXPECT_GT(evading, 10);
   EXPECT_LT(evading, 190);
