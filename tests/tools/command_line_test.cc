@@ -181,7 +181,7 @@ TEST_F(CommandLineTest, AFileWithoutANameIsRefusedInWords) {
   for (const char* command : {"check", "run"}) {
     const Ran ran = run(std::string("$S ") + command + " ''");
     EXPECT_EQ(ran.status, 2) << command;
-    EXPECT_THAT(ran.err, HasSubstr("got an empty name; expected one of a file")) << command;
+    EXPECT_THAT(ran.err, HasSubstr("got an empty file name; expected a path")) << command;
   }
   const std::string file =
       run.folder()
@@ -211,7 +211,7 @@ TEST_F(CommandLineTest, AnInterruptEndsEveryCommandWithOneHundredAndThirtyAndNoH
   const std::string interrupt = "timeout --foreground --preserve-status -s INT 1 $S ";
   const std::string folder = run.folder().path().string();
   run("mkdir " + folder + "/none");
-  for (const std::string command :
+  for (const std::string& command :
        {"robot check-collisions package://lwr4/lwr4.urdf --samples 99999999 --write-srdf " +
             folder + "/none/a.srdf",
         std::string("eval Gain --params '{\"gain\": 2}'"),

@@ -114,7 +114,8 @@ TEST_F(ShowCommandTest, RefusesWhatItCannotShow) {
 
 TEST_F(ShowCommandTest, APageThatIsThereStaysIfNoneCanBeMade) {
   run.folder().Write("out.html", "old");
-  EXPECT_EQ(run("OCA_VIEWER=/nowhere.html $S robot show package://planar2/planar2.urdf -o " +
+  const std::string page = run.folder().Write("page_without_place.html", "<html>").string();
+  EXPECT_EQ(run("OCA_VIEWER=" + page + " $S robot show package://planar2/planar2.urdf -o " +
                 (run.folder().path() / "out.html").string())
                 .status,
             2);

@@ -8,12 +8,12 @@ namespace override_test {
 
 using testing::StartsWith;
 
-TEST(OverrideTest, IsTheOneThatWasGivenInMessages) {
+TEST(OverridePlaceTest, IsTheOneThatWasGivenInMessages) {
   EXPECT_EQ(Override::Parse("a.b=c=1").Source(), "-s a.b");
   EXPECT_EQ((Override{"b", "1", "left.b"}).Source(), "-s left.b");
 }
 
-TEST(OverrideTest, OfAProgramIsToldByWhatItWasMadeFor) {
+TEST(OverridePlaceTest, OfAProgramIsToldByWhatItWasMadeFor) {
   const Override made{"simulator.duration", "[1", {}, "arm.urdf: its first motion"};
   EXPECT_EQ(made.Source(), "arm.urdf: its first motion: simulator.duration");
   Problems problems;

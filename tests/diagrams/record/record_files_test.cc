@@ -255,7 +255,7 @@ TEST(RecordFilesTest, RefusesTwoAttachmentsOfOneName) {
       ADD_FAILURE() << name;
     } catch (const ConfigError& error) {
       EXPECT_STREQ(error.what(),
-                   "record: attachment; got 'diagram.yaml' twice; expected each name once");
+                   "attachments: attachment; got 'diagram.yaml' twice; expected each name once");
     }
   }
 }
@@ -272,7 +272,7 @@ TEST(RecordFilesTest, SaysWhyARecordHasNoDiagram) {
     ADD_FAILURE();
   } catch (const ConfigError& error) {
     EXPECT_THAT(error.what(), testing::MatchesRegex(
-                                  "record: breaks off at byte [0-9]+: attachment: wrong CRC; got "
+                                  "changed: breaks off at byte [0-9]+: attachment: wrong CRC; got "
                                   "no attachment diagram.yaml before it; expected one"));
   }
 }

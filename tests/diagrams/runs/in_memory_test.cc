@@ -57,9 +57,10 @@ TEST_F(InMemoryTest, RefusesASignalThatThereIsNotOrThatIsNoVectorBeforeTheRun) {
               ThrowsMessage<ConfigError>(
                   AllOf(HasSubstr("series: ramp.valu"), HasSubstr("ports are: value"))));
   InMemory objects({"obstacles.obstacles"}, Period(1, 2));
-  EXPECT_THAT([&] { runs::Run(loaded_, {.outputs = {&objects}}); },
-              ThrowsMessage<ConfigError>(
-                  AllOf(HasSubstr("series: obstacles.obstacles"), HasSubstr("got Vector"))));
+  EXPECT_THAT(
+      [&] { runs::Run(loaded_, {.outputs = {&objects}}); },
+      ThrowsMessage<ConfigError>(AllOf(HasSubstr("series: obstacles.obstacles"),
+                                       HasSubstr("asked for as Vector; it is ObstacleSet"))));
   InMemory never({"ramp.value"}, Period());
   EXPECT_THROW(runs::Run(loaded_, {.outputs = {&never}}), ConfigError);
 }

@@ -5,6 +5,7 @@
 
 #include <numbers>
 
+#include "oca/models/planning/smooth_step.h"
 #include "oca/models/random.h"
 #include "tests/models/planning/scene.h"
 
@@ -297,30 +298,33 @@ TEST(BandOptimizerTest, WithoutBodiesTheRequestIsBest) {
 
 TEST(BandOptimizerTest, WhatEvadesAllIsFoundAsCheckFindsIt) {
   Sweep sweep;
-  const robot::PlacedBody ball = test::BoxAt({0.15, 0.15, 0.15}, {0.5, 0.0, 1.2});
+  const robot::PlacedBody ball = test::BoxAt({0.15, 0.15, 0.15}, {0.5, -1.0, 1.0});
   sweep.bodies.push_back({models::Name("flying"), ball.collider,
                           [X = ball.X_WO](double time) {
                             Eigen::Isometry3d moved = X;
-                            moved.translation().y() += 0.1 * time;
+                            moved.translation().y() += 0.25 * time;
                             return moved;
                           },
                           false});
   BandOptimizer band(sweep.model, {});
   BandCurve curve = sweep.Curve();
-  band.Prepare(curve, sweep.request(), sweep.bodies, false);
+  const BandRequest rest = [&](double, int derivative, Eigen::Ref<VectorXd> out) {
+    out = derivative == 0 ? sweep.home : VectorXd::Zero(7);
+  };
+  band.Prepare(curve, rest, sweep.bodies, false);
   models::Random random(11);
   int evading = 0, near = 0;
   for (int i = 0; i < 200; ++i) {
     VectorXd out(7);
-    for (double& x : out) x = random.Uniform(-1.2, 1.2);
-    curve.Follow([&](double time) -> VectorXd { return std::min(time, 1.0) * out; });
+    for (double& x : out) x = random.Uniform(-1.0, 1.0);
+    curve.Follow([&](double time) -> VectorXd { return SmoothStep(time / 4.0) * out; });
     const BandCheck check = band.Check(curve);
     EXPECT_EQ(band.EvadesAll(curve, random.Uniform(-1.0, 11.0)), check.evades()) << i;
     evading += check.evades();
     near += check.evades() && !check.clear();
     // Where it ends, nothing is evaded that the band does not evade.
     VectorXd end(7), x(7);
-    sweep.request()(curve.end(), 0, end);
+    rest(curve.end(), 0, end);
     curve.Evaluate(curve.end(), 0, x);
     if (check.evades()) {
       EXPECT_EQ(band.EvadesAtEnd(end + x, 1), 1u) << i;
