@@ -49,34 +49,6 @@ BandOptimizer::BandOptimizer(const robot::Clearance& arm, const BandSettings& se
   }
 }
 
-void BandOptimizer::AskAhead(int count, double reach) {
-  candidates_ = {};
-  if (!something_near_) return;
-  if (!batch_) batch_.emplace(clearance_, moving_);
-  ++batches_;
-  candidates_ = batch_->Near(ahead_, count, reach, balls_ahead_);
-}
-
-void BandOptimizer::Visit(const Sample& sample, int lane, double reach) {
-  ++evaluations_;
-  q_ = ahead_.col(lane);
-  pairs_.clear();
-  places_.clear();
-  for (const BatchClearance::Candidate& candidate : candidates_) {
-    if ((candidate.lanes >> lane & 1u) != 0) places_.push_back(candidate.pair);
-  }
-  if (places_.empty()) return;
-  ++exact_looks_;
-  clearance_.MoveTo(q_);
-  for (const int b : moving_) {
-    const auto body = static_cast<std::size_t>(b);
-    clearance_.MoveBody(b, poses_[static_cast<std::size_t>(sample.first_pose) + body]);
-    if (bodies_[body].covariance)
-      clearance_.SetCovariance(b, bodies_[body].covariance(sample.time));
-  }
-  clearance_.Collect(reach, places_, pairs_);
-}
-
 int BandOptimizer::Variable(int control) const {
   if (control < 3) return -1;
   if (control < num_controls_ - 3) return control - 3;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is asked of bands, and whether they keep it: BandOptimizer.
+// What is near a band, what is asked of it, and whether it keeps that: BandOptimizer.
 #include <algorithm>
 #include <cmath>
 
@@ -16,6 +16,34 @@ constexpr double kSpeedSpan = 0.01;        // s; along which the speed of a body
 constexpr double kOutWithin = 1.0;         // s; a start nearer than hard_distance must be left
 
 }  // namespace
+
+void BandOptimizer::AskAhead(int count, double reach) {
+  candidates_ = {};
+  if (!something_near_) return;
+  if (!batch_) batch_.emplace(clearance_, moving_);
+  ++batches_;
+  candidates_ = batch_->Near(ahead_, count, reach, balls_ahead_);
+}
+
+void BandOptimizer::Visit(const Sample& sample, int lane, double reach) {
+  ++evaluations_;
+  q_ = ahead_.col(lane);
+  pairs_.clear();
+  places_.clear();
+  for (const BatchClearance::Candidate& candidate : candidates_) {
+    if ((candidate.lanes >> lane & 1u) != 0) places_.push_back(candidate.pair);
+  }
+  if (places_.empty()) return;
+  ++exact_looks_;
+  clearance_.MoveTo(q_);
+  for (const int b : moving_) {
+    const auto body = static_cast<std::size_t>(b);
+    clearance_.MoveBody(b, poses_[static_cast<std::size_t>(sample.first_pose) + body]);
+    if (bodies_[body].covariance)
+      clearance_.SetCovariance(b, bodies_[body].covariance(sample.time));
+  }
+  clearance_.Collect(reach, places_, pairs_);
+}
 
 void BandOptimizer::YieldAt(const Eigen::VectorXd& start, const Eigen::VectorXd* goal) {
   left_.clear();
