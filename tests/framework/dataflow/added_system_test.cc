@@ -7,19 +7,12 @@
 #include "oca/framework/dataflow/diagram.h"
 #include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/params.h"
+#include "tests/refusal.h"
 
 namespace oca {
 namespace added_system_test {
 
-template <class E, class Call>
-std::string Refusal(const Call& call) {
-  try {
-    call();
-  } catch (const E& error) {
-    return error.what();
-  }
-  return "nothing was refused";
-}
+using test::Refusal;
 
 class Lagging final : public System {
  public:

@@ -5,23 +5,15 @@
 #include "oca/framework/dataflow/control_loop.h"
 #include "oca/framework/dataflow/dynamic_port.h"
 #include "tests/framework/dataflow/blocks.h"
+#include "tests/refusal.h"
 
 namespace oca {
 namespace named_port_test {
 
 using blocks::ProblemsOf;
 using blocks::Vec;
+using test::Refusal;
 using testing::ElementsAre;
-
-template <class E, class Call>
-std::string Refusal(const Call& call) {
-  try {
-    call();
-  } catch (const E& error) {
-    return error.what();
-  }
-  return "nothing was refused";
-}
 
 std::unique_ptr<Diagram> OneMap() { return MakeDiagramOf(std::make_unique<blocks::Map>()); }
 
