@@ -178,26 +178,49 @@ void BarrierFilter::FillRows(const Tick& tick, Solution& result) const {
   work.rows.clear();
   work.unmovable.clear();
   work.qp.num_rows = 0;
+  result.witnesses = tick.witnesses;
+  result.witnesses.Move(settings_.period, set);
   for (std::size_t i = 0; i < set.proximities.size(); ++i) {
-    const Proximity& proximity = set.proximities[i];
-    DistanceRow(*model_, tick.X_WL, proximity, work.row);
-    const double headroom = proximity.distance - std::min(settings_.safe_distance, proximity.range);
-    const double rest = proximity.normal.dot(proximity.obstacle_velocity);
-    double bound = rest - Approach(headroom);
-    const bool known = tick.clear != nullptr &&
-                       tick.clear->ClearFor(proximity.obstacle, !proximity.own_link.empty()) >
-                           settings_.trust_time;
-    if (known) bound = std::min(bound, work.row.dot(work.qp.wish));
-    const bool recovers = headroom < 0.0 && !known;
-    const double growth = std::min(-settings_.recovery_gain * headroom, settings_.recovery_speed);
-    if (!Moves(work.row)) {
-      LeaveOut(proximity, recovers ? rest + growth : bound, result);
-      continue;
+    FillRowsOf(static_cast<int>(i), set.proximities[i], tick, result);
+  }
+  const std::size_t of_nearest = work.rows.size();
+  for (const WitnessPair& pair : result.witnesses.pairs()) {
+    const auto at = std::find_if(set.proximities.begin(), set.proximities.end(),
+                                 [&](const Proximity& each) { return pair.IsOf(each); });
+    const Proximity between = Between(*model_, tick.X_WL, pair, *at);
+    if (!(between.normal.dot(at->normal) > 0.0)) continue;  // one went through the other
+    if (work.qp.num_rows + 2 > settings_.most_rows) break;
+    FillRowsOf(static_cast<int>(at - set.proximities.begin()), between, tick, result);
+  }
+  for (std::size_t r = 0; r < of_nearest; ++r) {
+    const Proximity& proximity = set.proximities[work.rows[r].proximity];
+    if (!work.rows[r].recovery && proximity.distance > 0.0) {
+      result.witnesses.Keep(*model_, tick.X_WL, proximity);
     }
-    AddRow({static_cast<int>(i), false, headroom}, bound, result);
-    if (recovers) AddRow({static_cast<int>(i), true, headroom}, rest + growth, result);
   }
   result.activity.rows = work.qp.num_rows;
+}
+
+/// The rows of the distance between two points of the bodies of proximity `number`.
+void BarrierFilter::FillRowsOf(int number, const Proximity& proximity, const Tick& tick,
+                               Solution& result) const {
+  Eigen::VectorXd& row = result.workspace_->row;
+  DistanceRow(*model_, tick.X_WL, proximity, row);
+  const double headroom = proximity.distance - std::min(settings_.safe_distance, proximity.range);
+  const double rest = proximity.normal.dot(proximity.obstacle_velocity);
+  double bound = rest - Approach(headroom);
+  const bool known =
+      tick.clear != nullptr &&
+      tick.clear->ClearFor(proximity.obstacle, !proximity.own_link.empty()) > settings_.trust_time;
+  if (known) bound = std::min(bound, row.dot(result.workspace_->qp.wish));
+  const bool recovers = headroom < 0.0 && !known;
+  const double growth = std::min(-settings_.recovery_gain * headroom, settings_.recovery_speed);
+  if (!Moves(row)) {
+    LeaveOut(proximity, recovers ? rest + growth : bound, result);
+    return;
+  }
+  AddRow({number, false, headroom}, bound, result);
+  if (recovers) AddRow({number, true, headroom}, rest + growth, result);
 }
 
 /// The rows that were active at the last tick, found again by what they are about.

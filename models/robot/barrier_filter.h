@@ -13,6 +13,7 @@
 #include "oca/models/robot/clear_motion.h"
 #include "oca/models/robot/filter_activity.h"
 #include "oca/models/robot/proximity.h"
+#include "oca/models/robot/witness_pairs.h"
 
 namespace oca::robot {
 
@@ -59,12 +60,14 @@ class BarrierFilter {
     const ClearMotion* clear;               ///< of the request; null: not known
     Positions way;                          ///< l; that the request led each joint lately
     const FilterActivity& last;             ///< of the tick before, a guess at what is active
+    const WitnessPairs& witnesses;          ///< of the tick before
   };
 
   /// The answer, and the memory that it is computed in.
   struct Solution {
     Eigen::VectorXd velocity;  ///< u
     FilterActivity activity;
+    WitnessPairs witnesses;         ///< those of the tick before that still count, and this one's
     Eigen::VectorXd command;        ///< c at this tick; the caller's
     Eigen::VectorXd last_velocity;  ///< that led to it; the caller's
 
@@ -111,6 +114,7 @@ class BarrierFilter {
   void FillBox(Solution& result) const;
   void FillWish(const Tick& tick, Solution& result) const;
   void FillRows(const Tick& tick, Solution& result) const;
+  void FillRowsOf(int number, const Proximity& proximity, const Tick& tick, Solution& result) const;
   bool Moves(const Eigen::VectorXd& row) const;
   void AddRow(const Solution::Row& source, double bound, Solution& result) const;
   void LeaveOut(const Proximity& proximity, double lack, Solution& result) const;

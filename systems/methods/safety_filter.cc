@@ -13,6 +13,17 @@
 #include "oca/systems/sensing/model_links.h"
 #include "oca/systems/signals/roles.h"
 
+namespace oca {
+
+Fault Signal<robot::WitnessPairs>::Check(const robot::WitnessPairs& value, Look /*look*/) {
+  const auto pairs = value.pairs();
+  return Fault::UnlessFinite(std::all_of(pairs.begin(), pairs.end(), [](const auto& pair) {
+    return pair.point_on_link.allFinite() && pair.point_on_obstacle.allFinite();
+  }));
+}
+
+}  // namespace oca
+
 namespace oca::systems {
 namespace {
 
@@ -121,6 +132,7 @@ SafetyFilter::SafetyFilter(const Params& params, const ModelSet& models)
       u_(DeclareDiscreteState("u", RateSpec(*model_), 0.0)),
       l_(DeclareDiscreteState("l", DeltaSpec(*model_), 0.0)),
       activity_(DeclareDiscreteState("activity", FilterActivity{})),
+      witnesses_(DeclareDiscreteState("witnesses", robot::WitnessPairs{})),
       proximities(DeclareInput<ProximitySet>("proximities")),
       links(DeclareInput<LinkPoses>("links")),
       position(DeclareInput<Vector>("position", DeltaSpec(*model_))),
@@ -132,13 +144,14 @@ SafetyFilter::SafetyFilter(const Params& params, const ModelSet& models)
       clear(DeclareOptionalInput<ClearMotion>("clear")),
       solution_(DeclareCached<&SafetyFilter::CalcSolution>(proximities, links, position, velocity,
                                                            acceleration, command, clear, c_, u_, l_,
-                                                           activity_)),
+                                                           activity_, witnesses_)),
       delta(DeclareOutput<Vector, &SafetyFilter::CalcDelta>("delta", DeltaSpec(*model_), position,
                                                             c_, u_)),
       activity(DeclareStateOutput("activity", activity_)) {
   DeclareInitialization<&SafetyFilter::Start>(Writes(c_), measured_position);
-  DeclareUpdate<&SafetyFilter::Update>(Every{params_.period}, Writes(c_, u_, l_, activity_),
-                                       solution_, command, velocity);
+  DeclareUpdate<&SafetyFilter::Update>(Every{params_.period},
+                                       Writes(c_, u_, l_, activity_, witnesses_), solution_,
+                                       command, velocity);
   DeclareRole(Limits{.shown = Limits::Shown::kListed,
                      .signal = activity,
                      .member = "bounds",
@@ -165,7 +178,7 @@ void SafetyFilter::Start(VectorView measured, MutableVectorView c) const { c = m
 
 void SafetyFilter::Update(const Solution& result, OptionalVector sent, OptionalVector rate,
                           MutableVectorView c, MutableVectorView u, MutableVectorView l,
-                          FilterActivity& last) const {
+                          FilterActivity& last, robot::WitnessPairs& witnesses) const {
   if (sent) {
     c = *sent;
   } else {
@@ -176,6 +189,7 @@ void SafetyFilter::Update(const Solution& result, OptionalVector sent, OptionalV
   l *= std::max(1.0 - dt / kFading, 0.0);
   if (rate) l += dt * rate->cwiseAbs();
   last = result.activity;
+  witnesses = result.witnesses;
 }
 
 void SafetyFilter::CalcDelta(VectorView request, VectorView c, VectorView u,
@@ -186,7 +200,8 @@ void SafetyFilter::CalcDelta(VectorView request, VectorView c, VectorView u,
 void SafetyFilter::CalcSolution(const ProximitySet& set, const LinkPoses& poses, VectorView request,
                                 OptionalVector rate, OptionalVector rate_rate, OptionalVector sent,
                                 const ClearMotion* clear_motion, VectorView c, VectorView u,
-                                VectorView l, const FilterActivity& last, Solution& result) const {
+                                VectorView l, const FilterActivity& last,
+                                const robot::WitnessPairs& witnesses, Solution& result) const {
   const double dt = params_.period.seconds();
   if (sent) {
     result.command = *sent;
@@ -195,7 +210,7 @@ void SafetyFilter::CalcSolution(const ProximitySet& set, const LinkPoses& poses,
   }
   result.last_velocity = (result.command - c) / dt;
   const auto X_WL = PosesInOrder(*model_, poses, result.reordered);
-  filter_.Solve({X_WL, set, request, rate, rate_rate, clear_motion, l, last}, result);
+  filter_.Solve({X_WL, set, request, rate, rate_rate, clear_motion, l, last, witnesses}, result);
 }
 
 }  // namespace oca::systems

@@ -16,13 +16,23 @@
 #include "oca/systems/signals/model_set.h"
 #include "oca/systems/signals/signals.h"
 
+namespace oca {
+
+template <>
+struct Signal<robot::WitnessPairs> {
+  static constexpr const char* kName = "WitnessPairs";
+  static Fault Check(const robot::WitnessPairs& value, Look look);
+};
+
+}  // namespace oca
+
 namespace oca::systems {
 
 /// The joint velocity nearest to the requested one that keeps the arm clear: a control barrier
 /// function as a quadratic program, once a period.
 ///
 ///     u = argmin 1/2 sum_j w_j (u_j - r_j)^2 + slack_penalty sum_i s_i
-///     a_i^T u >= n_i^T v_i - approach(h_i) - s_i,  s_i >= 0,   one row a proximity
+///     a_i^T u >= n_i^T v_i - approach(h_i) - s_i,  s_i >= 0,   one row a pair of points
 ///     u_j in the velocities from which joint j can stop within all its limits
 ///
 ///     r = velocity + acceleration period / 2 + position_gain (position - c), braked for arrival,
@@ -33,6 +43,9 @@ namespace oca::systems {
 ///     approach = approach_gain h                             form linear
 ///                LargestStoppableVelocity(h, deceleration)   form braking
 ///                0                                           h < 0
+///
+/// A pair of bodies has a row for its nearest points and one for those that were the nearest within
+/// the last 0.5 s (robot::WitnessPairs), for where flat lies along flat they jump.
 ///
 /// A row that no joint moves, for it is shorter than 1e-12 m/rad times the arm's reach (a slider:
 /// 1e-12), says nothing about u and is left out; if its distance should grow, `activity` names it.
@@ -70,6 +83,7 @@ namespace oca::systems {
 ///       u         n  u/s
 ///       l         n  u
 ///       activity  FilterActivity
+///       witnesses WitnessPairs
 /// throws ConfigError if there is no such model, a gain or a penalty is out of its bounds, or
 ///        approach_gain or recovery_gain exceeds 1 / period; while running if a proximity or a pose
 ///        is of no link of the model
@@ -118,6 +132,7 @@ class SafetyFilter final : public System {
   const DiscreteState<Vector> u_;
   const DiscreteState<Vector> l_;
   const DiscreteState<FilterActivity> activity_;
+  const DiscreteState<robot::WitnessPairs> witnesses_;
 
   struct Solution;
   std::string DescribeMargin() const;
@@ -125,9 +140,11 @@ class SafetyFilter final : public System {
   void CalcSolution(const ProximitySet& set, const LinkPoses& poses, VectorView request,
                     OptionalVector rate, OptionalVector rate_rate, OptionalVector sent,
                     const ClearMotion* clear_motion, VectorView c, VectorView u, VectorView l,
-                    const FilterActivity& last, Solution& result) const;
+                    const FilterActivity& last, const robot::WitnessPairs& witnesses,
+                    Solution& result) const;
   void Update(const Solution& result, OptionalVector sent, OptionalVector rate, MutableVectorView c,
-              MutableVectorView u, MutableVectorView l, FilterActivity& last) const;
+              MutableVectorView u, MutableVectorView l, FilterActivity& last,
+              robot::WitnessPairs& witnesses) const;
   void CalcDelta(VectorView request, VectorView c, VectorView u, MutableVectorView out) const;
 
  public:

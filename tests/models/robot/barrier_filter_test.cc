@@ -61,7 +61,7 @@ class BarrierFilterTest : public testing::Test {
   void Solve(const BarrierFilter& filter, const Eigen::Vector2d& wish) {
     position_ = wish / 5.0;
     const BarrierFilter::Positions position(position_.data(), 2), way(way_.data(), 2);
-    filter.Solve({X_WL_, set_, position, {}, {}, clear_, way, last_}, result_);
+    filter.Solve({X_WL_, set_, position, {}, {}, clear_, way, last_, witnesses_}, result_);
   }
 
   const std::shared_ptr<const RobotModel> model_;
@@ -70,6 +70,7 @@ class BarrierFilterTest : public testing::Test {
   const ClearMotion* clear_{nullptr};
   Eigen::Vector2d position_, way_{0.0, 0.0};
   FilterActivity last_;
+  WitnessPairs witnesses_;
   BarrierFilter::Solution result_;
 };
 
