@@ -322,9 +322,4 @@ bool BandOptimizer::DistanceGradient(const Eigen::VectorXd& q, double time, Eige
   return true;
 }
 
-double BandOptimizer::Distance(const Eigen::VectorXd& q, double time) {
-  PlaceAt(q, time);
-  return std::min(clearance_.Nearest(settings_.margin).distance, settings_.margin);
-}
-
 }  // namespace oca::planning

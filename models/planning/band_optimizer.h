@@ -162,9 +162,6 @@ class BandOptimizer {
     near_ = std::move(near);
     before_ = before;
   }
-  /// The nearest distance of a configuration at a time, up to the margin; after Prepare.
-  double Distance(const Eigen::VectorXd& q, double time);
-
   /// What a configuration leaves, m: least distance, as it is, to what stands and own links, and
   /// least one to what moves; each up to clear_distance.
   struct Room {

@@ -22,7 +22,6 @@ constexpr std::size_t kMostGrowing = 10;  // intervals from kFine to kCoarse, an
 
 constexpr double kMuchCheaper = 0.7;
 constexpr double kSameRoom = 1e-4;      // m; of the goal and of a band that comes no nearer
-constexpr double kSameState = 1e-9;     // of a last band and a task's start
 constexpr double kNotCertified = 1e-6;  // m s; what a band lacks that is not proved
 constexpr double kEvadeAhead = 1.5;     // s; before what stands a band begins to bend
 constexpr double kAtRest = 1e-9;
@@ -112,27 +111,29 @@ VectorXd BandPlanner::GoalAt(const BandTask& task, double time) const {
   return goal;
 }
 
-void BandPlanner::FixEnd(const BandTask& task, double end) {
+void BandPlanner::LookAtGoal(const BandTask& task, double end) {
   const VectorXd goal = GoalAt(task, end);
   end_room_ = band_.RoomAt(goal, end);
   // Where the request still goes on the band may end elsewhere as well.
   const bool rests = end >= task.request_end;
-  end_fixed_ =
+  const bool clear =
       end_room_.flying >= settings_.band.clear_distance &&
       (rests ? end_room_.standing > 0.0 : end_room_.standing >= settings_.band.clear_distance);
-  band_.FixEnd(end_fixed_);
+  end_ = clear ? BandEnd::kGoal : BandEnd::kFree;
+  band_.FixEnd(clear);
   VectorXd start(goal.size());
   task.request(task.start, 0, start);
   start += task.deviation[0];
-  band_.YieldAt(start, end_fixed_ ? &goal : nullptr);
+  band_.YieldAt(start, clear ? &goal : nullptr);
 }
 
 void BandPlanner::Prepare(const BandTask& task, const Grid& grid) {
   zero_ = BandCurve(task.deviation[0].size(), TimesOf(task, grid));
   zero_.StartWith(task.deviation[0], task.deviation[1], task.deviation[2]);
   band_.Prepare(zero_, task.request, task.bodies, true);
-  FixEnd(task, zero_.end());
-  if (end_fixed_ && task.end.size() > 0) zero_.controls().rightCols(3).colwise() = task.end;
+  LookAtGoal(task, zero_.end());
+  if (end_ == BandEnd::kGoal && task.end.size() > 0)
+    zero_.controls().rightCols(3).colwise() = task.end;
 }
 
 void BandPlanner::PrepareStanding(const BandTask& task) {
@@ -161,24 +162,39 @@ int BandPlanner::LevelOf(const BandCheck& check) const {
   return level;
 }
 
-BandPlan BandPlanner::Finish(BandStart kind, BandCurve curve, int iterations) {
-  BandPlan plan{.curve = std::move(curve), .start = kind};
+void BandPlanner::SetEnd(Start& start) {
+  const bool fixed = start.end == BandEnd::kGoal;
+  band_.FixEnd(fixed);
+  if (fixed) start.curve.controls().rightCols(3) = zero_.controls().rightCols(3);
+}
+
+BandPlan BandPlanner::Finish(Start start, int iterations) {
+  SetEnd(start);
+  BandPlan plan{.curve = std::move(start.curve), .start = start.kind};
   plan.cost = band_.Relax(plan.curve, iterations);
-  Judge(plan);
+  Judge(start.end, plan);
   return plan;
 }
 
-void BandPlanner::Judge(BandPlan& plan) {
+BandPlan BandPlanner::Unrelaxed(Start start) {
+  SetEnd(start);
+  BandPlan plan{.curve = std::move(start.curve), .start = start.kind};
+  plan.cost = band_.Cost(plan.curve);
+  Judge(start.end, plan);
+  return plan;
+}
+
+void BandPlanner::Judge(BandEnd end, BandPlan& plan) {
   plan.check = band_.Check(plan.curve);
   plan.level = LevelOf(plan.check);
-  plan.reaches = end_fixed_;
+  plan.reaches = end == BandEnd::kGoal;
   plan.goal_room = end_room_.standing;
   plan.goal_link = end_room_.link;
   plan.goal_body = end_room_.body;
   const BandCheck& check = plan.check;
   if (!(check.min_distance < settings_.band.margin)) {
     plan.lack = BandLack::kNone;
-  } else if (end_fixed_ && check.link == end_room_.link && check.body == end_room_.body &&
+  } else if (plan.reaches && check.link == end_room_.link && check.body == end_room_.body &&
              check.distance > end_room_.standing - kSameRoom) {
     plan.lack = BandLack::kGoal;
   } else if (check.time < begin_ + kFine) {
@@ -235,15 +251,15 @@ BandPlan BandPlanner::Plan(const BandTask& task, const BandCurve* last) {
   std::optional<BandPlan> kept = KeepLast(task, last);
   BandPlan best = kept && kept->level == 0 && !task.fresh ? *kept : PlanAnew(task, last);
   if (kept) Keep(task, *std::move(kept), best);
-  if (task.paths != nullptr && best.check.clear() && best.reaches && best.level == 0) {
-    task.paths->Reset();
+  if (task.path_search != nullptr && best.check.clear() && best.reaches && best.level == 0) {
+    task.path_search->Reset();
   }
   best.work = Work();
   return best;
 }
 
 bool BandPlanner::HasArrived(const BandTask& task) const {
-  if (moving_ || !end_fixed_ || task.start < task.request_end) return false;
+  if (moving_ || end_ == BandEnd::kFree || task.start < task.request_end) return false;
   const VectorXd off = task.deviation[0] - zero_.controls().rightCols(1);
   const double rates =
       std::max(task.deviation[1].cwiseAbs().maxCoeff(), task.deviation[2].cwiseAbs().maxCoeff());
@@ -258,7 +274,7 @@ BandPlan BandPlanner::PlanAnew(const BandTask& task, const BandCurve* last) {
   BandPlan best{.curve = zero_, .start = BandStart::kRequest};
   const bool arrived = HasArrived(task);
   if (arrived) best.curve.controls().colwise() = task.deviation[0];
-  Judge(best);
+  Judge(end_, best);
   const bool nothing_near = best.check.min_distance >= settings_.band.margin;
   const bool enough = nothing_near || (last == nullptr && best.check.wide());
   const bool stays = (at_rest && enough) || arrived;
@@ -280,23 +296,14 @@ bool BandPlanner::MayReturn(const BandTask& task, const BandCheck& trouble) {
   return true;
 }
 
-void BandPlanner::SetEndFixed(bool fixed) {
-  end_fixed_ = fixed;
-  band_.FixEnd(fixed);
-}
-
-BandPlan BandPlanner::Unrelaxed(BandStart kind, BandCurve curve) {
-  BandPlan plan{.curve = std::move(curve), .start = kind};
-  plan.cost = band_.Cost(plan.curve);
-  Judge(plan);
-  return plan;
-}
-
 BandPlan BandPlanner::Bend(const BandTask& task, const BandCheck& trouble, const BandCurve* last) {
   if (MayReturn(task, trouble)) band_.ReturnBetween(trouble.near, kEvadeAhead);
   BandPlan best = GoOnWith(task, last);
+  // What flies may be between the arm and where it is to be at the end.
+  const bool reached = best.check.wide() && best.reaches;
+  const BandEnd end = !moving_ || reached ? end_ : BandEnd::kFree;
   if (trouble.wide() || !best.check.wide()) {
-    BandPlan back = Finish(BandStart::kRequest, zero_, settings_.iterations);
+    BandPlan back = Finish({BandStart::kRequest, end, zero_}, settings_.iterations);
     if (!best.check.wide() || back.cost < kMuchCheaper * best.cost) {
       Keep(task, std::move(back), best);
     }
@@ -304,13 +311,13 @@ BandPlan BandPlanner::Bend(const BandTask& task, const BandCheck& trouble, const
   if ((!best.check.wide() && task.explore) || (task.fresh && !trouble.wide())) {
     if (trouble.wide()) {
       const BandPlan tried = best;
-      Explore(task, tried.check, tried.curve, best);
+      Explore(task, tried.check, tried.curve, end, best);
     } else {
-      Explore(task, trouble, zero_, best);
+      Explore(task, trouble, zero_, end, best);
     }
   }
-  if (!best.check.clear() && end_fixed_ && !moving_) Wait(task, best);
-  if (task.paths != nullptr) GoOnSearching(task, best);
+  if (!best.check.clear() && end_ == BandEnd::kGoal && !moving_) Wait(task, best);
+  if (task.path_search != nullptr) GoOnSearching(task, best);
   return best;
 }
 

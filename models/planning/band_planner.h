@@ -24,13 +24,16 @@ inline constexpr std::array kBandStartNames{"request", "last", "pause", "detour"
                                             "random",  "path", "escape"};
 inline std::span<const char* const> EnumNames(BandStart) { return kBandStartNames; }
 
+/// Where a band ends: where it is to, or wherever that is cheapest.
+enum class BandEnd { kGoal, kFree };
+
 struct BandPlannerSettings {
   BandSettings band{};
   int iterations{12};           ///< steps on the last band
   int start_iterations{30};     ///< steps on another start
   int relaxed_starts{6};        ///< the cheapest of all starts that are worth steps
   int random_starts{24};        ///< beside those of single joints
-  int paths{2};                 ///< of RrtConnect, where the work is not bounded
+  int most_paths{2};            ///< of RrtConnect, where no PathSearch goes on
   int path_nodes{2000};         ///< each
   long path_evaluations{1000};  ///< looks of a PathSearch, besides most_evaluations
   long most_evaluations{0};     ///< of configurations, about, that a plan may cost; 0: no bound
@@ -57,10 +60,10 @@ struct BandTask {
   Eigen::VectorXd end{};    ///< where the deviation is to end; empty: at zero
   std::span<const BandBody> bodies{};
   std::uint64_t seed{0};
-  std::uint64_t search{0};     ///< how many were made before: each looks at other starts
-  bool explore{true};          ///< try other starts if the last band is not clear
-  bool fresh{false};           ///< or if it is clear but the request is not
-  PathSearch* paths{nullptr};  ///< goes on with this search past what stands; null: none
+  std::uint64_t plans_before{0};     ///< each looks at other starts
+  bool explore{true};                ///< try other starts if the last band is not wide,
+  bool fresh{false};                 ///< or if it is, but the request is not
+  PathSearch* path_search{nullptr};  ///< past what stands; goes on in this plan. Null: none
 };
 
 struct BandPlan {
@@ -85,6 +88,9 @@ inline constexpr std::array kClearLevels{0.02, 0.01, 0.005};
 
 inline constexpr double kMarginWay = 10.0;  ///< rad/m
 inline constexpr int kFewestBandSteps = 5;  ///< on a start; less is no trial
+inline constexpr double kSameState = 1e-9;  ///< of a last band and a task's start or end
+inline constexpr double kStopWithin =
+    0.15;  ///< s; how long an arm that stops goes on as fast, about
 
 /// Finds bands: keeps the last one where it can be made clear, else tries many starts.
 ///
@@ -100,16 +106,16 @@ inline constexpr int kFewestBandSteps = 5;  ///< on a start; less is no trial
 ///    counted at kMarginWay. If none is clear: one that evades what moves (BandCheck::evades), then
 ///    what lacks least.
 ///
-/// A plan looks at about most_evaluations configurations, if that is above 0: a search then tries
-/// some of the starts, the next one (BandTask::search) goes on with others, every third tries one
-/// short path. Clear means within the limits too. The end of a band is free where none that ends
-/// where it is to end is clear: while something moves, where the last one cannot be made clear.
+/// A plan looks at about most_evaluations configurations, if that is above 0: it then tries some of
+/// the starts, and the next one (BandTask::plans_before) goes on with others. Clear means within the
+/// limits too. The end of a band is free where none that ends where it is to end is clear: while
+/// something moves, where the last one cannot be made clear.
 ///
 /// Of bands that are clear one that ends where it is to end is better than one that does not (where
 /// something moves, after one that is wide), then one of a wider degree (kClearLevels), then one of
 /// a shorter way. Where nothing moves the last band as it is counts as well. What stands and own
 /// links are proved to keep hard_distance between the points of the grid too (BandCertificate),
-/// else a band is not clear. With BandTask::paths a PathSearch goes on in every plan that is not
+/// else a band is not clear. BandTask::path_search goes on in every plan that is not
 /// clear, or of which a wider degree may be found.
 ///
 /// The work is bounded and the answer a function of the arguments. Allocates.
@@ -135,8 +141,9 @@ class BandPlanner {
  private:
   struct Start {
     BandStart kind;
+    BandEnd end;
     BandCurve curve;
-    double cost;
+    double cost{0.0};
   };
   /// What the grid of a band is to be like, besides what the task says.
   struct Grid {
@@ -148,15 +155,18 @@ class BandPlanner {
   static Grid GridOf(const BandTask& task, const BandCurve* last, bool moving);
   void Prepare(const BandTask& task, const Grid& grid);
   void PrepareStanding(const BandTask& task);
-  void FixEnd(const BandTask& task, double end);
+  /// What the end of the grid leaves, s, and whether bands may end where they are to.
+  void LookAtGoal(const BandTask& task, double end);
   std::optional<BandPlan> KeepLast(const BandTask& task, const BandCurve* last);
   int LevelOf(const BandCheck& check) const;
   Eigen::VectorXd GoalAt(const BandTask& task, double time) const;
   void Certify(const BandTask& task, BandPlan& plan);
+  /// zero_ with the deviation to `shape`, which says positions less the request, within the limits.
   BandCurve Shaped(const BandTask& task, const std::function<Eigen::VectorXd(double)>& shape) const;
-  void SetEndFixed(bool fixed);
-  BandPlan Unrelaxed(BandStart kind, BandCurve curve);
-  /// The last band on the grid at hand; its end is the goal if the end is fixed.
+  /// Brings a start to its end, and tells the band.
+  void SetEnd(Start& start);
+  BandPlan Unrelaxed(Start start);
+  /// The last band on the grid at hand.
   BandCurve Followed(const BandTask& task, const BandCurve* last) const;
   /// Whether the last band left its end free, which now could be the goal.
   bool EndsElsewhere(const BandCurve* last) const;
@@ -164,8 +174,8 @@ class BandPlanner {
   void LookLessFarInNeed(const BandTask& task, const BandCurve* last);
   /// The last band, relaxed; as it is, if only that is clear; escapes, if neither is.
   BandPlan GoOnWith(const BandTask& task, const BandCurve* last);
-  BandPlan Finish(BandStart kind, BandCurve curve, int iterations);
-  void Judge(BandPlan& plan);
+  BandPlan Finish(Start start, int iterations);
+  void Judge(BandEnd end, BandPlan& plan);
   /// Whether the arm stands where it is to end, the request rests and nothing moves.
   bool HasArrived(const BandTask& task) const;
   BandPlan PlanAnew(const BandTask& task, const BandCurve* last);
@@ -176,7 +186,7 @@ class BandPlanner {
   bool MayReturn(const BandTask& task, const BandCheck& trouble);
   BandPlan Bend(const BandTask& task, const BandCheck& trouble, const BandCurve* last);
   void Explore(const BandTask& task, const BandCheck& trouble, const BandCurve& troubled,
-               BandPlan& best);
+               BandEnd end, BandPlan& best);
   void AddRetreats(const BandTask& task, const BandCheck& trouble, const BandCurve& from,
                    std::vector<Start>& starts);
   void AddPauses(const BandTask& task, const BandCheck& trouble, std::vector<Start>& starts) const;
@@ -186,7 +196,7 @@ class BandPlanner {
   void TryEscapes(const BandTask& task, BandPlan& best);
   /// Where nothing moves: a band that goes on as near to the request as is clear, and ends there.
   void Wait(const BandTask& task, BandPlan& best);
-  void TryPaths(const BandTask& task, BandPlan& best);
+  void TryPaths(const BandTask& task, BandEnd end, BandPlan& best);
   /// Whether a search for paths may find a better one.
   bool MayFindMore(const BandTask& task, const BandPlan& best) const;
   void GoOnSearching(const BandTask& task, BandPlan& best);
@@ -207,7 +217,7 @@ class BandPlanner {
   std::unique_ptr<robot::Clearance> standing_;
   bool anything_stands_{false};
   BandCurve zero_;
-  bool end_fixed_{true};
+  BandEnd end_{BandEnd::kGoal};  ///< where bands of the grid at hand may end
   BandOptimizer::Room end_room_{};
   bool moving_{false};     ///< something does
   double begin_{0.0};      ///< s; of this plan

@@ -14,14 +14,13 @@ namespace {
 using Eigen::VectorXd;
 
 // s; how long escapes take.
-constexpr double kShortest = 0.3;
-constexpr double kLongest = 2.0;
+constexpr double kShortestEscape = 0.3;
+constexpr double kLongestEscape = 2.0;
 constexpr double kShareOfHorizon = 0.9;
-constexpr double kTimeShare = 0.5;    // of what is left to plan
-constexpr long kMostLooks = 1000;     // at configurations
-constexpr int kEnough = 4;            // that evade all,
-constexpr int kEnoughClear = 2;       // if one of them is clear
-constexpr double kStopWithin = 0.15;  // s; how long an arm that turns goes on as fast, about
+constexpr double kTimeShare = 0.5;  // of what is left to plan
+constexpr long kMostLooks = 1000;   // at configurations
+constexpr int kEnough = 4;          // that evade all,
+constexpr int kEnoughClear = 2;     // if one of them is clear
 
 }  // namespace
 
@@ -32,9 +31,9 @@ void BandPlanner::TryEscapes(const BandTask& task, BandPlan& best) {
   task.request(task.start, 0, from);
   task.request(task.start, 1, rate);
   from += task.deviation[0] + kStopWithin * (rate + task.deviation[1]);
-  const double longest = std::min(kLongest, kShareOfHorizon * (zero_.end() - task.start));
+  const double longest = std::min(kLongestEscape, kShareOfHorizon * (zero_.end() - task.start));
   const std::uint64_t seed = models::Random::Seed(task.seed, "escapes");
-  models::Random random(models::Random::Seed(seed, task.search));
+  models::Random random(models::Random::Seed(seed, task.plans_before));
   const double troubled = best.check.first;
   const long most = std::min(LooksLeft(settings_.prices.band / kTimeShare, kMostLooks), kMostLooks);
   const long begun = band_.evaluations();
@@ -46,7 +45,7 @@ void BandPlanner::TryEscapes(const BandTask& task, BandPlan& best) {
   Eigen::MatrixXd ends(n, BatchClearance::kLanes);
   while (!enough()) {
     for (auto end : ends.colwise()) {
-      const VectorXd way = WayWithin(model(), random.Uniform(kShortest, longest), share);
+      const VectorXd way = WayWithin(model(), random.Uniform(kShortestEscape, longest), share);
       for (Eigen::Index j = 0; j < n; ++j) end[j] = from[j] + random.Uniform(-1.0, 1.0) * way[j];
       end = end.cwiseMax(model().lower_limits()).cwiseMin(model().upper_limits());
     }
@@ -61,7 +60,7 @@ void BandPlanner::TryEscapes(const BandTask& task, BandPlan& best) {
       });
       if (!band_.EvadesAll(curve, troubled)) continue;
       ++found;
-      Keep(task, Unrelaxed(BandStart::kEscape, std::move(curve)), best);
+      Keep(task, Unrelaxed({BandStart::kEscape, BandEnd::kFree, std::move(curve)}), best);
     }
   }
 }

@@ -16,12 +16,10 @@ namespace {
 
 using Eigen::VectorXd;
 
-// Of paths where the work of a plan is bounded.
-constexpr int kBoundedNodes = 150;
-constexpr int kBoundedShortcuts = 50;
 constexpr int kShortcuts = 150;         // of what a PathSearch found
 constexpr std::uint64_t kPathTurn = 3;  // one of so many plans looks for paths, if anything moves
 constexpr double kPathRoom = 1.3;       // times what a band keeps, so that it may bend
+constexpr double kNarrowRoom = 0.015;   // m; where there is no way with that
 constexpr double kEndRoom = 1.02;       // times what must be kept: as much is left at an end
 constexpr double kEndShare = 0.9;       // of what the ends of a path leave, if that is less
 
@@ -43,27 +41,25 @@ BandCurve BandPlanner::Along(const BandTask& task, const std::vector<VectorXd>& 
   });
 }
 
-void BandPlanner::TryPaths(const BandTask& task, BandPlan& best) {
-  if (standing_->bodies().empty()) return;
+void BandPlanner::TryPaths(const BandTask& task, BandEnd end, BandPlan& best) {
+  if (!anything_stands_) return;
   VectorXd here(zero_.size()), goal(zero_.size());
   task.request(task.start, 0, here);
   here += task.deviation[0];
   task.request(zero_.end(), 0, goal);
-  const bool bounded = settings_.most_evaluations > 0;
-  for (int i = 0; i < (bounded ? std::min(settings_.paths, 1) : settings_.paths); ++i) {
+  for (int i = 0; i < settings_.most_paths; ++i) {
     RrtOptions options;
     options.seed = models::Random::Seed(task.seed, static_cast<std::uint64_t>(i));
-    options.most_nodes = bounded ? kBoundedNodes : settings_.path_nodes;
-    if (bounded) options.shortcuts = kBoundedShortcuts;
+    options.most_nodes = settings_.path_nodes;
     std::optional<std::vector<VectorXd>> path;
-    for (const double margin : {1.3 * settings_.band.clear_distance, 0.015}) {
+    for (const double margin : {kPathRoom * settings_.band.clear_distance, kNarrowRoom}) {
       options.margin = margin;
       path = RrtConnect(*standing_, here, goal, options);
       if (path) break;
     }
     if (!path) continue;
     const int steps = std::max(StepsLeft(2 * settings_.start_iterations), kFewestBandSteps);
-    Keep(task, Finish(BandStart::kPath, Along(task, *path), steps), best);
+    Keep(task, Finish({BandStart::kPath, end, Along(task, *path)}, steps), best);
   }
 }
 
@@ -90,13 +86,13 @@ SearchLevels BandPlanner::LevelsFor(const VectorXd& here, const VectorXd& goal) 
 
 bool BandPlanner::MayFindMore(const BandTask& task, const BandPlan& best) const {
   if (!moving_) return !best.check.clear() || !best.reaches || best.level > 0;
-  if (task.search % kPathTurn != kPathTurn - 1) return false;
+  if (task.plans_before % kPathTurn != kPathTurn - 1) return false;
   const bool goal_taken = !best.reaches && best.goal_room <= 0.0;
   return best.check.clear() ? goal_taken : best.check.touch_hard < BandCheck::kNever;
 }
 
 void BandPlanner::GoOnSearching(const BandTask& task, BandPlan& best) {
-  PathSearch& search = *task.paths;
+  PathSearch& search = *task.path_search;
   if (!anything_stands_ || !MayFindMore(task, best)) return;
   VectorXd here(zero_.size());
   task.request(task.start, 0, here);
@@ -161,9 +157,9 @@ void BandPlanner::TryPath(const BandTask& task, const std::vector<VectorXd>& pat
       task.request_end - task.start);
   for (const double interval : {0.25, 0.15, 0.1}) {
     Prepare(task, {duration + settings_.tail, interval});
-    const BandCurve along = Along(task, path);
-    Keep(task, Unrelaxed(BandStart::kPath, along), best);
-    Keep(task, Finish(BandStart::kPath, along, settings_.start_iterations), best);
+    const Start along{BandStart::kPath, end_, Along(task, path)};
+    Keep(task, Unrelaxed(along), best);
+    Keep(task, Finish(along, settings_.start_iterations), best);
     if (best.check.clear() || moving_) return;
     duration *= 1.4;
   }

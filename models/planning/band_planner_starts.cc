@@ -13,10 +13,6 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr std::uint64_t kRrtTurn = 3;  // one of so many bounded searches tries paths
-
-constexpr double kStopWithin = 0.15;  // s; how long an arm that stops goes on as fast, about
-
 /// 1 between first and last, falling to 0 within `ramp` on either side.
 double Window(double time, double first, double last, double ramp) {
   return SmoothStep((time - first + ramp) / ramp) * SmoothStep((last + ramp - time) / ramp);
@@ -34,12 +30,11 @@ BandCurve BandPlanner::Shaped(const BandTask& task,
         (request + shape(time)).cwiseMax(model().lower_limits()).cwiseMin(model().upper_limits());
     return q - request;
   });
-  if (end_fixed_) curve.controls().rightCols(3) = zero_.controls().rightCols(3);
   return curve;
 }
 
 void BandPlanner::Explore(const BandTask& task, const BandCheck& trouble, const BandCurve& troubled,
-                          BandPlan& best) {
+                          BandEnd end, BandPlan& best) {
   std::vector<Start> starts;
   AddPauses(task, trouble, starts);
   AddDetours(task, trouble, starts);
@@ -48,38 +43,38 @@ void BandPlanner::Explore(const BandTask& task, const BandCheck& trouble, const 
   const std::ptrdiff_t looks = settings_.most_evaluations == 0
                                    ? all
                                    : std::clamp<std::ptrdiff_t>(StepsLeft(1000) / 2, 4, all);
-  const auto first = static_cast<std::ptrdiff_t>(task.search * looks % all);
+  const auto first = static_cast<std::ptrdiff_t>(task.plans_before * looks % all);
   std::rotate(starts.begin(), starts.begin() + first, starts.end());
   starts.resize(looks);
   AddRetreats(task, trouble, troubled, starts);
-  for (Start& start : starts) start.cost = band_.Cost(start.curve);
+  for (Start& start : starts) {
+    start.end = end;
+    SetEnd(start);
+    start.cost = band_.Cost(start.curve);
+  }
   std::stable_sort(starts.begin(), starts.end(),
                    [](const Start& a, const Start& b) { return a.cost < b.cost; });
   const auto count = std::min(starts.size(), static_cast<std::size_t>(settings_.relaxed_starts));
   for (std::size_t i = 0; i < count; ++i) {
     const int steps = StepsLeft(settings_.start_iterations);
     if (i > 0 && steps < kFewestBandSteps) break;
-    Keep(task,
-         Finish(starts[i].kind, std::move(starts[i].curve), std::max(steps, kFewestBandSteps)),
-         best);
+    Keep(task, Finish(std::move(starts[i]), std::max(steps, kFewestBandSteps)), best);
   }
-  const bool turn = settings_.most_evaluations == 0 || task.search % kRrtTurn == kRrtTurn - 1;
-  if (!best.check.clear() && turn && task.paths == nullptr) TryPaths(task, best);
+  if (!best.check.clear() && task.path_search == nullptr) TryPaths(task, end, best);
 }
 
 void BandPlanner::Wait(const BandTask& task, BandPlan& best) {
-  SetEndFixed(false);
   VectorXd stop(zero_.size()), v(zero_.size()), request(zero_.size());
   task.request(task.start, 0, stop);
   task.request(task.start, 1, v);
   stop += task.deviation[0] + kStopWithin * (v + task.deviation[1]);
-  BandCurve here = Shaped(task, [&](double time) -> VectorXd {
+  const BandCurve here = Shaped(task, [&](double time) -> VectorXd {
     task.request(time, 0, request);
     return stop - request;
   });
-  Keep(task, Unrelaxed(BandStart::kPause, here), best);
-  Keep(task, Finish(BandStart::kPause, std::move(here), settings_.iterations), best);
-  SetEndFixed(true);
+  const Start pause{BandStart::kPause, BandEnd::kFree, here};
+  Keep(task, Unrelaxed(pause), best);
+  Keep(task, Finish(pause, settings_.iterations), best);
 }
 
 void BandPlanner::AddPauses(const BandTask& task, const BandCheck& trouble,
@@ -95,7 +90,7 @@ void BandPlanner::AddPauses(const BandTask& task, const BandCheck& trouble,
       task.request(time, 0, request);
       return (here - request) * SmoothStep((zero_.end() - time) / (zero_.end() - until));
     };
-    starts.push_back({BandStart::kPause, Shaped(task, shape), 0.0});
+    starts.push_back({BandStart::kPause, end_, Shaped(task, shape)});
   }
 }
 
@@ -114,7 +109,7 @@ void BandPlanner::AddRetreats(const BandTask& task, const BandCheck& trouble, co
       return (size / largest) * out *
              Window(time, trouble.first, trouble.last, std::min(1.5, room));
     };
-    starts.push_back({BandStart::kDetour, Shaped(task, shape), 0.0});
+    starts.push_back({BandStart::kDetour, end_, Shaped(task, shape)});
   }
 }
 
@@ -126,7 +121,7 @@ void BandPlanner::AddDetours(const BandTask& task, const BandCheck& trouble,
     const auto shape = [&](double time) -> VectorXd {
       return out * Window(time, trouble.first, trouble.last, std::min(ramp, room));
     };
-    starts.push_back({kind, Shaped(task, shape), 0.0});
+    starts.push_back({kind, end_, Shaped(task, shape)});
   };
   VectorXd out = VectorXd::Zero(n);
   for (Eigen::Index j = 0; j < n; ++j) {

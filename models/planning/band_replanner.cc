@@ -29,7 +29,7 @@ BandReplanner::BandReplanner(std::shared_ptr<const robot::RobotModel> model,
                              const ReplanSettings& settings)
     : model_(std::move(model)),
       settings_(settings),
-      reach_(ReachOf(*model_)),
+      reach_(ReachBallOf(*model_)),
       arm_(model_, settings.self_collision) {
   arm_.covers();  // all plans share them
 }
@@ -45,16 +45,16 @@ void BandReplanner::TellClear(const BandSituation& now, const BandSituation::Pos
   motion.bodies.clear();
   motion.standing.clear();
   for (const geometry::Obstacle& seen : memory.seen) motion.bodies.push_back(seen.body->id);
-  if (now.request != memory.request || memory.plans == 0) return;
+  if (now.request != memory.request || memory.report.plans == 0) return;
   const double off = (now.measured - planned).cwiseAbs().maxCoeff();
   if (!(off <= kOnPlan)) return;
-  const bool next = !memory.next.empty() && now.time >= memory.change;
+  const bool next = !memory.next.empty() && now.time >= memory.report.change;
   const BandTrust& until = next ? memory.next_until : memory.held_until;
   const auto left = [&](double time) {
     return std::clamp(time - now.time, 0.0, settings_.planner.most_horizon);
   };
   const bool sure = now.time >= memory.sure_from;
-  const bool tight = memory.kept < kTight;
+  const bool tight = memory.report.kept < kTight;
   if (!tight || off <= kOnTightPlan) {
     FindStill(memory.seen, now.obstacles, motion.standing);
     if (!sure) {  // the band was not made for what is new
@@ -126,7 +126,7 @@ bool BandReplanner::Astray(const BandSituation& now, BandMemory& memory) const {
   now.request->Evaluate(now.time, 0, memory.planned);
   memory.At(now.time).Add(now.time, 0, memory.planned);
   const double off = (now.measured - memory.planned).cwiseAbs().maxCoeff();
-  if (off <= kOnPlan || memory.plans == 0) memory.off_since = now.time;
+  if (off <= kOnPlan || memory.report.plans == 0) memory.off_since = now.time;
   // A filter that keeps the arm off a band which passes nearer than it allows would keep it for ever.
   const bool rest = std::all_of(now.obstacles.begin(), now.obstacles.end(), Stands);
   return off > settings_.restart_distance || (rest && now.time - memory.off_since > kOffFor);
@@ -143,17 +143,18 @@ bool BandReplanner::Kept(const BandSituation& now, BandMemory& memory) const {
       memory.next.empty()) {
     return true;
   }
-  return (memory.plans >= kFreshPlans ||
-          (memory.plans > 0 && memory.start == BandStart::kRequest)) &&
-         memory.clear && memory.reaches && memory.search.state() != PathSearch::State::kSearching &&
-         now.request == memory.request && Covers(now, memory) &&
-         SameStanding(memory.seen, now.obstacles, now.estimates) && !Astray(now, memory);
+  return (memory.report.plans >= kFreshPlans ||
+          (memory.report.plans > 0 && memory.report.start == BandStart::kRequest)) &&
+         memory.report.clear && memory.report.reaches &&
+         memory.search.state() != PathSearch::State::kSearching && now.request == memory.request &&
+         Covers(now, memory) && SameStanding(memory.seen, now.obstacles, now.estimates) &&
+         !Astray(now, memory);
 }
 
 void BandReplanner::Follow(const BandSituation& now, BandMemory& memory) const {
   const double away = (now.measured - now.request->goal()).cwiseAbs().maxCoeff();
-  const bool leads = memory.plans > 0 && memory.clear && memory.reaches &&
-                     memory.block == BandBlock::kNone && !memory.next.empty() &&
+  const bool leads = memory.report.plans > 0 && memory.report.clear && memory.report.reaches &&
+                     memory.report.block == BandBlock::kNone && !memory.next.empty() &&
                      now.time < memory.next.end();
   if (memory.followed != now.request || now.time < now.request->times().back() || leads ||
       away < memory.nearest_away - settings_.stuck_motion) {
@@ -161,11 +162,11 @@ void BandReplanner::Follow(const BandSituation& now, BandMemory& memory) const {
     memory.moved = now.time;
     memory.followed = now.request;
   }
-  memory.stuck = away > kArrived && now.time - memory.moved >= settings_.stuck_time;
+  memory.report.stuck = away > kArrived && now.time - memory.moved >= settings_.stuck_time;
 }
 
 void BandReplanner::Forget(const BandSituation& now, BandMemory& memory) const {
-  if (memory.plans > 0 && now.request == memory.request) {
+  if (memory.report.plans > 0 && now.request == memory.request) {
     // What comes opens no way to a goal that the arm rests before.
     const bool rests = memory.rest.size() > 0;
     if (rests ? AllStay(memory.seen, now.obstacles, reach_)
@@ -175,7 +176,7 @@ void BandReplanner::Forget(const BandSituation& now, BandMemory& memory) const {
   }
   memory.search.Reset();
   memory.rest.resize(0);
-  memory.Unblock();
+  memory.report.Unblock();
 }
 
 VectorXd BandReplanner::EndFor(const BandSituation& now, const BandMemory& memory) const {
@@ -200,21 +201,21 @@ void BandReplanner::GiveWay(const BandSituation& now, const BandPlan& found,
     memory.search.Reset();
     memory.rest.resize(0);
   } else if (leads && memory.rest.size() == 0) {
-    memory.Unblock();
+    memory.report.Unblock();
   } else if (failed) {
     memory.rest = memory.search.nearest();
     memory.search.AimAtNearest();
     const bool contact = found.goal_room <= 0.0;
-    memory.block = contact ? BandBlock::kContact : BandBlock::kWay;
-    memory.block_link = contact ? found.goal_link : found.rest_link;
-    memory.block_body = contact ? found.goal_body : found.rest_body;
-    memory.block_amount = contact ? -found.goal_room : found.rest_room;
+    memory.report.block = contact ? BandBlock::kContact : BandBlock::kWay;
+    memory.report.block_link = contact ? found.goal_link : found.rest_link;
+    memory.report.block_body = contact ? found.goal_body : found.rest_body;
+    memory.report.block_amount = contact ? -found.goal_room : found.rest_room;
   }
-  if (beyond > 0.0 && memory.block == BandBlock::kNone) {
-    memory.block = BandBlock::kLimit;
-    memory.block_link = model_->position_names()[static_cast<std::size_t>(joint)];
-    memory.block_body = {};
-    memory.block_amount = beyond;
+  if (beyond > 0.0 && memory.report.block == BandBlock::kNone) {
+    memory.report.block = BandBlock::kLimit;
+    memory.report.block_link = model_->position_names()[static_cast<std::size_t>(joint)];
+    memory.report.block_body = {};
+    memory.report.block_amount = beyond;
   }
 }
 
@@ -231,8 +232,8 @@ BandTask BandReplanner::MakeTask(const BandSituation& now, double start,
   task.request_end = now.request->times().back();
   task.bodies = bodies;
   task.end = EndFor(now, memory);
-  task.paths = &memory.search;
-  task.seed = settings_.seed + memory.plans;
+  task.path_search = &memory.search;
+  task.seed = settings_.seed + memory.report.plans;
   for (int d = 0; d < 3; ++d) {
     task.deviation[d].setZero(now.measured.size());
     if (!memory.held.empty()) memory.held.Evaluate(task.start, d, task.deviation[d]);
@@ -245,10 +246,10 @@ BandTask BandReplanner::MakeTask(const BandSituation& now, double start,
     task.deviation[2].setZero();
   }
   const int pause = std::min(memory.failures, kMostPause);
-  task.search = memory.plans;
-  task.fresh = memory.plans < kFreshPlans;
+  task.plans_before = memory.report.plans;
+  task.fresh = memory.report.plans < kFreshPlans;
   task.explore =
-      Moves(bodies) || pause < 3 || memory.plans % static_cast<std::uint64_t>(pause) == 0;
+      Moves(bodies) || pause < 3 || memory.report.plans % static_cast<std::uint64_t>(pause) == 0;
   return task;
 }
 
@@ -262,49 +263,50 @@ void BandReplanner::Plan(const BandSituation& now, double start,
   if (now.time < memory.busy_until - kSameTime || Kept(now, memory)) return;
   BandMemory made = memory;
   MakePlan(now, start, rate, made);
-  if (made.charged <= start - now.time + kSameTime) {
+  if (made.report.charged <= start - now.time + kSameTime) {
     memory = std::move(made);
     memory.lead = 0.0;
     memory.busy_until = start;
     return;
   }
-  memory.work = made.work;
-  memory.charged = made.charged;
-  memory.busy_until = now.time + made.charged;
-  memory.lead = kMoreTime * std::max(made.charged, memory.lead);
-  ++memory.overruns;
+  memory.report.work = made.report.work;
+  memory.report.charged = made.report.charged;
+  memory.busy_until = now.time + made.report.charged;
+  memory.lead = kMoreTime * std::max(made.report.charged, memory.lead);
+  ++memory.report.overruns;
 }
 
 void BandReplanner::Note(const BandPlan& found, BandMemory& memory) const {
-  memory.plans += 1;
-  memory.start = found.start;
-  memory.clear = found.check.clear();
-  memory.reaches = found.reaches;
-  memory.level = found.level;
-  memory.kept = std::min(found.check.kept, found.goal_room);
-  memory.goal_room = found.goal_room;
-  memory.lack = found.lack;
-  memory.failures = memory.clear && memory.reaches ? 0 : memory.failures + 1;
-  memory.nearest = found.check.min_distance;
-  memory.distance = found.check.distance;
-  memory.link = found.check.link;
-  memory.obstacle = found.check.body;
-  memory.time = found.check.time;
+  memory.report.plans += 1;
+  memory.report.start = found.start;
+  memory.report.clear = found.check.clear();
+  memory.report.reaches = found.reaches;
+  memory.report.level = found.level;
+  memory.report.kept = std::min(found.check.kept, found.goal_room);
+  memory.report.goal_room = found.goal_room;
+  memory.report.lack = found.lack;
+  memory.failures = memory.report.clear && memory.report.reaches ? 0 : memory.failures + 1;
+  memory.report.nearest = found.check.min_distance;
+  memory.report.distance = found.check.distance;
+  memory.report.link = found.check.link;
+  memory.report.obstacle = found.check.body;
+  memory.report.time = found.check.time;
   const double hard = settings_.planner.band.hard_distance;
-  if (memory.clear && memory.lack != BandLack::kNone && memory.distance < hard) {
-    memory.tight = true;
-  } else if (memory.distance >= 2.0 * hard) {
-    memory.tight = false;
+  if (memory.report.clear && memory.report.lack != BandLack::kNone &&
+      memory.report.distance < hard) {
+    memory.report.tight = true;
+  } else if (memory.report.distance >= 2.0 * hard) {
+    memory.report.tight = false;
   }
-  memory.cost = found.cost;
-  memory.work = found.work;
-  memory.charged = settings_.planner.prices.Of(found.work);
+  memory.report.cost = found.cost;
+  memory.report.work = found.work;
+  memory.report.charged = settings_.planner.prices.Of(found.work);
 }
 
 void BandReplanner::MakePlan(const BandSituation& now, double start,
                              const std::optional<BandSituation::Positions>& rate,
                              BandMemory& memory) const {
-  const bool foreseen = memory.plans > 0 && now.request == memory.request &&
+  const bool foreseen = memory.report.plans > 0 && now.request == memory.request &&
                         AsForeseen({memory.seen, memory.seen_estimates},
                                    {now.obstacles, now.estimates}, Since(now.time, memory)) &&
                         !Astray(now, memory);
@@ -329,7 +331,7 @@ void BandReplanner::MakePlan(const BandSituation& now, double start,
   IgnoreOwnLinks(now, planner);
   BandPlan found = planner.Plan(task, memory.held.empty() ? nullptr : &memory.held);
   memory.next = std::move(found.curve);
-  memory.change = task.start;
+  memory.report.change = task.start;
   const BandCheck& check = found.check;
   memory.next_until = {check.touch(), std::min(check.clear() ? check.touch_hard : check.touch_trust,
                                                check.touch_limits)};

@@ -113,7 +113,7 @@ class BandReplanner {
 
   const std::shared_ptr<const robot::RobotModel> model_;
   const ReplanSettings settings_;
-  const RobotReach reach_;
+  const ReachBall reach_;
   robot::Clearance arm_;
 };
 

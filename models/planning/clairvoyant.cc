@@ -21,7 +21,6 @@ constexpr int kFewestIntervals = 8;      // intervals
 constexpr double kCoarseGrid = 1e-2;     // s; of the judge while the search goes on
 constexpr int kSteps = 80;               // of a relaxation
 constexpr int kFirstTries = 6;           // before the planner's, which are many
-constexpr double kFarAway = 1e4;         // m
 
 /// What a relaxation pays for: the later, the less a limit may be exceeded and the less room is
 /// asked for.
@@ -51,7 +50,7 @@ BandPlannerSettings PlannerSettings(const ClairvoyantTask& task) {
   settings.start_iterations = kSteps;
   settings.relaxed_starts = task.starts;
   settings.random_starts = 4 * task.starts;
-  settings.paths = 6;
+  settings.most_paths = 6;
   settings.path_nodes = 5000;
   settings.moving_horizon = task.duration;
   settings.least_horizon = task.duration;
@@ -60,7 +59,6 @@ BandPlannerSettings PlannerSettings(const ClairvoyantTask& task) {
   return settings;
 }
 
-/// 0 before 0, 1 after 1, smooth.
 class Search {
  public:
   Search(const std::shared_ptr<const robot::RobotModel>& model, const ClairvoyantTask& task)
@@ -70,18 +68,16 @@ class Search {
         judge_(model, task.request, task.bodies, task.self_collision, task.ignored,
                kClairvoyantReach),
         random_(models::Random::Seed(task.seed, "clairvoyant")) {
-    // A band without bodies looks at no distances, not at those of own links either.
-    if (bodies_.empty() && task.self_collision) bodies_.push_back(FarAway());
     zero_ = BandCurve(model->num_positions(), Times());
     StartAtRest();
     VectorXd goal(model->num_positions());
     task.request(task.duration, 0, goal);
-    goal_free_ = judge_.Distance(goal, task.duration) > 0.0;
+    end_fixed_ = judge_.Distance(goal, task.duration) > 0.0;
     for (const Prices& prices : kPrices) {
       bands_.push_back(std::make_unique<BandOptimizer>(model, SettingsOf(prices),
                                                        task.self_collision, task.own));
+      bands_.back()->Prepare(zero_, task.request, bodies_, end_fixed_);
     }
-    FixEnd(goal_free_);
   }
 
   ClairvoyantPlan Run() {
@@ -95,13 +91,6 @@ class Search {
   }
 
  private:
-  static BandBody FarAway() {
-    Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-    X.translation().z() = -kFarAway;
-    return {models::Name("nothing"), geometry::MakeCollider(geometry::Sphere{0.01}, "nothing"),
-            [X](double) { return X; }, true};
-  }
-
   std::vector<double> Times() const {
     const bool moving = std::any_of(bodies_.begin(), bodies_.end(),
                                     [](const BandBody& body) { return !body.stands; });
@@ -135,11 +124,9 @@ class Search {
     return task;
   }
 
-  void FixEnd(bool fixed) {
-    if (end_fixed_ == fixed && prepared_) return;
-    end_fixed_ = fixed;
-    prepared_ = true;
-    for (const auto& band : bands_) band->Prepare(zero_, task_.request, bodies_, fixed);
+  void FreeEnd() {
+    end_fixed_ = false;
+    for (const auto& band : bands_) band->FixEnd(false);
   }
 
   bool StartIsInTheWay() {
@@ -199,7 +186,7 @@ class Search {
 
   bool TryBent(int first, int last) {
     for (int i = first; i < std::min(last, task_.starts); ++i) {
-      if (2 * i >= task_.starts && EndIsInTheWay()) FixEnd(false);
+      if (2 * i >= task_.starts && EndIsInTheWay()) FreeEnd();
       if (Improve(Bent(i % 2 == 0 ? best_.curve : zero_), BandStart::kRandom)) return true;
     }
     return false;
@@ -254,7 +241,7 @@ class Search {
   models::Random random_;
   BandCurve zero_;  ///< the request, from where the arm is
   VectorXd deviation_[3];
-  bool goal_free_{true}, end_fixed_{true}, prepared_{false};
+  bool end_fixed_{true};
   std::vector<std::unique_ptr<BandOptimizer>> bands_;  ///< one for each of kPrices
   ClairvoyantPlan best_;
 };

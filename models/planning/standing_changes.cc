@@ -27,7 +27,7 @@ bool StandsAgain(const Obstacle& body, std::size_t place, const std::vector<Obst
 }
 
 /// A half-space, which has no ball around it, is never far.
-bool Far(const Obstacle& body, const RobotReach& reach) {
+bool Far(const Obstacle& body, const ReachBall& reach) {
   const geometry::Collider& collider = *body.body->collider;
   const double away = (body.X_WO * collider.centre() - reach.centre).norm();
   return away > reach.radius + collider.bounding_radius();
@@ -35,7 +35,7 @@ bool Far(const Obstacle& body, const RobotReach& reach) {
 
 }  // namespace
 
-RobotReach ReachOf(const robot::RobotModel& model) {
+ReachBall ReachBallOf(const robot::RobotModel& model) {
   std::vector<double> away(model.links().size(), 0.0);
   for (const robot::Joint& joint : model.joints()) {
     const bool slides = joint.type == robot::JointType::kPrismatic;
@@ -44,7 +44,7 @@ RobotReach ReachOf(const robot::RobotModel& model) {
     away[static_cast<std::size_t>(joint.child_link)] =
         away[static_cast<std::size_t>(joint.parent_link)] + joint.X_PJ.translation().norm() + range;
   }
-  RobotReach reach{model.X_WB().translation(), 0.0};
+  ReachBall reach{model.X_WB().translation(), 0.0};
   for (const robot::LinkCollider& link : robot::LinkCollidersOf(model)) {
     const double own = link.centre.norm() + link.radius;
     reach.radius = std::max(reach.radius, away[static_cast<std::size_t>(link.number)] + own);
@@ -53,7 +53,7 @@ RobotReach ReachOf(const robot::RobotModel& model) {
 }
 
 bool AllStay(const std::vector<Obstacle>& seen, const std::vector<Obstacle>& now,
-             const RobotReach& reach) {
+             const ReachBall& reach) {
   for (std::size_t i = 0; i < seen.size(); ++i) {
     if (Stands(seen[i]) && !StandsAgain(seen[i], i, now) && !Far(seen[i], reach)) return false;
   }
@@ -61,7 +61,7 @@ bool AllStay(const std::vector<Obstacle>& seen, const std::vector<Obstacle>& now
 }
 
 bool SameRest(const std::vector<Obstacle>& seen, const std::vector<Obstacle>& now,
-              const RobotReach& reach) {
+              const ReachBall& reach) {
   return AllStay(seen, now, reach) && AllStay(now, seen, reach);
 }
 

@@ -191,7 +191,7 @@ ElasticBand::ElasticBand(const Params& params, const ModelSet& models)
       position(DeclareStateOutput("position", position_)),
       velocity(DeclareStateOutput("velocity", velocity_)),
       acceleration(DeclareStateOutput("acceleration", acceleration_)),
-      plan(DeclareStateOutput("plan", memory_)),
+      plan(DeclareOutput<BandReport, &BandMemory::report>("plan", {}, memory_)),
       clear(DeclareOutput<ClearMotion, &ElasticBand::CalcClear>(
           "clear", {}, kTime, ahead, obstacles, measured_position, position_, memory_)) {
   DeclareInitialization<&ElasticBand::Start>(Writes(position_), measured_position);
@@ -246,20 +246,20 @@ std::string PairText(models::Name link, models::Name other) {
 }
 
 /// Why the goal cannot be had, and by how much.
-std::string BlockText(const BandMemory& memory, const char* unit) {
+std::string BlockText(const BandReport& report, const char* unit) {
   using planning::BandBlock;
-  switch (memory.block) {
+  switch (report.block) {
     case BandBlock::kLimit:
-      return fmt::format("it is {:.3g} {} beyond a limit of {}", memory.block_amount, unit,
-                         memory.block_link.text());
+      return fmt::format("it is {:.3g} {} beyond a limit of {}", report.block_amount, unit,
+                         report.block_link.text());
     case BandBlock::kContact:
-      return fmt::format("there {} is {:.3g} m deep in {}", memory.block_link.text(),
-                         memory.block_amount, memory.block_body.text());
+      return fmt::format("there {} is {:.3g} m deep in {}", report.block_link.text(),
+                         report.block_amount, report.block_body.text());
     case BandBlock::kWay:
       return fmt::format(
           "no way there was found; where the arm comes nearest to it, {} are {:.3g} m "
           "apart",
-          PairText(memory.block_link, memory.block_body), memory.block_amount);
+          PairText(report.block_link, report.block_body), report.block_amount);
     case BandBlock::kNone:
       break;
   }
@@ -268,48 +268,48 @@ std::string BlockText(const BandMemory& memory, const char* unit) {
 
 }  // namespace
 
-std::optional<Obstruction> ElasticBand::WhatBlocks(const BandMemory& memory) const {
-  if (memory.block == planning::BandBlock::kNone) return std::nullopt;
-  const char* const unit = UnitOf(memory.block_link);
-  return Obstruction{.kind = planning::kBandBlockNames[static_cast<std::size_t>(memory.block)],
-                     .one = memory.block_link,
-                     .other = memory.block_body,
-                     .amount = memory.block_amount,
+std::optional<Obstruction> ElasticBand::WhatBlocks(const BandReport& report) const {
+  if (report.block == planning::BandBlock::kNone) return std::nullopt;
+  const char* const unit = UnitOf(report.block_link);
+  return Obstruction{.kind = planning::kBandBlockNames[static_cast<std::size_t>(report.block)],
+                     .one = report.block_link,
+                     .other = report.block_body,
+                     .amount = report.block_amount,
                      .unit = unit,
-                     .text = "the goal cannot be reached: " + BlockText(memory, unit)};
+                     .text = "the goal cannot be reached: " + BlockText(report, unit)};
 }
 
-void ElasticBand::Report(double time, const BandMemory& memory, const ReportedBefore& before,
-                         Log& log) const {
+void ElasticBand::Tell(double time, const BandReport& report, const BandReport& before,
+                       Log& log) const {
   const auto warn = [&](const std::string& text) { log.Write(LogLevel::kWarning, time, text); };
-  if (memory.overruns > 0 && before.overruns == 0) {
+  if (report.overruns > 0 && before.overruns == 0) {
     warn(fmt::format(
         "a plan counts as {:.3g} s of work, more than the time there is to make one: it is thrown "
         "away, and the next one begins later (counted in plan.overruns from now on)",
-        memory.charged));
+        report.charged));
   }
-  const std::optional<Obstruction> block = WhatBlocks(memory);
-  if (memory.block != before.block && block) {
+  const std::optional<Obstruction> block = WhatBlocks(report);
+  if (report.block != before.block && block) {
     warn(block->text + "; the arm is to rest as near to it as was found");
   }
-  if (memory.stuck && !before.stuck) {
+  if (report.stuck && !before.stuck) {
     const std::string pair =
         block ? block->text
-        : memory.link.empty()
+        : report.link.empty()
             ? "nothing near"
-            : fmt::format("{}, {:.3f} m", PairText(memory.link, memory.obstacle), memory.distance);
+            : fmt::format("{}, {:.3f} m", PairText(report.link, report.obstacle), report.distance);
     warn(fmt::format("the arm is stuck: no progress to its goal for {} s; what blocks: {}",
                      params_.stuck_time, pair));
   }
-  if (memory.tight && !before.tight) {
+  if (report.tight && !before.tight) {
     const std::string pair =
-        memory.distance < 0.0
-            ? fmt::format("{} {:.3g} m deep in {}", memory.link.text(), -memory.distance,
-                          memory.obstacle.text())
-            : fmt::format("{} {:.3g} m apart", PairText(memory.link, memory.obstacle),
-                          memory.distance);
+        report.distance < 0.0
+            ? fmt::format("{} {:.3g} m deep in {}", report.link.text(), -report.distance,
+                          report.obstacle.text())
+            : fmt::format("{} {:.3g} m apart", PairText(report.link, report.obstacle),
+                          report.distance);
     warn(fmt::format("{} leaves {}, less than hard_distance, {} m: its own distance is kept there",
-                     memory.lack == planning::BandLack::kGoal ? "the goal" : "where the arm is",
+                     report.lack == planning::BandLack::kGoal ? "the goal" : "where the arm is",
                      pair, params_.hard_distance));
   }
 }
@@ -338,10 +338,10 @@ void ElasticBand::Plan(double time, Log& log, const RequestAhead& request, const
   const planning::BandSituation now{
       time,     request.trajectory, set.obstacles,
       measured, set.estimates,      left_out == nullptr ? nullptr : &left_out->pairs};
-  const ReportedBefore before{memory.block, memory.stuck, memory.tight, memory.overruns};
+  const BandReport before = memory.report;
   replanner_.Follow(now, memory);
   replanner_.Plan(now, BeginOf(time, memory), rate, memory);
-  Report(time, memory, before, log);
+  Tell(time, memory.report, before, log);
 }
 
 }  // namespace oca::systems

@@ -7,7 +7,7 @@
 #include "oca/framework/dataflow/params.h"
 #include "oca/framework/dataflow/system.h"
 #include "oca/models/planning/band_replanner.h"
-#include "oca/systems/signals/band_memory.h"
+#include "oca/systems/signals/band_signals.h"
 #include "oca/systems/signals/clear_motion.h"
 #include "oca/systems/signals/ignored_pairs.h"
 #include "oca/systems/signals/model_set.h"
@@ -26,14 +26,14 @@ namespace oca::systems {
 /// takes every obstacle to go on as it does now for `prediction` seconds and then to stay; of one that
 /// a tracker estimated it takes what it is likely to do (planning::LikelyAhead), and counts the
 /// distance less by what its place is uncertain. Of one whose velocity nobody knows it takes the place
-/// alone, and trusts no plan. It
-/// begins plan_time after the instant that it is made at, which is the time there is to compute
-/// it, from the state that the band before it then has: position, velocity and acceleration are
-/// continuous. The simulated clock is charged: the work of a plan is counted and priced by plan_cost,
+/// alone, and trusts no plan. It begins plan_time after the instant that it is made at, which is
+/// the time there is to compute it, from the state that the band before it then has: position,
+/// velocity and acceleration are continuous. The simulated clock is charged: the work of a plan is counted and priced by plan_cost,
 /// the same on every machine; one that counts as more than plan_time is late, is thrown away, and
 /// while it would have been made nothing else is planned; the next one begins as much later as that
-/// one took and a quarter more. A warning is logged for the first, `plan.overruns` counts them. If the arm is farther than restart_distance from where the band says, the next band
-/// starts from the arm. The first eight plans look for shorter ways even if theirs is clear; after
+/// one took and a quarter more. A warning is logged for the first, `plan.overruns` counts them. If the
+/// arm is farther than restart_distance from where the band says, the next band starts from the arm.
+/// The first eight plans look for shorter ways even if theirs is clear; after
 /// them a plan whose obstacles still stand where they stood is kept.
 ///
 /// One distance is hard: no plan comes nearer than hard_distance to what stands, nor own links to
@@ -71,7 +71,7 @@ namespace oca::systems {
 /// out   position      n  u
 ///       velocity      n  u/s
 ///       acceleration  n  u/s^2
-///       plan          BandMemory
+///       plan          BandReport    of the last plan
 ///       clear         ClearMotion
 /// state position, velocity, acceleration  n
 ///       plan          BandMemory
@@ -133,15 +133,10 @@ class ElasticBand final : public System {
                  VectorView measured, VectorView planned, const BandMemory& memory,
                  ClearMotion& motion) const;
   void Start(VectorView measured, MutableVectorView position_out) const;
-  /// What was true, and told, before a plan.
-  struct ReportedBefore {
-    planning::BandBlock block;
-    bool stuck, tight;
-    std::uint64_t overruns;
-  };
-  void Report(double time, const BandMemory& memory, const ReportedBefore& before, Log& log) const;
+  /// Warns of what is new.
+  void Tell(double time, const BandReport& report, const BandReport& before, Log& log) const;
   const char* UnitOf(models::Name joint) const;
-  std::optional<Obstruction> WhatBlocks(const BandMemory& memory) const;
+  std::optional<Obstruction> WhatBlocks(const BandReport& report) const;
   /// When a plan that is made at `time` begins: at the first tick after which it is there.
   double BeginOf(double time, const BandMemory& memory) const;
   void Plan(double time, Log& log, const RequestAhead& request, const ObstacleSet& set,
@@ -168,7 +163,7 @@ class ElasticBand final : public System {
   const Output<Vector> position;
   const Output<Vector> velocity;
   const Output<Vector> acceleration;
-  const Output<BandMemory> plan;
+  const Output<BandReport> plan;
   const Output<ClearMotion> clear;
 };
 

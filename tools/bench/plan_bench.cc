@@ -102,12 +102,12 @@ std::vector<PlanTaken> Course(std::uint64_t seed, int bodies) {
     VectorXd measured = request->Evaluate(time, 0);
     if (!memory.At(time).empty()) memory.At(time).Add(time, 0, measured);
     const planning::BandSituation now{time, request, obstacles, measured};
-    const auto plans = memory.plans + memory.overruns;
+    const auto plans = memory.report.plans + memory.report.overruns;
     const double begin = ProcessorTime();
     replanner.Plan(now, time + replanner.TimeToPlan(memory), std::nullopt, memory);
     const double seconds = ProcessorTime() - begin;
-    if (memory.plans + memory.overruns > plans) {
-      taken.push_back({memory.work, seconds, memory.charged, memory.clear});
+    if (memory.report.plans + memory.report.overruns > plans) {
+      taken.push_back({memory.report.work, seconds, memory.report.charged, memory.report.clear});
     }
     for (geometry::Obstacle& obstacle : obstacles) {
       obstacle.X_WO.translation() += kPlanPeriod * obstacle.linear;

@@ -20,7 +20,7 @@ TEST(BandMemoryTest, ChangesToTheNextBandWhenItsTimeHasCome) {
   memory.held = Curve(0.0);
   EXPECT_EQ(&memory.At(5.0), &memory.held);
   memory.next = Curve(1.0);
-  memory.change = 1.0;
+  memory.report.change = 1.0;
   EXPECT_EQ(&memory.At(0.999), &memory.held);
   EXPECT_EQ(&memory.At(1.0), &memory.next);
 }

@@ -176,10 +176,10 @@ TEST(BandOptimizerTest, TouchesWhatStandsSoonerThanWhatMovesAndWhereItBeginsToo)
     return std::min(check.touch_trust, check.touch_flying);
   };
   const double never = std::numeric_limits<double>::infinity();
-  settings.trust_distance = 0.0;
-  BandOptimizer band(sweep.model, settings);
+  BandOptimizer band(sweep.model, {.margin = 2.0, .clear_distance = 2.0});
   band.Prepare(curve, hold, sweep.bodies, true);
-  const double distance = band.Distance(sweep.home, 0.0);
+  const BandOptimizer::Room room = band.RoomAt(sweep.home, 0.0);
+  const double distance = std::min(room.standing, room.flying);
   ASSERT_GT(distance, 0.01);
   ASSERT_LT(distance, 1.9);
   EXPECT_EQ(touch(distance + 1e-3, 0.0, true), curve.start());
@@ -197,7 +197,8 @@ TEST(BandOptimizerTest, AsksForNoMoreThanGoalAndStartLeave) {
   BandOptimizer far(sweep.model, {.margin = 2.0, .clear_distance = 2.0});
   BandCurve curve = sweep.Curve();
   far.Prepare(curve, hold, sweep.bodies, true);
-  const double distance = far.Distance(sweep.home, 0.0);
+  const BandOptimizer::Room room = far.RoomAt(sweep.home, 0.0);
+  const double distance = std::min(room.standing, room.flying);
   ASSERT_LT(distance, 2.0);
   BandOptimizer band(sweep.model, {.margin = distance + 0.1,
                                    .clear_distance = distance + 0.05,

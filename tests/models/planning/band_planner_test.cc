@@ -78,12 +78,12 @@ TEST(BandPlannerTest, SaysWhatIsInTheWayWhereThereIsNoWay) {
   turn.bodies.push_back(
       {models::Name("wall"), wall.collider, [X = wall.X_WO](double) { return X; }, true});
   const BandPlan plan = turn.Plan();
-  if (plan.check.clear()) {  // it rests in front of the wall
-    EXPECT_FALSE(plan.curve.controls().rightCols(3).isZero(1e-3));
-  } else {
-    EXPECT_GT(plan.check.violation, 0.0);
-    EXPECT_FALSE(plan.check.body.empty());
-  }
+  // It rests in front of the wall, and says what leaves it no room.
+  EXPECT_TRUE(plan.check.clear());
+  EXPECT_FALSE(plan.reaches);
+  EXPECT_FALSE(plan.curve.controls().rightCols(3).isZero(1e-3));
+  EXPECT_LE(plan.goal_room, 0.0);
+  EXPECT_EQ(plan.goal_body, models::Name("wall"));
 }
 
 TEST(BandPlannerTest, BoundsItsWorkAndGetsThereByMoreSearches) {
@@ -92,15 +92,15 @@ TEST(BandPlannerTest, BoundsItsWorkAndGetsThereByMoreSearches) {
   turn.bodies.push_back(
       {models::Name("wall"), wall.collider, [X = wall.X_WO](double) { return X; }, true});
   for (const long bound : {2000L, 6000L}) {
-    for (turn.task.search = 0; turn.task.search < 4; ++turn.task.search) {
-      const BandPlan plan = turn.Plan({.paths = 0, .most_evaluations = bound});
-      EXPECT_LT(plan.work.looks(), 1.25 * bound) << turn.task.search;
+    for (turn.task.plans_before = 0; turn.task.plans_before < 4; ++turn.task.plans_before) {
+      const BandPlan plan = turn.Plan({.most_paths = 0, .most_evaluations = bound});
+      EXPECT_LT(plan.work.looks(), 1.25 * bound) << turn.task.plans_before;
     }
   }
   turn.bodies.pop_back();
   int clear = 0;
-  for (turn.task.search = 0; turn.task.search < 8; ++turn.task.search) {
-    clear += turn.Plan({.paths = 0, .most_evaluations = 3000}).check.clear();
+  for (turn.task.plans_before = 0; turn.task.plans_before < 8; ++turn.task.plans_before) {
+    clear += turn.Plan({.most_paths = 0, .most_evaluations = 3000}).check.clear();
   }
   EXPECT_GT(clear, 0);
 }

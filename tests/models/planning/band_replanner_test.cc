@@ -47,32 +47,32 @@ TEST_F(BandReplannerTest, IsStuckOnceTheRequestRestsAndNothingMovedForStuckTime)
   const VectorXd here = Vector3d(0.5, 0, 0);
   for (const double time : {0.0, 1.0, 1.99, 2.0, 3.98}) {
     replanner_.Follow(At(time, here), memory_);
-    EXPECT_FALSE(memory_.stuck) << time;
+    EXPECT_FALSE(memory_.report.stuck) << time;
   }
   replanner_.Follow(At(4.0, here), memory_);
-  EXPECT_TRUE(memory_.stuck) << "2 s after it was last seen to get on, at 1.99 s";
+  EXPECT_TRUE(memory_.report.stuck) << "2 s after it was last seen to get on, at 1.99 s";
   replanner_.Follow(At(4.0, here + VectorXd(Vector3d(0.009, 0, 0))), memory_);
-  EXPECT_TRUE(memory_.stuck);
+  EXPECT_TRUE(memory_.report.stuck);
   replanner_.Follow(At(4.0, here + VectorXd(Vector3d(0.011, 0, 0))), memory_);
-  EXPECT_FALSE(memory_.stuck);
+  EXPECT_FALSE(memory_.report.stuck);
   for (const double goal : {0.991, 0.989}) {
     replanner_.Follow(At(9.0, Vector3d(goal, 0, 0)), memory_);
     replanner_.Follow(At(20.0, Vector3d(goal, 0, 0)), memory_);
-    EXPECT_EQ(memory_.stuck, goal < 0.99) << "it has arrived";
+    EXPECT_EQ(memory_.report.stuck, goal < 0.99) << "it has arrived";
     memory_ = {};
   }
 }
 
 TEST_F(BandReplannerTest, KeepsAPlanWhileWhatStandsStaysWhereItStood) {
   replanner_.Plan(At(0.0, Requested(0.0)), 0.02, std::nullopt, memory_);
-  EXPECT_EQ(memory_.plans, 1u);
-  EXPECT_EQ(memory_.change, 0.02);
-  EXPECT_EQ(memory_.start, BandStart::kRequest);
+  EXPECT_EQ(memory_.report.plans, 1u);
+  EXPECT_EQ(memory_.report.change, 0.02);
+  EXPECT_EQ(memory_.report.start, BandStart::kRequest);
   replanner_.Plan(At(0.02, Requested(0.02)), 0.04, std::nullopt, memory_);
-  EXPECT_EQ(memory_.plans, 1u);
+  EXPECT_EQ(memory_.report.plans, 1u);
   obstacles_[0].X_WO.translation().x() += 1e-3;
   replanner_.Plan(At(0.04, Requested(0.04)), 0.06, std::nullopt, memory_);
-  EXPECT_EQ(memory_.plans, 2u);
+  EXPECT_EQ(memory_.report.plans, 2u);
 }
 
 TEST_F(BandReplannerTest, LooksAgainBeforeASlowRequestLeavesItsHorizon) {
@@ -100,14 +100,14 @@ TEST_F(BandReplannerTest, LooksAgainBeforeASlowRequestLeavesItsHorizon) {
   }
   EXPECT_LT(least_requested, 0.0);
   EXPECT_GT(least, 0.04);
-  EXPECT_LT(memory_.plans, 80u) << "it is not made anew all the time";
+  EXPECT_LT(memory_.report.plans, 80u) << "it is not made anew all the time";
 }
 
 TEST_F(BandReplannerTest, LeavesOutPairsThatWhoeverMeasuresLeavesOut) {
   obstacles_[0].X_WO.translation() = Vector3d(0.7, 0.4, 0.0);  // in the way
   const VectorXd here = Requested(0.0);
   replanner_.Plan(At(0.0, here), 0.02, std::nullopt, memory_);
-  EXPECT_NE(memory_.start, BandStart::kRequest);
+  EXPECT_NE(memory_.report.start, BandStart::kRequest);
   memory_ = {};
   std::vector<std::pair<models::Name, models::Name>> all;
   const auto arm = test::Arm("planar3");
@@ -117,8 +117,8 @@ TEST_F(BandReplannerTest, LeavesOutPairsThatWhoeverMeasuresLeavesOut) {
   BandSituation now = At(0.0, here);
   now.ignored = &all;
   replanner_.Plan(now, 0.02, std::nullopt, memory_);
-  EXPECT_EQ(memory_.start, BandStart::kRequest);
-  EXPECT_TRUE(memory_.link.empty());
+  EXPECT_EQ(memory_.report.start, BandStart::kRequest);
+  EXPECT_TRUE(memory_.report.link.empty());
 }
 
 TEST_F(BandReplannerTest, ThrowsAwayAPlanThatIsLateAndGivesTheNextOneTheTimeItTakes) {
@@ -130,26 +130,26 @@ TEST_F(BandReplannerTest, ThrowsAwayAPlanThatIsLateAndGivesTheNextOneTheTimeItTa
   const VectorXd here = Requested(0.0);
   const BandReplanner timely = replanner(0.019);
   timely.Plan(At(0.0, here), timely.TimeToPlan(memory_), std::nullopt, memory_);
-  EXPECT_EQ(memory_.plans, 1u);
-  EXPECT_EQ(memory_.overruns, 0u);
-  EXPECT_NEAR(memory_.charged, 0.019, 1e-4);
+  EXPECT_EQ(memory_.report.plans, 1u);
+  EXPECT_EQ(memory_.report.overruns, 0u);
+  EXPECT_NEAR(memory_.report.charged, 0.019, 1e-4);
 
   memory_ = {};
   const BandReplanner late = replanner(0.05);
   EXPECT_EQ(late.TimeToPlan(memory_), 0.02);
   late.Plan(At(0.0, here), 0.02, std::nullopt, memory_);
-  EXPECT_EQ(memory_.plans, 0u);
+  EXPECT_EQ(memory_.report.plans, 0u);
   EXPECT_TRUE(memory_.next.empty());
-  EXPECT_EQ(memory_.overruns, 1u);
-  EXPECT_NEAR(memory_.charged, 0.05, 1e-4);
+  EXPECT_EQ(memory_.report.overruns, 1u);
+  EXPECT_NEAR(memory_.report.charged, 0.05, 1e-4);
   late.Plan(At(0.04, here), 0.5, std::nullopt, memory_);
-  EXPECT_EQ(memory_.plans, 0u) << "it would still be made";
+  EXPECT_EQ(memory_.report.plans, 0u) << "it would still be made";
   EXPECT_NEAR(late.TimeToPlan(memory_), 1.25 * 0.05, 1e-4);
   const double begin = 0.06 + late.TimeToPlan(memory_);
   late.Plan(At(0.06, here), 0.06 + late.TimeToPlan(memory_), std::nullopt, memory_);
-  EXPECT_EQ(memory_.plans, 1u);
-  EXPECT_EQ(memory_.overruns, 1u);
-  EXPECT_EQ(memory_.change, begin);
+  EXPECT_EQ(memory_.report.plans, 1u);
+  EXPECT_EQ(memory_.report.overruns, 1u);
+  EXPECT_EQ(memory_.report.change, begin);
   EXPECT_EQ(late.TimeToPlan(memory_), 0.02);
 }
 

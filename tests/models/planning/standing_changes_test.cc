@@ -30,7 +30,7 @@ Obstacle MovedTo(Obstacle obstacle, double x) {
 TEST(ReachOfTest, HoldsEveryLinkWhereverTheJointsAre) {
   for (const char* name : {"planar3", "lwr4", "ur5e"}) {
     const auto arm = test::Arm(name);
-    const RobotReach reach = ReachOf(*arm);
+    const ReachBall reach = ReachBallOf(*arm);
     EXPECT_LT(reach.radius, 2.0) << name;
     Eigen::VectorXd q(arm->num_positions());
     for (int k = 0; k < 200; ++k) {
@@ -42,11 +42,11 @@ TEST(ReachOfTest, HoldsEveryLinkWhereverTheJointsAre) {
       }
     }
   }
-  EXPECT_NEAR(ReachOf(*test::Arm("planar2")).radius, 1.0, 0.1) << "two links of 0.5 m";
+  EXPECT_NEAR(ReachBallOf(*test::Arm("planar2")).radius, 1.0, 0.1) << "two links of 0.5 m";
 }
 
 TEST(StandingChangesTest, WhatIsOutOfReachCountsForNothing) {
-  const RobotReach reach{Vector3d::Zero(), 1.0};
+  const ReachBall reach{Vector3d::Zero(), 1.0};
   const Obstacle near = Box("near", 0.5);
   for (const double x : {1.08, 1.1}) {  // the ball about a cube of 0.1 m has a radius of 0.0866 m
     const Obstacle other = Box("other", x);
@@ -56,7 +56,7 @@ TEST(StandingChangesTest, WhatIsOutOfReachCountsForNothing) {
 }
 
 TEST(StandingChangesTest, WhatComesOpensNoWayAndWhatGoesMay) {
-  const RobotReach reach{Vector3d::Zero(), 1.0};
+  const ReachBall reach{Vector3d::Zero(), 1.0};
   const Obstacle one = Box("one", 0.5), two = Box("two", 0.7);
   EXPECT_TRUE(AllStay({one}, {two, one}, reach));
   EXPECT_FALSE(SameRest({one}, {two, one}, reach));

@@ -126,7 +126,7 @@ struct Scene {
     task.request_end = 4.0;
     task.bodies = around;
     PathSearch search;
-    task.paths = &search;
+    task.path_search = &search;
     return BandPlanner(model, {.most_evaluations = 1000}, true).Plan(task, nullptr);
   }
 

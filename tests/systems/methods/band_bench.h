@@ -46,7 +46,7 @@ class Bench : public SystemBench<ElasticBand> {
   }
   void Measure(const Eigen::VectorXd& q) { (*this)->measured_position.Fix(context(), q); }
   Eigen::VectorXd Position() { return (*this)->position.Eval(context()); }
-  const BandMemory& Plan() { return (*this)->plan.Eval(context()); }
+  const BandReport& Plan() { return (*this)->plan.Eval(context()); }
   /// To the tick at k periods, that included; the arm follows.
   void Tick(int k) {
     AdvanceTo((k + 0.5) * 0.01);

@@ -36,7 +36,7 @@ TEST(ElasticBandRestTest, RestsBeforeAGoalInContactSaysSoAndGoesOnOnceItIsFree) 
   Bench bench(BoxAt({0.0, 0.8, 0.0}, 0.4));
   int k = 0;
   EXPECT_LT(WayOf(bench, k, 1200), 0.01);
-  const BandMemory& plan = bench.Plan();
+  const BandReport& plan = bench.Plan();
   EXPECT_TRUE(plan.stuck);
   EXPECT_TRUE(plan.clear);
   EXPECT_EQ(plan.block, planning::BandBlock::kContact);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "oca/systems/signals/band_memory.h"
+#include "oca/systems/signals/band_signals.h"
 
 #include <cmath>
 
@@ -9,15 +9,28 @@
 namespace oca {
 
 using systems::BandMemory;
+using systems::BandReport;
 using systems::Json;
+
+namespace {
+
+bool Finite(const BandReport& report) {
+  return std::isfinite(report.nearest) && std::isfinite(report.block_amount) &&
+         std::isfinite(report.cost);
+}
+
+}  // namespace
+
+Fault Signal<BandReport>::Check(const BandReport& value, Look /*look*/) {
+  return Fault::UnlessFinite(Finite(value));
+}
 
 Fault Signal<BandMemory>::Check(const BandMemory& value, Look /*look*/) {
   return Fault::UnlessFinite(value.held.controls().allFinite() &&
-                             value.next.controls().allFinite() && std::isfinite(value.nearest) &&
-                             std::isfinite(value.block_amount) && std::isfinite(value.cost));
+                             value.next.controls().allFinite() && Finite(value.report));
 }
 
-void Signal<BandMemory>::WriteJson(const BandMemory& value, std::string& out) {
+void Signal<BandReport>::WriteJson(const BandReport& value, std::string& out) {
   out += oca::internal::JsonText(
       Json{{"plans", value.plans},
            {"start", planning::kBandStartNames[static_cast<std::size_t>(value.start)]},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "oca/systems/signals/band_memory.h"
+#include "oca/systems/signals/band_signals.h"
 
 #include <gtest/gtest.h>
 
@@ -8,21 +8,21 @@
 namespace oca::systems {
 namespace band_memory_test {
 
-TEST(BandMemorySignalTest, WritesWhatThePlanCameTo) {
-  BandMemory memory;
-  memory.plans = 3;
-  memory.start = planning::BandStart::kDetour;
-  memory.stuck = true;
-  memory.nearest = 0.0625;
-  memory.link = models::Name("wrist");
-  memory.obstacle = models::Name("box");
-  memory.lack = planning::BandLack::kGoal;
-  memory.block = planning::BandBlock::kContact;
-  memory.block_link = memory.link;
-  memory.block_body = memory.obstacle;
-  memory.block_amount = 0.25;
+TEST(BandReportSignalTest, WritesWhatThePlanCameTo) {
+  BandReport report;
+  report.plans = 3;
+  report.start = planning::BandStart::kDetour;
+  report.stuck = true;
+  report.nearest = 0.0625;
+  report.link = models::Name("wrist");
+  report.obstacle = models::Name("box");
+  report.lack = planning::BandLack::kGoal;
+  report.block = planning::BandBlock::kContact;
+  report.block_link = report.link;
+  report.block_body = report.obstacle;
+  report.block_amount = 0.25;
   std::string text;
-  Signal<BandMemory>::WriteJson(memory, text);
+  Signal<BandReport>::WriteJson(report, text);
   EXPECT_EQ(text,
             R"({"plans":3,"start":"detour","clear":true,"reaches":true,"stuck":true,)"
             R"("nearest":0.0625,"link":"wrist","obstacle":"box","distance":0.0,"lack":"goal",)"
