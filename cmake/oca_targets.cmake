@@ -57,6 +57,20 @@ function(oca_library name)
           FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 endfunction()
 
+# oca_embed(NAME FILE CONSTANT) lets the sources of oca::NAME include <FILE.h>, where the std::string_view
+# CONSTANT is the text of FILE, of this folder.
+function(oca_embed name file constant)
+  file(READ ${file} text)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+  file(CONFIGURE OUTPUT embedded/${file}.h @ONLY CONTENT [[
+// Made of @file@ by CMake.
+#pragma once
+#include <string_view>
+constexpr std::string_view @constant@ = R"embedded(@text@)embedded";
+]])
+  target_include_directories(oca_${name} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/embedded)
+endfunction()
+
 # oca_test(NAME [SOURCES...] [COUNTS_ALLOCATIONS] [RUNS_SIMULATOR] [FOLDERS...] LINK...) makes one test program of
 # SOURCES, or all sources in this folder and its FOLDERS; ctest runs each TEST on its own.
 function(oca_test name)

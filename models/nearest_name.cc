@@ -1,27 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oca/models/nearest_name.h"
 
-#include <cstddef>
-#include <limits>
-
 #include "oca/framework/dataflow/edit_distance.h"
 
 namespace oca::models {
+namespace {
+
+constexpr std::size_t kMostEdits = 2;
+
+}  // namespace
 
 std::string NearestName(std::string_view name, std::span<const std::string> candidates) {
-  // Suggesting for a text of book length would take longer than it helps.
-  constexpr std::size_t kLongest = 200;
-  std::string nearest;
-  std::size_t least = std::numeric_limits<std::size_t>::max();
-  for (const std::string& candidate : candidates) {
-    const std::size_t distance = oca::internal::EditDistance(
-        name.substr(0, kLongest), std::string_view(candidate).substr(0, kLongest));
-    if (distance < least) {
-      least = distance;
-      nearest = candidate;
-    }
-  }
-  return nearest;
+  const auto nearest = oca::internal::NearestOf(name, candidates);
+  return nearest.candidate == nullptr ? "" : *nearest.candidate;
+}
+
+std::string MisspeltName(std::string_view name, std::span<const std::string> candidates) {
+  const auto nearest = oca::internal::NearestOf(name, candidates);
+  const bool near =
+      nearest.candidate != nullptr && nearest.distance > 0 && nearest.distance <= kMostEdits;
+  return near ? *nearest.candidate : "";
 }
 
 }  // namespace oca::models

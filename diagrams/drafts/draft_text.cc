@@ -9,6 +9,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "first_diagram.yaml.in.h"
+
 namespace oca::drafts::internal {
 
 namespace fs = std::filesystem;
@@ -17,10 +19,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-constexpr std::string_view kFirstDiagram =
-#include "oca/diagrams/drafts/first_diagram.inc"
-    ;
 
 constexpr double kSpeedShare = 0.25;   // of the speed limit, on the average
 constexpr double kShortest = 4.0;      // s
@@ -50,15 +48,16 @@ double DurationOf(const planning::FirstMotion& motion, const robot::RobotModel& 
 }  // namespace
 
 std::string Filled(std::string_view text, const std::map<std::string_view, std::string>& values) {
-  if (text.starts_with('\n')) text.remove_prefix(1);
   std::string filled;
   while (true) {
     const std::size_t open = text.find('@');
     filled += text.substr(0, open);
     if (open == std::string_view::npos) return filled;
     const std::size_t close = text.find('@', open + 1);
+    const bool begins_line = filled.empty() || filled.ends_with('\n');
     filled += values.at(text.substr(open + 1, close - open - 1));
     text.remove_prefix(close + 1);
+    if (begins_line && text.starts_with('\n')) text.remove_prefix(1);
   }
 }
 

@@ -17,9 +17,9 @@
 #include "oca/diagrams/drafts/scene_shapes.h"
 #include "oca/diagrams/loading/loader.h"
 #include "oca/framework/dataflow/error.h"
+#include "oca/framework/dataflow/nearest.h"
 #include "oca/models/error.h"
 #include "oca/models/file_cache.h"
-#include "oca/models/nearest_name.h"
 #include "oca/models/robot/collision_check.h"
 #include "oca/models/scenes/motion_request.h"
 #include "oca/models/scenes/planning_scene.h"
@@ -118,9 +118,9 @@ class SceneDraftMaker {
     std::vector<std::string> names;
     for (const robot::SrdfGroup& known : srdf.groups) names.push_back(known.name);
     if (std::find(names.begin(), names.end(), group) == names.end()) {
-      throw models::ModelError(fmt::format(
-          "{}: group_name; got '{}'; expected a group of {}, nearest is '{}'", request_->file,
-          group, robot_options_.srdf.string(), models::NearestName(group, names)));
+      throw models::ModelError(fmt::format("{}: group_name; got '{}'; expected a group of {}{}",
+                                           request_->file, group, robot_options_.srdf.string(),
+                                           DidYouMean(group, names)));
     }
     robot_options_.group = group;
   }

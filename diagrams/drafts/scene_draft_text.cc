@@ -9,13 +9,10 @@
 #include <cmath>
 
 #include "oca/diagrams/drafts/draft_text.h"
+#include "scene_diagram.yaml.in.h"
 
 namespace oca::drafts::internal {
 namespace {
-
-constexpr std::string_view kSceneDiagram =
-#include "oca/diagrams/drafts/scene_diagram.inc"
-    ;
 
 constexpr const char* kNoGuess = "\"${acceleration_limit}\"";
 

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "oca/framework/dataflow/nearest.h"
 #include "oca/models/error.h"
-#include "oca/models/nearest_name.h"
 #include "oca/models/robot/kinematics.h"
 
 namespace oca::drafts::internal {
@@ -72,10 +72,9 @@ const Eigen::Isometry3d& SceneFrames::Find(const scenes::PlacedName& frame) cons
   for (const auto& [name, X] : frames_) {
     if (!name.empty()) names.push_back(name);
   }
-  throw models::ModelError(fmt::format(
-      "{}: frame; got '{}'; expected a link, an object, a subframe or a fixed frame, nearest is "
-      "'{}'",
-      frame.where, frame.text, models::NearestName(frame.text, names)));
+  throw models::ModelError(
+      fmt::format("{}: frame; got '{}'; expected a link, an object, a subframe or a fixed frame{}",
+                  frame.where, frame.text, DidYouMean(frame.text, names)));
 }
 
 Eigen::Isometry3d SceneFrames::PoseOf(const scenes::SceneObject& object) const {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "oca/framework/dataflow/nearest.h"
 #include "oca/models/error.h"
-#include "oca/models/nearest_name.h"
 
 namespace oca::drafts::internal {
 namespace {
@@ -28,8 +28,8 @@ void AddUnknown(const robot::RobotModel& model, const scenes::JointPositions& jo
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     errors.Add(
         fmt::format("{}: joint '{}'; got a name that the robot does not have; expected one "
-                    "of its joints, nearest is '{}'",
-                    where, name, models::NearestName(name, known)));
+                    "of its joints{}",
+                    where, name, DidYouMean(name, known)));
   }
 }
 

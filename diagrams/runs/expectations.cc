@@ -19,7 +19,7 @@ using systems::MotionMetricsValue;
 /// Those that an expectation is about, if it is about metrics.
 std::optional<MotionMetricsValue> MetricsOf(const files::Expectation& expectation,
                                             const Context& context) {
-  if (!expectation.judges.empty()) return WorstOf(JudgementsOf(expectation.judges, context));
+  if (!expectation.judges.empty()) return MetricsOfAll(JudgementsOf(expectation.judges, context));
   if (expectation.member.empty()) return std::nullopt;
   if (&TypeOfPort(expectation.output) != &TypeOf<MotionMetricsValue>()) return std::nullopt;
   return *static_cast<const MotionMetricsValue*>(EvalObject(expectation.output, context));
@@ -32,8 +32,8 @@ std::optional<double> ValueOf(const files::Expectation& expectation, const Conte
   if (expectation.member.empty()) {
     return EvalVector(expectation.output, context)[static_cast<std::size_t>(expectation.index)];
   }
-  return NumberIn(TypeOfPort(expectation.output), EvalObject(expectation.output, context),
-                  expectation.member);
+  return MemberNumber(TypeOfPort(expectation.output), EvalObject(expectation.output, context),
+                      expectation.member);
 }
 
 /// A proved lower bound of a least distance that nobody measured, for nothing came within reach.
@@ -80,7 +80,7 @@ bool IsOfContact(const files::Expectation& expectation) {
 
 }  // namespace
 
-std::optional<MotionMetricsValue> WorstOf(const std::vector<Judgement>& judgements) {
+std::optional<MotionMetricsValue> MetricsOfAll(const std::vector<Judgement>& judgements) {
   std::optional<MotionMetricsValue> worst;
   for (const Judgement& one : judgements) {
     worst = worst ? systems::WorstOf(*worst, one.metrics) : one.metrics;

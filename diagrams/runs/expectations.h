@@ -10,7 +10,7 @@
 namespace oca::runs {
 
 /// The metrics of all judges as one; none without a judge.
-std::optional<systems::MotionMetricsValue> WorstOf(const std::vector<Judgement>& judgements);
+std::optional<systems::MotionMetricsValue> MetricsOfAll(const std::vector<Judgement>& judgements);
 
 /// Looks at what a file expects, while its run goes on.
 class ExpectationCheck {

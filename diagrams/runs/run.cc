@@ -89,7 +89,7 @@ class Runner final : public RunControl {
     result_.statistics = simulator_->statistics();
     result_.profile = simulator_->profile();
     result_.judgements = JudgementsOf(*loaded_, simulator_->context());
-    result_.metrics = WorstOf(result_.judgements);
+    result_.metrics = MetricsOfAll(result_.judgements);
     if (!result_.failure) result_.blocked = WhatBlocks(*loaded_, simulator_->context());
     if (check_) {
       result_.expectations = check_->Finish(*loaded_, result_.metrics, result_.duration);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -29,6 +31,27 @@ inline std::size_t EditDistance(std::string_view a, std::string_view b) {
     std::swap(last, row);
   }
   return last.back();
+}
+
+/// A candidate and its EditDistance to what was asked for.
+struct NearestCandidate {
+  const std::string* candidate{nullptr};  ///< none if there was none
+  std::size_t distance{0};
+};
+
+/// The first of those nearest to `name`. All count by their first 200 characters: a text of book
+/// length would take longer than it helps.
+inline NearestCandidate NearestOf(std::string_view name, std::span<const std::string> candidates) {
+  constexpr std::size_t kLongest = 200;
+  NearestCandidate nearest;
+  for (const std::string& candidate : candidates) {
+    const std::size_t distance =
+        EditDistance(name.substr(0, kLongest), std::string_view(candidate).substr(0, kLongest));
+    if (nearest.candidate == nullptr || distance < nearest.distance) {
+      nearest = {&candidate, distance};
+    }
+  }
+  return nearest;
 }
 
 }  // namespace oca::internal

@@ -11,18 +11,9 @@ namespace oca {
 
 std::string DidYouMean(std::string_view word, std::span<const std::string> candidates) {
   if (word.size() > 200) return "";
-  const std::string* best = nullptr;
-  std::size_t best_distance = 0;
-  for (const std::string& candidate : candidates) {
-    const std::size_t distance = internal::EditDistance(word, candidate);
-    if (best == nullptr || distance < best_distance) {
-      best = &candidate;
-      best_distance = distance;
-    }
-  }
-  const bool near = best != nullptr && best_distance > 0 &&
-                    best_distance <= std::max<std::size_t>(2, word.size() / 3) &&
-                    best_distance < word.size();
+  const auto [best, distance] = internal::NearestOf(word, candidates);
+  const bool near = best != nullptr && distance > 0 &&
+                    distance <= std::max<std::size_t>(2, word.size() / 3) && distance < word.size();
   return near ? fmt::format("; did you mean '{}'?", *best) : "";
 }
 

@@ -65,7 +65,7 @@ Fault CheckVector(const double* values, Eigen::Index size, const Storage& at) {
   return {};
 }
 
-void ThrowIf(const char* type, const Fault& fault) {
+void RequireValid(const char* type, const Fault& fault) {
   if (!fault.ok()) throw ConfigError(fmt::format("{}: {}", type, fault.text()));
 }
 
@@ -105,7 +105,7 @@ VectorView ContinuousState::Get(const Context& context) const {
 
 void ContinuousState::Set(Context& context, const Eigen::Ref<const Eigen::VectorXd>& value) const {
   const internal::Storage at = internal::Find(*this, context);
-  internal::ThrowIf("vector", internal::CheckVector(value.data(), value.size(), at));
+  internal::RequireValid("vector", internal::CheckVector(value.data(), value.size(), at));
   ViewOf<Vector>::Write(at.arena, at.slot) = value;
   internal::MarkChanged(*this, context);
 }

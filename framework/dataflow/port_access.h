@@ -27,7 +27,7 @@ void MarkChanged(const StateHandle& state, Context& context);
 /// What is wrong with a vector: its length, its numbers.
 Fault CheckVector(const double* values, Eigen::Index size, const Storage& at);
 /// throws ConfigError `type: what` if anything is wrong.
-void ThrowIf(const char* type, const Fault& fault);
+void RequireValid(const char* type, const Fault& fault);
 
 /// Keeps a value from outside that is good.
 template <class T>
@@ -41,11 +41,11 @@ template <class T, class Value>
 void Assign(Storage at, const Value& value) {
   if constexpr (std::is_same_v<T, Vector>) {
     const Eigen::Ref<const Eigen::VectorXd> vector(value);
-    ThrowIf("vector", CheckVector(vector.data(), vector.size(), at));
+    RequireValid("vector", CheckVector(vector.data(), vector.size(), at));
     ViewOf<Vector>::Write(at.arena, at.slot) = vector;
   } else {
     const T& object = value;
-    ThrowIf(Signal<T>::kName, Signal<T>::Check(object, Look::kWhole));
+    RequireValid(Signal<T>::kName, Signal<T>::Check(object, Look::kWhole));
     Store(at, object);
   }
 }

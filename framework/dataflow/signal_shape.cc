@@ -32,7 +32,8 @@ SignalShape ShapeOf(const SignalType& type) {
   return ShapeOfTree(ordered_json::parse(DefaultJson(type)));
 }
 
-std::optional<double> NumberIn(const SignalType& type, const void* value, std::string_view member) {
+std::optional<double> MemberNumber(const SignalType& type, const void* value,
+                                   std::string_view member) {
   std::string text;
   type.write_json(value, text);
   const ordered_json tree = ordered_json::parse(text, nullptr, false);

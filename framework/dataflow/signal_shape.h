@@ -25,6 +25,7 @@ SignalShape ShapeOf(const SignalType& type);
 
 /// The number that a value of such a type has as a member; none if it has none of that name.
 /// `value` as the type knows it.
-std::optional<double> NumberIn(const SignalType& type, const void* value, std::string_view member);
+std::optional<double> MemberNumber(const SignalType& type, const void* value,
+                                   std::string_view member);
 
 }  // namespace oca

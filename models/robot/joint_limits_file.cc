@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "oca/framework/dataflow/edit_distance.h"
 #include "oca/models/error.h"
 #include "oca/models/nearest_name.h"
 #include "oca/models/robot/xml_file.h"
@@ -144,9 +143,8 @@ class Limits {
          models::ModelErrors& errors)
       : where_(where), joint_(joint), of_(of), errors_(errors) {
     for (const auto& [key, scalar] : of.said) {
-      const std::string nearest = models::NearestName(key, KnownKeys());
-      if (key == nearest || oca::internal::EditDistance(key, nearest) > 2) continue;
-      Add(scalar.line, "unknown key", key, nearest);
+      const std::string meant = models::MisspeltName(key, KnownKeys());
+      if (!meant.empty()) Add(scalar.line, "unknown key", key, meant);
     }
   }
 

@@ -11,7 +11,6 @@
 #include <set>
 #include <utility>
 
-#include "oca/framework/dataflow/edit_distance.h"
 #include "oca/models/nearest_name.h"
 #include "oca/models/robot/xml_numbers.h"
 
@@ -97,7 +96,7 @@ class Repair {
         if (!name.starts_with("xmlns")) unknown.push_back(name);
       } else if (known != KnownAttributes().end() &&
                  std::count(known->second.begin(), known->second.end(), name) == 0 &&
-                 oca::internal::EditDistance(name, models::NearestName(name, known->second)) > 2) {
+                 models::MisspeltName(name, known->second).empty()) {
         unknown.push_back(name);
       }
     }

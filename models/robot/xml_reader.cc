@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <set>
 
-#include "oca/framework/dataflow/edit_distance.h"
 #include "oca/models/counted.h"
 #include "oca/models/error.h"
 #include "oca/models/nearest_name.h"
@@ -113,9 +112,9 @@ void XmlReader::CheckChildren(const TiXmlElement& element, const Names& once,
   for (auto* e = element.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
     const std::string& name = e->ValueStr();
     if (!Contains(known, name)) {
-      const std::string nearest = models::NearestName(name, known);
-      if (oca::internal::EditDistance(name, nearest) > 2) continue;
-      Fail(*e, fmt::format("unknown element in <{}>", element.ValueStr()), name, nearest);
+      const std::string meant = models::MisspeltName(name, known);
+      if (meant.empty()) continue;
+      Fail(*e, fmt::format("unknown element in <{}>", element.ValueStr()), name, meant);
     }
     if (Contains(once, name) && !seen.insert(name).second) {
       Fail(*e, fmt::format("element in <{}>", element.ValueStr()), "a second one", "one");

@@ -3,22 +3,15 @@
 
 #include "oca/framework/dataflow/params.h"
 #include "oca/framework/dataflow/system.h"
+#include "oca/models/robot/velocity_aware_law.h"
 #include "oca/systems/signals/contact_slopes.h"
 #include "oca/systems/signals/signals.h"
 
 namespace oca::systems {
 
 /// Pushes links away from what they come nearer to, the more the faster they do; what they leave or
-/// pass at rest exerts no force. With x the vector from the obstacle to the link along the normal,
-/// p = |x| the distance and v the velocity of the link's point relative to the obstacle's:
-///
-///     U = velocity_gain |v| (-c)^exponent s(p),   c = v . x / (|v| p),   if c < 0 and p < rho0
-///     s = (1 - p / rho0)^2 / p,                   F = -dU/dx at constant v
-///
-/// else 0, rho0 = max_distance. F has a part along the normal, which brakes, and one along the
-/// sideways part of v, which leads around the obstacle. The factor (1 - p / rho0)^2 is not in the
-/// source: with it F fades to 0 where the obstacle leaves the field. p is floored at min_distance,
-/// so F is finite and its normal part outward in contact. F is continuous in p, n and v.
+/// pass at rest exerts no force. The force on a link is that of robot::VelocityAwareLaw, with range
+/// max_distance and floor min_distance; of own links distances count max_distance / range times.
 ///
 /// F alone lets the link come near slowly: add a RepulsiveField (ForceSum).
 ///
@@ -49,18 +42,8 @@ class VelocityAwareField final : public System {
 
   explicit VelocityAwareField(const Params& params);
 
-  /// U in N m at x (m) from the obstacle, with relative velocity v (m/s).
-  double Potential(const Eigen::Vector3d& x, const Eigen::Vector3d& v) const;
-  /// F in N at a signed distance along `normal`.
-  Eigen::Vector3d Force(double distance, const Eigen::Vector3d& normal,
-                        const Eigen::Vector3d& v) const;
-
  private:
-  const Params params_;
-  const double worst_;  ///< the largest over c of d(|v| (-c)^(exponent)) / d(-v . n)
-  /// By the seen distance.
-  Eigen::Vector3d SlopeOf(const Proximity& proximity, double distance,
-                          const Eigen::Vector3d& v) const;
+  const robot::VelocityAwareLaw law_;
   void CalcForces(const ProximitySet& set, const LinkPoses& poses, LinkForceSet& result) const;
   void CalcSlopes(const ProximitySet& set, const LinkPoses& poses, ContactSlopes& result) const;
 

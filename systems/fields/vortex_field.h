@@ -7,7 +7,7 @@
 
 #include "oca/framework/dataflow/params.h"
 #include "oca/framework/dataflow/system.h"
-#include "oca/models/robot/repulsive_law.h"
+#include "oca/models/robot/turned_repulsive_law.h"
 #include "oca/systems/signals/contact_slopes.h"
 #include "oca/systems/signals/model_set.h"
 #include "oca/systems/signals/signals.h"
@@ -17,8 +17,7 @@ namespace oca::systems {
 /// A RepulsiveField whose force is turned towards the way around the obstacle, so that a link which
 /// is pushed back against its request slides along instead of standing still:
 ///
-///     F   = |F_rep(rho)| (cos(phi) n + sin(phi) a x n)
-///     phi = turn clamp(2 rho / max_distance, 0, 1)
+///     F = |F_rep(rho)| (cos(phi) n + sin(phi) a x n)      robot::TurnedRepulsiveLaw
 ///
 /// Each link has one unit axis a for all its obstacles, chosen when the first of them comes within
 /// max_distance, where F is 0, and kept until the last one is out again: so F does not flip, and is
@@ -26,12 +25,11 @@ namespace oca::systems {
 /// n of the nearest obstacle towards where the link's nearest point is going as seen from the
 /// obstacle:
 ///
-///     a ~ n x (d / |d| + 0.05 up)
 ///     d = J_p (velocity + (position - measured_position) / 1 s) - v_O
 ///
-/// `up` is the z axis of the robot's base; it decides when the request leads straight at the
-/// obstacle (and if the normal points up too, the base's x axis does). In contact phi is 0: F
-/// points straight out, and F . n >= |F| cos(turn) everywhere.
+/// robot::AxisAround makes a of n, d and the base's axes: a request that leads straight at the
+/// obstacle is led up. In contact phi is 0: F points straight out, and F . n >= |F| cos(turn)
+/// everywhere.
 ///
 /// in    proximities        ProximitySet
 /// in    links              LinkPoses
@@ -65,19 +63,12 @@ class VortexField final : public System {
 
   VortexField(const Params& params, const ModelSet& models);
 
-  /// The force in N that `axis` makes of a proximity.
-  Eigen::Vector3d Force(const Proximity& proximity, const Eigen::Vector3d& axis) const;
-
  private:
   using OptionalVector = std::optional<VectorView>;
-  const Params params_;
+  const robot::TurnedRepulsiveLaw law_;
   const std::shared_ptr<const robot::RobotModel> model_;
-  const robot::RepulsiveLaw law_;
   const DiscreteState<Vector> held_;
 
-  double Angle(double distance) const;
-  Eigen::Vector3d ChooseAxis(const Proximity& nearest, const Eigen::Vector3d& way,
-                             const Eigen::Matrix3d& R_WB) const;
   /// A column a link of the model, 0 for a link without obstacles.
   struct Axes;
   void CalcAxes(const ProximitySet& set, const LinkPoses& poses, VectorView request,

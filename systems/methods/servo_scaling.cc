@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "oca/framework/dataflow/error.h"
@@ -15,13 +14,6 @@
 #include "oca/systems/signals/roles.h"
 
 namespace oca::systems {
-namespace {
-
-const double kFallOff = std::log(1000.0);  // the law at contact is 1/1000
-// An approach that is slowed in full, m/s.
-constexpr double kFullApproach = 0.02;
-
-}  // namespace
 
 struct ServoScaling::Slowed {
   double share{0.0};  ///< of the request that is held back
@@ -44,7 +36,8 @@ void ServoScaling::Params::Describe(Fields<Params>& fields) {
 }
 
 ServoScaling::ServoScaling(const Params& params, const ModelSet& models)
-    : params_(Validated(params)),
+    : period_(Validated(params).period),
+      law_{params.slow_distance, params.own_slow_distance, params.approach_only},
       model_(FilteredModel(models, params.model)),
       s_(DeclareDiscreteState("s", {1, "s"}, 0.0)),
       proximities(DeclareInput<ProximitySet>("proximities")),
@@ -57,18 +50,12 @@ ServoScaling::ServoScaling(const Params& params, const ModelSet& models)
                                                             position, s_)),
       path_time(DeclareStateOutput("path_time", s_)) {
   DeclareInitialization<&ServoScaling::Start>(Writes(s_), kTime);
-  DeclareUpdate<&ServoScaling::Update>(Every{params_.period}, Writes(s_), kTime, scale);
+  DeclareUpdate<&ServoScaling::Update>(Every{period_}, Writes(s_), kTime, scale);
   DeclareRole(Limits{.shown = Limits::Shown::kBelow,
                      .signal = scale,
                      .bound = {1.0},
                      .how = "slowed",
-                     .period = params_.period});
-}
-
-double ServoScaling::Law(double distance, bool own, double range) const {
-  const double slow = std::min(own ? params_.own_slow_distance : params_.slow_distance, range);
-  if (distance >= slow) return 1.0;
-  return distance > 0.0 ? std::exp(kFallOff * (distance / slow - 1.0)) : 0.0;
+                     .period = period_});
 }
 
 const motion::Trajectory* ServoScaling::Known(const RequestAhead& request) const {
@@ -88,14 +75,7 @@ void ServoScaling::CalcSlowed(const ProximitySet& set, const LinkPoses& poses,
   if (known != nullptr) known->Evaluate(s[0], 1, rate);
   double least = known != nullptr ? 1.0 : 0.0;
   for (const Proximity& proximity : set.proximities) {
-    const double law = Law(proximity.distance, !proximity.own_link.empty(), proximity.range);
-    if (law >= 1.0) continue;
-    double counts = 1.0;
-    if (params_.approach_only) {
-      const double approach = -RowOf(*model_, X_WL, proximity).dot(rate);
-      counts = robot::Fade(-approach, -kFullApproach, 0.0);
-    }
-    least = std::min(least, 1.0 - counts * (1.0 - law));
+    least = std::min(least, law_.Scale(*model_, X_WL, proximity, rate));
   }
   result.share = 1.0 - least;
 }
@@ -118,7 +98,7 @@ void ServoScaling::CalcDelta(const RequestAhead& request, VectorView now, Vector
 /// What was never slowed is exactly on time, as a sum of periods would not be.
 void ServoScaling::Update(double time, VectorView value, MutableVectorView s) const {
   const bool on_time = s[0] == time && value[0] == 1.0;
-  s[0] = on_time ? params_.period.TickAfter(time) : s[0] + value[0] * params_.period.seconds();
+  s[0] = on_time ? period_.TickAfter(time) : s[0] + value[0] * period_.seconds();
 }
 
 }  // namespace oca::systems

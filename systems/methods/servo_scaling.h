@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <limits>
 #include <memory>
 #include <string>
 
 #include "oca/framework/dataflow/params.h"
 #include "oca/framework/dataflow/system.h"
-#include "oca/models/robot/filtered_inverse.h"
+#include "oca/models/robot/servo_scaling_law.h"
 #include "oca/systems/signals/model_set.h"
 #include "oca/systems/signals/request_ahead.h"
 #include "oca/systems/signals/signals.h"
@@ -17,20 +16,15 @@ namespace oca::systems {
 /// MoveIt Servo's collision law, as a baseline: near obstacles the request is followed more slowly,
 /// along itself.
 ///
-///     scale = 1 for d >= slow_distance
-///             exp(k (d - slow_distance)),  k = ln(1000) / slow_distance
-///             0 for d <= 0
+///     scale = the least of all proximities by robot::ServoScalingLaw
 ///     s_next = s + scale period,   delta = request(s) - position
 ///
-/// d is the nearest distance of all proximities (`slow_distance`) or of two links of the arm
-/// (the lesser of `own_slow_distance` and the pair's range), the lesser scale counts. The arm never leaves the way that was requested,
-/// so it stays clear of what stands, because it stops; it cannot evade, does not look at the
-/// velocity of obstacles, and arrives only if they go away. As in Servo the scale slows a motion
-/// that leads away from an obstacle too, and once in contact the arm stays there. With
-/// `approach_only` it does not: proximity i takes
-///
-///     scale_i = 1 - fade (1 - law(d_i)),   fade from 0 to 1 while -n_i^T J_i dr/ds goes from 0 to
-///                                          0.02 m/s
+/// The law takes `slow_distance` of obstacles, and of two links of the arm the lesser of
+/// `own_slow_distance` and the pair's range. The arm never leaves the way that was requested, so it
+/// stays clear of what stands, because it stops; it cannot evade, does not look at the velocity of
+/// obstacles, and arrives only if they go away. As in Servo the scale slows a motion that leads
+/// away from an obstacle too, and once in contact the arm stays there. With `approach_only` it does
+/// not.
 ///
 /// in    proximities  ProximitySet
 ///       links        LinkPoses
@@ -63,13 +57,9 @@ class ServoScaling final : public System {
 
   ServoScaling(const Params& params, const ModelSet& models);
 
-  /// The law at a distance from an obstacle, or with `own` from another link of the arm, of which
-  /// no more than `range` is asked.
-  double Law(double distance, bool own,
-             double range = std::numeric_limits<double>::infinity()) const;
-
  private:
-  const Params params_;
+  const Period period_;
+  const robot::ServoScalingLaw law_;
   const std::shared_ptr<const robot::RobotModel> model_;
   const DiscreteState<Vector> s_;
 

@@ -6,7 +6,6 @@
 #include "oca/framework/dataflow/error.h"
 #include "oca/models/error.h"
 #include "oca/models/robot/inverse_kinematics.h"
-#include "oca/models/robot/proximity.h"
 #include "oca/models/robot/robot_model.h"
 #include "oca/systems/sensing/model_links.h"
 
@@ -26,13 +25,6 @@ int TipNumber(const robot::RobotModel& model, const std::string& tip) {
   } catch (const models::ModelError& error) {
     throw ConfigError(std::string("tip: ") + error.what());
   }
-}
-
-robot::JointVector RowOf(const robot::RobotModel& model, std::span<const Eigen::Isometry3d> X_WL,
-                         const Proximity& proximity) {
-  robot::JointVector row(model.num_positions());
-  robot::DistanceRow(model, X_WL, proximity, row);
-  return row;
 }
 
 }  // namespace oca::systems

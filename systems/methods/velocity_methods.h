@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "oca/framework/dataflow/params.h"
 #include "oca/framework/dataflow/system.h"
+#include "oca/models/robot/avoidance_velocity.h"
 #include "oca/models/robot/filtered_inverse.h"
 #include "oca/systems/basics/require.h"
 #include "oca/systems/basics/shared_params.h"
@@ -49,15 +48,6 @@ P WithDamping(const P& params) {
   return params;
 }
 
-/// The joint velocity that a method chose, how much say avoidance had, and the memory that it was
-/// computed in.
-struct AvoidanceVelocity {
-  Eigen::VectorXd velocity{};
-  double share{0.0};  ///< 0: the request's alone, 1: avoidance goes first
-  int rows{0};        ///< proximities that took part
-  std::vector<Eigen::Isometry3d> reordered{};
-};
-
 /// throws ConfigError as MovableModel, and if it has more joints than robot::JointVector holds
 std::shared_ptr<const robot::RobotModel> FilteredModel(const ModelSet& models,
                                                        const std::string& name);
@@ -66,16 +56,12 @@ std::shared_ptr<const robot::RobotModel> FilteredModel(const ModelSet& models,
 /// several are last and none is named
 int TipNumber(const robot::RobotModel& model, const std::string& tip);
 
-/// d(distance)/d(position) of every joint. throws ModelError if it is of no link of the model
-robot::JointVector RowOf(const robot::RobotModel& model, std::span<const Eigen::Isometry3d> X_WL,
-                         const Proximity& proximity);
-
-/// A law that chooses the joint velocity of one arm, as a system; what FlaccoDeLuca and TaskPriority
-/// share.
+/// A law that chooses the joint velocity of one arm, as a system; what FlaccoDeLuca and
+/// TaskPriority share.
 ///
-/// `Law` names the parameters and documents the type, and is made of (params, models). model() is
-/// its arm, kHow what Limits says of it, and Choose(set, X_WL, wish, result) computes u, X_WL being
-/// the poses of the model's links in its own order.
+/// `Method` names the law and its parameters, and documents the type: Law, whose Choose(model, set,
+/// X_WL, wish, result) computes u; Params, their Checked(params), and LawOf(params, model); kDoc,
+/// and kHow for Limits. X_WL are the poses of the model's links in its own order.
 ///
 /// in    proximities  ProximitySet
 ///       links        LinkPoses
@@ -84,35 +70,40 @@ robot::JointVector RowOf(const robot::RobotModel& model, std::span<const Eigen::
 ///       share        1             of avoidance, from 0 to 1
 ///       rows         1             number of proximities that take part
 /// state -
-template <class Law>
+template <class Method>
 class VelocityMethod final : public System {
  public:
-  static constexpr SystemDoc kDoc = Law::kDoc;
-  using Params = typename Law::Params;
+  static constexpr SystemDoc kDoc = Method::kDoc;
+  using Params = typename Method::Params;
   static Params Example() { return {}; }
 
   VelocityMethod(const Params& params, const ModelSet& models)
-      : law_(params, models),
+      : model_(FilteredModel(models, Method::Checked(params).model)),
+        law_(Method::LawOf(params, *model_)),
         proximities(DeclareInput<ProximitySet>("proximities")),
         links(DeclareInput<LinkPoses>("links")),
-        wish(DeclareInput<Vector>("wish", RateSpec(law_.model()))),
+        wish(DeclareInput<Vector>("wish", RateSpec(*model_))),
         solution_(DeclareCached<&VelocityMethod::CalcSolution>(proximities, links, wish)),
-        velocity(DeclareOutput<Vector, &AvoidanceVelocity::velocity>(
-            "velocity", RateSpec(law_.model()), solution_)),
-        share(
-            DeclareOutput<Vector, &AvoidanceVelocity::share>("share", {1, Unit::Any()}, solution_)),
-        rows(DeclareOutput<Vector, &AvoidanceVelocity::rows>("rows", {1, Unit::Any()}, solution_)) {
-    DeclareRole(
-        Limits{.shown = Limits::Shown::kAbove, .signal = rows, .bound = {0.0}, .how = Law::kHow});
+        velocity(
+            DeclareOutput<Vector, &Solution::velocity>("velocity", RateSpec(*model_), solution_)),
+        share(DeclareOutput<Vector, &Solution::share>("share", {1, Unit::Any()}, solution_)),
+        rows(DeclareOutput<Vector, &Solution::rows>("rows", {1, Unit::Any()}, solution_)) {
+    DeclareRole(Limits{
+        .shown = Limits::Shown::kAbove, .signal = rows, .bound = {0.0}, .how = Method::kHow});
   }
 
  private:
+  /// With the memory that it was computed in.
+  struct Solution : robot::AvoidanceVelocity {
+    std::vector<Eigen::Isometry3d> reordered{};
+  };
   void CalcSolution(const ProximitySet& set, const LinkPoses& poses, VectorView request,
-                    AvoidanceVelocity& result) const {
-    law_.Choose(set, PosesInOrder(law_.model(), poses, result.reordered), request, result);
+                    Solution& result) const {
+    law_.Choose(*model_, set, PosesInOrder(*model_, poses, result.reordered), request, result);
   }
 
-  const Law law_;
+  const std::shared_ptr<const robot::RobotModel> model_;
+  const typename Method::Law law_;
 
  public:
   const Input<ProximitySet> proximities;
@@ -120,7 +111,7 @@ class VelocityMethod final : public System {
   const Input<Vector> wish;
 
  private:
-  const Cached<AvoidanceVelocity> solution_;
+  const Cached<Solution> solution_;
 
  public:
   const Output<Vector> velocity;

@@ -74,7 +74,7 @@ check_every_page_and_picture_is_linked() {
 # program writes, from the reference; and has the section that is named.
 check_cited_pages() {
   local where cited section
-  files '*.h' '*.cc' '*.cmake' CMakeLists.txt '*.yaml' '*.sh' '*.ts' '*.mjs' '*.urdf' '*.srdf' | xargs grep -noE '[$A-Za-z0-9_./-]+\.md\b' |
+  files '*.h' '*.cc' '*.cmake' CMakeLists.txt '*.yaml' '*.yaml.in' '*.sh' '*.ts' '*.mjs' '*.urdf' '*.srdf' | xargs grep -noE '[$A-Za-z0-9_./-]+\.md\b' |
     while IFS=: read -r where line cited; do
       [[ $where == tests/docs/* || $cited == *\$* || $cited == //* || $cited == .md ]] && continue
       [ -e "${cited#/}" ] || [ -e "$(dirname "$where")/$cited" ] || [ -e "docs/reference/$cited" ] ||

@@ -17,5 +17,14 @@ TEST(NearestNameTest, PicksTheClosestAndTheFirstOfEquals) {
   EXPECT_EQ(NearestName("nmae", swapped), "name");  // one swap, not two replacements
 }
 
+TEST(MisspeltNameTest, IsTheNearestWithinTwoEditsAndNeverTheNameItself) {
+  const std::vector<std::string> names{"velocity", "effort"};
+  EXPECT_EQ(MisspeltName("velcoity", names), "velocity");
+  EXPECT_EQ(MisspeltName("vlcity", names), "velocity");  // 2 removed
+  EXPECT_EQ(MisspeltName("vlcty", names), "");           // 3
+  EXPECT_EQ(MisspeltName("effort", names), "");
+  EXPECT_EQ(MisspeltName("ab", {}), "");
+}
+
 }  // namespace nearest_name_test
 }  // namespace oca::models::test

@@ -81,7 +81,7 @@ TEST_F(ImportCommandTest, AnUnknownFrameIsRefusedWithItsPlace) {
   const Ran ran = Import(scene.string());
   EXPECT_EQ(ran.status, 2);
   EXPECT_THAT(ran.err, AllOf(HasSubstr("scene.yaml:35: frame; got 'shelf/bord'"),
-                             HasSubstr("nearest is 'shelf/board'")));
+                             HasSubstr("did you mean 'shelf/board'?")));
 }
 
 TEST_F(ImportCommandTest, AGoalOfAPoseIsFoundWhenTheFileIsLoaded) {

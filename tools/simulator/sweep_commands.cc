@@ -59,7 +59,7 @@ struct MergeArguments {
   bool markdown{false};
 };
 
-std::optional<int> NumberIn(const char* variable) {
+std::optional<int> EnvironmentNumber(const char* variable) {
   const char* const text = std::getenv(variable);
   if (text == nullptr) return std::nullopt;
   const std::string_view view(text);
@@ -73,14 +73,14 @@ std::optional<int> NumberIn(const char* variable) {
 Shard ShardOfSurroundings() {
   Shard shard;
   const char* engine = "SLURM_ARRAY_TASK_ID";
-  if (const auto id = NumberIn(engine)) {
-    const int step = std::max(1, NumberIn("SLURM_ARRAY_TASK_STEP").value_or(1));
-    shard.index = (*id - NumberIn("SLURM_ARRAY_TASK_MIN").value_or(0)) / step;
-    shard.count = NumberIn("SLURM_ARRAY_TASK_COUNT").value_or(1);
-  } else if (const auto rank = NumberIn("OMPI_COMM_WORLD_RANK")) {
+  if (const auto id = EnvironmentNumber(engine)) {
+    const int step = std::max(1, EnvironmentNumber("SLURM_ARRAY_TASK_STEP").value_or(1));
+    shard.index = (*id - EnvironmentNumber("SLURM_ARRAY_TASK_MIN").value_or(0)) / step;
+    shard.count = EnvironmentNumber("SLURM_ARRAY_TASK_COUNT").value_or(1);
+  } else if (const auto rank = EnvironmentNumber("OMPI_COMM_WORLD_RANK")) {
     engine = "OMPI_COMM_WORLD_RANK";
     shard.index = *rank;
-    shard.count = NumberIn("OMPI_COMM_WORLD_SIZE").value_or(1);
+    shard.count = EnvironmentNumber("OMPI_COMM_WORLD_SIZE").value_or(1);
   } else {
     return shard;
   }

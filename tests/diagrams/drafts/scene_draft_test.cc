@@ -260,17 +260,18 @@ TEST_F(SceneDraftTest, WritesAnSrdfWhereNothingAllowsCollisions) {
 }
 
 TEST_F(SceneDraftTest, WhatIsMissingOrUnknownIsRefusedAndLeavesNoFile) {
-  EXPECT_THAT(RefusalOf(Object("id: a, header: {frame_id: wrld}, primitives: [{type: sphere, "
-                               "dimensions: [1]}]")),
-              AllOf(HasSubstr("scene.yaml:1: frame; got 'wrld'"), HasSubstr("nearest is 'world'")));
+  EXPECT_THAT(
+      RefusalOf(Object("id: a, header: {frame_id: wrld}, primitives: [{type: sphere, "
+                       "dimensions: [1]}]")),
+      AllOf(HasSubstr("scene.yaml:1: frame; got 'wrld'"), HasSubstr("did you mean 'world'?")));
   EXPECT_THAT(RefusalOf("world: {}\n", "group_name: arms\n" + std::string(kRequest).substr(16)),
-              AllOf(HasSubstr("group_name; got 'arms'"), HasSubstr("nearest is 'arm'")));
+              AllOf(HasSubstr("group_name; got 'arms'"), HasSubstr("did you mean 'arm'?")));
   std::string less = kRequest;
   less.replace(less.find("hand_joint, position"), 10, "other_one_");
   EXPECT_THAT(RefusalOf("world: {}\n", less),
               AllOf(HasSubstr("request.yaml:7: goal_constraints[0]: joint 'hand_joint'; got none"),
-                    HasSubstr("joint 'other_one_'; got a name that the robot does not have"),
-                    HasSubstr("nearest is '")));
+                    HasSubstr("joint 'other_one_'; got a name that the robot does not have; "
+                              "expected one of its joints")));
   EXPECT_THAT(RefusalOf("world: {}\n",
                         "group_name: arm\ngoal_constraints: [{joint_constraints: [{joint_name: "
                         "one_joint, position: 0}]}]\n"),

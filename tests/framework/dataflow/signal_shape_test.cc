@@ -53,9 +53,9 @@ TEST(SignalShapeTest, KnowsTheMembersOfATypeAndTheirKindsInOrder) {
 
 TEST(SignalShapeTest, FindsANumberOfAValueByItsName) {
   const Weather storm{30.0};
-  EXPECT_EQ(NumberIn(TypeOf<Weather>(), &storm, "wind"), 30.0);
-  EXPECT_EQ(NumberIn(TypeOf<Weather>(), &storm, "sky"), std::nullopt);
-  EXPECT_EQ(NumberIn(TypeOf<Weather>(), &storm, "snow"), std::nullopt);
+  EXPECT_EQ(MemberNumber(TypeOf<Weather>(), &storm, "wind"), 30.0);
+  EXPECT_EQ(MemberNumber(TypeOf<Weather>(), &storm, "sky"), std::nullopt);
+  EXPECT_EQ(MemberNumber(TypeOf<Weather>(), &storm, "snow"), std::nullopt);
 }
 
 TEST(SignalShapeTest, RefusesATypeThatWritesNoJson) {

@@ -91,17 +91,6 @@ TEST(VortexFieldTest, TurnsTheForceByItsAngleTowardsTheRequest) {
   EXPECT_LT(bench.Force().y(), 0.0);
 }
 
-TEST(VortexFieldTest, IsARepulsiveFieldIfItDoesNotTurn) {
-  Bench bench(Turned(0.0));
-  const robot::RepulsiveLaw plain{1.0, 0.3, 0.01};
-  const Vector3d n = Vector3d(1.0, -2.0, 0.5).normalized();
-  for (const double distance : {0.3, 0.29, 0.1, 0.0, -0.2}) {
-    bench.Place(distance, n);
-    EXPECT_NEAR((bench.Force() - plain.Force(distance) * n).norm(), 0.0,
-                1e-12 * plain.Force(distance));
-  }
-}
-
 TEST(VortexFieldTest, KeepsItsAxisUntilTheLinkIsOutOfTheField) {
   Bench bench;
   bench.Place(0.29, Vector3d::UnitX());
@@ -137,42 +126,6 @@ TEST(VortexFieldTest, ARequestThatLeadsStraightAtTheObstacleIsLedUpwards) {
     EXPECT_NEAR(bench.Force().norm(), 1000.0 / 24.0, 1e-9) << "some way is always found";
     EXPECT_NEAR(bench.Force().dot(n), 1000.0 / 24.0 * std::cos(1.0), 1e-9);
     bench.Tick();
-  }
-}
-
-TEST(VortexFieldTest, IsContinuousInTheDistanceAndInTheNormal) {
-  Bench bench;
-  bench.Place(0.29, Vector3d::UnitX());
-  bench.Head({0.0, 0.2, 0.0});
-  bench.Tick();
-  const auto force = [&](double distance, const Vector3d& normal) {
-    bench.Place(distance, normal);
-    return bench.Force();
-  };
-  const Vector3d n = Vector3d::UnitX();
-  for (const double distance : {0.299999, 0.15, 0.01, 0.0, -0.05}) {
-    const double size = 1.0 + force(distance, n).norm();
-    EXPECT_LT((force(distance + 1e-7, n) - force(distance - 1e-7, n)).norm(), 1e-4 * size);
-    const Vector3d tilted(1.0, 1e-7, -2e-7);
-    EXPECT_LT((force(distance, tilted) - force(distance, n)).norm(), 1e-6 * size);
-    // A nearest feature that changes turns the normal at once: the force stays as large as it was.
-    EXPECT_LE((force(distance, {0.0, 1.0, 0.0}) - force(distance, n)).norm(), 2.0 * size);
-  }
-  EXPECT_EQ(force(0.3, n).norm(), 0.0);
-}
-
-TEST(VortexFieldTest, PointsStraightOutAtContactAndNeverInwards) {
-  Bench bench(Turned(1.5));
-  const Vector3d n(0.0, 0.6, -0.8);
-  bench.Head({0.1, -0.2, 0.1});
-  for (const double distance : {-1.0, -0.1, -1e-9, 0.0}) {
-    bench.Place(distance, n);
-    EXPECT_NEAR((bench.Force() - bench.Force().norm() * n).norm(), 0.0, 1e-6);
-    EXPECT_TRUE(bench.Force().allFinite());
-  }
-  for (double distance = 0.01; distance < 0.3; distance += 0.01) {
-    bench.Place(distance, n);
-    EXPECT_GE(bench.Force().dot(n), bench.Force().norm() * std::cos(1.5) - 1e-9) << distance;
   }
 }
 

@@ -51,28 +51,6 @@ double ScaleOf(const ServoScaling::Params& params, const ProximitySet& set) {
   return Servo(params, set).Scale();
 }
 
-TEST(ServoScalingTest, TheLawByHand) {
-  const ServoScaling system(Hundred(), TestModels("planar2"));
-  EXPECT_EQ(system.Law(0.1, false), 1.0);
-  EXPECT_NEAR(system.Law(0.1 - 1e-9, false), 1.0, 1e-6);
-  EXPECT_NEAR(system.Law(0.05, false), kHalf, 1e-9);
-  EXPECT_NEAR(system.Law(1e-12, false), 1e-3, 1e-9);
-  EXPECT_EQ(system.Law(0.0, false), 0.0);
-  EXPECT_EQ(system.Law(-3.0, false), 0.0);
-  EXPECT_NEAR(system.Law(0.01, true), kHalf, 1e-9);
-  EXPECT_NEAR(system.Law(0.002, true, 0.004), kHalf, 1e-9) << "half of what is asked of a pair";
-  EXPECT_EQ(system.Law(0.004, true, 0.004), 1.0);
-  EXPECT_NEAR(system.Law(0.01, true, 0.5), kHalf, 1e-9);
-}
-
-TEST(ServoScalingTest, TheSlopeOfTheLawIsThatOfItsFormula) {
-  const ServoScaling system(Hundred(), TestModels("planar2"));
-  for (const double d : {0.01, 0.05, 0.09}) {
-    const double numeric = (system.Law(d + 1e-7, false) - system.Law(d - 1e-7, false)) / 2e-7;
-    EXPECT_NEAR(numeric, std::log(1000.0) / 0.1 * system.Law(d, false), 1e-5) << d;
-  }
-}
-
 TEST(ServoScalingTest, LeavesTheRequestAloneWhereNothingIsNear) {
   Servo servo(Hundred(), {{Above(kElbow, 0.5, 0.1)}});
   EXPECT_EQ(servo.PathTime(1.005), 1.01);  // no sum of periods
