@@ -201,6 +201,53 @@ check_one_name_is_one_class() { # of all headers, whatever the namespace
   [ "$(wc -l <<< "$names")" -ge 500 ] || problem "headers: $(wc -l <<< "$names") classes found; expected at least 500"
 }
 
+# One compiler run reads several sources of a library (CMAKE_UNITY_BUILD), which ones is chance: names that
+# they hide must differ, but for functions of other parameters and the same alias.
+anonymous_names() { # -> FOLDER NAMESPACE NAME KIND FILE, of libraries and tests
+  local file folder
+  files '*.cc' | while read -r file; do
+    folder=$(dirname "$file")
+    while [ ! -e "$folder/CMakeLists.txt" ]; do folder=$(dirname "$folder"); done
+    grep -qE '^oca_(library|test)' "$folder/CMakeLists.txt" && echo "$folder $file"
+  done > "$work/sources"
+  awk '
+    function found(name, kind) { gsub(/ /, "_", kind); print folder, space, name, kind, file }
+    function read_line(line) {
+      sub(/^template <.*> /, "", line)
+      sub(/^enum class /, "class ", line)
+      if (match(line, /^(class|struct|enum) [A-Za-z_0-9]+/)) {
+        if (substr(line, RLENGTH + 1) != ";") { split(line, word, /[ :;{]/); found(word[2], "type") }
+      } else if (line ~ /^using [A-Za-z_0-9]+ =/) {
+        split(line, word, " "); found(word[2], line)
+      } else if (match(line, /^[^(=]*[ *&][A-Za-z_0-9]+\(/) && line !~ /^const[^(]* k[A-Z][A-Za-z_0-9]*\(/) {
+        name = substr(line, 1, RLENGTH - 1); sub(/.*[ *&]/, "", name)
+        kind = substr(line, RLENGTH); gsub(/ [A-Za-z_0-9]+[,)]/, ",", kind); sub(/ \{.*/, "", kind); found(name, kind)
+      } else if (match(line, /^[^(={]*[ *&][A-Za-z_0-9]+(\[[^\]]*\])?( =|\{|\(|;)/)) {
+        name = substr(line, 1, RLENGTH); sub(/(\[[^\]]*\])?( =|[{(;])$/, "", name); sub(/.*[ *&]/, "", name)
+        found(name, "value")
+      }
+    }
+    { folder = $1; file = $2; space = "-"; inside = 0
+      while ((getline line < file) > 0) {
+        if (match(line, /^namespace [a-z:]+ \{/)) space = substr(line, 11, RLENGTH - 12)
+        if (line ~ /^namespace \{/) inside = 1
+        if (line ~ /^}  \/\/ namespace$/) inside = 0
+        if (inside && line ~ /^[A-Za-z]/ && line !~ /^(namespace|TEST|INSTANTIATE)/) read_line(line)
+      }
+      close(file)
+    }' "$work/sources"
+}
+
+check_an_anonymous_name_is_once_a_target() {
+  local name where file
+  anonymous_names > "$work/names"
+  awk '{ key = $1 " " $2 " " $3 }
+       (key in kind) && file[key] != $5 && (kind[key] == $4 ? $4 !~ /^using/ : kind[key] $4 !~ /^\(.*\(/) { print $3, file[key], $5 }
+       { kind[key] = $4; file[key] = $5 }' "$work/names" > "$work/twice"
+  while read -r name where file; do problem "$file: $name, which $where has too; expected one anonymous name once in a library"; done < "$work/twice"
+  [ "$(wc -l < "$work/names")" -ge 1500 ] || problem "anonymous names: $(wc -l < "$work/names") found; expected at least 1500"
+}
+
 all=$(declare -F | awk '{ print $3 }' | grep '^check_' | sed 's/^check_//')
 for name in ${*:-$all}; do
   declare -F "check_$name" > /dev/null || { echo "no such check: $name; there are: $(tr '\n' ' ' <<< "$all")" >&2; exit 2; }
