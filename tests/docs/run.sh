@@ -281,6 +281,14 @@ check_installed_headers_serve_somebody_else() {
   [ "$(wc -l < "$work/installed")" -ge 200 ] || problem "headers: $(wc -l < "$work/installed") installed ones found; expected at least 200"
 }
 
+# Its second line is a comment; commands are of commands.h and named by it, a program is its main.
+check_sources_without_a_header_say_what_they_are() {
+  local file
+  for file in $(files '*.cc' | grep -E '^(framework|models|systems|diagrams|tools/simulator)/' | grep -vE '_commands?\.cc$'); do
+    [ -e "${file%.cc}.h" ] || [[ $(sed -n 2p "$file") == //* ]] || problem "$file: no header of its name; got no line of what it is; expected one after the licence's"
+  done
+}
+
 all=$(declare -F | awk '{ print $3 }' | grep '^check_' | sed 's/^check_//')
 for name in ${*:-$all}; do
   declare -F "check_$name" > /dev/null || { echo "no such check: $name; there are: $(tr '\n' ' ' <<< "$all")" >&2; exit 2; }
