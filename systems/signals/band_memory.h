@@ -8,9 +8,9 @@
 
 namespace oca::systems {
 
-/// JSON: {"plans", "start": "request" | "last" | "pause" | "detour" | "random" | "path" | "escape", "clear",
-/// "reaches", "stuck", "nearest", "link", "obstacle", "distance", "lack": "none" | "start" | "goal" |
-/// "passage" | "own links", "block": "none" | "limit" | "contact" | "way", "block_link",
+/// JSON: {"plans", "start": "request" | "last" | "pause" | "detour" | "random" | "path" | "escape",
+/// "clear", "reaches", "stuck", "nearest", "link", "obstacle", "distance", "lack": "none" | "start"
+/// | "goal" | "passage" | "own links", "block": "none" | "limit" | "contact" | "way", "block_link",
 /// "block_body", "block_amount", "time", "cost", "evaluations", "charged", "overruns"}; the bands
 /// themselves are neither written nor read.
 using planning::BandMemory;

@@ -289,6 +289,13 @@ check_sources_without_a_header_say_what_they_are() {
   done
 }
 
+# clang-format, which leaves comments as they are, has the code; `://` is a link, which no line can break.
+check_comments_end_at_column_100() {
+  local place
+  while read -r place; do problem "$place: a comment beyond column 100"; done < <(
+    files '*.h' '*.cc' | LC_ALL=C.UTF-8 xargs grep -nE '^.{101,}$' | grep -E '^[^:]+:[0-9]+: *//|///<' | grep -v '[a-z]://' | cut -d: -f1,2)
+}
+
 all=$(declare -F | awk '{ print $3 }' | grep '^check_' | sed 's/^check_//')
 for name in ${*:-$all}; do
   declare -F "check_$name" > /dev/null || { echo "no such check: $name; there are: $(tr '\n' ' ' <<< "$all")" >&2; exit 2; }
