@@ -76,8 +76,9 @@ class FileCache {
   std::unordered_map<std::string, File> files_;
 };
 
-/// What `read` reads of a file, which goes by a text of its own, its path as a rule, or read of it before if this thread uses a FileCache. `form` tells
-/// it from all else of type T that is read of the file. OpenedFiles hears of the files either way.
+/// What `read` reads of a file, which goes by a text of its own, its path as a rule, or read of it
+/// before if this thread uses a FileCache. `form` tells it from all else of type T that is read of
+/// the file. OpenedFiles hears of the files either way.
 /// throws what `read` throws, for the lack of memory a ModelError that names the file
 template <class T>
 std::shared_ptr<const T> ReadOnce(const std::string& file, const std::string& form,

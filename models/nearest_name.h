@@ -7,7 +7,8 @@
 
 namespace oca::models {
 
-/// The candidate with the smallest internal::EditDistance to `name`, the first of equals; "" if none.
+/// The candidate with the smallest internal::EditDistance to `name`, the first of equals; "" if
+/// none.
 std::string NearestName(std::string_view name, std::span<const std::string> candidates);
 
 /// What an unknown name may be meant as, for files in which unknown names are passed over but

@@ -21,8 +21,8 @@ std::string PathFrom(const std::filesystem::path& folder, const std::filesystem:
 /// The same, of a file within the folder by its way from there.
 std::string PathBeside(const std::filesystem::path& folder, const std::filesystem::path& file);
 
-/// A template (*.yaml.in) with what stands for each `@name@` in it: alone in a line for whole lines,
-/// or none.
+/// A template (*.yaml.in) with what stands for each `@name@` in it: alone in a line for whole
+/// lines, or none.
 std::string Filled(std::string_view text, const std::map<std::string_view, std::string>& values);
 /// A text as YAML and JSON write it.
 std::string Quoted(const std::string& text);

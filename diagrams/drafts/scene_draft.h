@@ -10,8 +10,8 @@
 
 namespace oca::drafts {
 
-/// What a diagram of somebody else's scene is made of. Of `draft` the robot with its arguments, SRDF
-/// and group, avoidance and warn count.
+/// What a diagram of somebody else's scene is made of. Of `draft` the robot with its arguments,
+/// SRDF and group, avoidance and warn count.
 struct SceneDraftOptions {
   DraftOptions draft{};
   std::filesystem::path scene{};    ///< scenes::ReadPlanningScene
@@ -30,14 +30,14 @@ struct SceneDraft {
 };
 
 /// Writes a diagram file of the scene and the request: objects as obstacles, held ones as attached
-/// to the arm, allowed collisions as `ignore`; the request a straight line of the joints within 6 s,
-/// or as much longer as the limits of the joints want, and then rest, up to 20 s. Beside it meshes
-/// that the scene holds itself, an SRDF where none is given and the scene allows no collisions, and
-/// limits of speed where the description has none.
+/// to the arm, allowed collisions as `ignore`; the request a straight line of the joints within 6
+/// s, or as much longer as the limits of the joints want, and then rest, up to 20 s. Beside it
+/// meshes that the scene holds itself, an SRDF where none is given and the scene allows no
+/// collisions, and limits of speed where the description has none.
 ///
-/// The world is the scene's frame. Frames that it may name: that of the SRDF's virtual joint and the
-/// robot's root, its links where they stand at the start, fixed transforms, objects and subframes
-/// ("object/subframe").
+/// The world is the scene's frame. Frames that it may name: that of the SRDF's virtual joint and
+/// the robot's root, its links where they stand at the start, fixed transforms, objects and
+/// subframes ("object/subframe").
 /// throws ModelError, ConfigError for files that are wrong, an unknown frame, a joint of the arm of
 ///        which start or goal is missing, a goal beyond a limit, a file that is there already or
 ///        cannot be written, and what makes a diagram that cannot be loaded, as a pose out of reach

@@ -16,8 +16,8 @@ scenes::JointPositions Over(const scenes::JointPositions& over, scenes::JointPos
 /// One a position of the arm. A line for each that is beyond its limits goes to `told`; without it
 /// those are refused that are so by more than digits of a file take.
 /// throws ModelError `file:line: what: joint ...`, a line for each that is missing or refused, and,
-///        if some are missing, for each that the robot does not have; `file` stands for the place of
-///        a state that says nothing
+///        if some are missing, for each that the robot does not have; `file` stands for the place
+///        of a state that says nothing
 Eigen::VectorXd PositionsOf(const robot::RobotModel& model, const scenes::JointPositions& joints,
                             const std::string& file, const char* what,
                             std::vector<std::string>* told);

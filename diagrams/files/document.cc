@@ -8,7 +8,6 @@
 #include <memory>
 #include <utility>
 
-#include "oca/diagrams/files/diagram_file.h"
 #include "oca/diagrams/files/package_paths.h"
 #include "oca/diagrams/files/yaml_reader.h"
 #include "oca/framework/dataflow/error.h"
@@ -299,14 +298,6 @@ MergedFiles LoadFiles(const fs::path& file, const std::vector<Override>& overrid
                              : fmt::format("got {}; expected a map with systems", root.Show()));
   }
   return {root, {read, &read->sources}};
-}
-
-Value LoadDocument(const fs::path& file, const std::vector<Override>& overrides, Problems& problems,
-                   DocumentSources* sources) {
-  auto [root, read] = LoadFiles(file, overrides, problems);
-  if (sources != nullptr) *sources = *read;
-  if (problems.empty()) ApplyOverrides(overrides, root, problems);
-  return root;
 }
 
 }  // namespace oca::files

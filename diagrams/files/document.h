@@ -21,25 +21,21 @@ struct DocumentSources {
   std::vector<std::filesystem::path> alternatives{};  ///< candidates that the same include can name
 };
 
-/// A diagram file as one tree: the files it includes first, itself over them, overrides over all.
-///
-/// Maps are merged key by key, `connections` are appended, everything else is replaced. Included
-/// paths are relative to the file that includes; `${name}` in one is replaced by the parameter of
-/// that name, a text, as overrides, the including files from the outermost on, or the file itself
-/// say first. Problems of all files are added to `problems`; `sources`, if given, is told what was
-/// read.
-Value LoadDocument(const std::filesystem::path& file, const std::vector<Override>& overrides,
-                   Problems& problems, DocumentSources* sources = nullptr);
-
 /// Files as one tree.
 struct MergedFiles {
   Value root;
   std::shared_ptr<const DocumentSources> sources;
 };
 
-/// The files merged, of which overrides only choose: the first half of it, before ApplyOverrides.
-/// `parameters`, if given, is a map of values that another file gives to this one, in place of its
-/// own. While a models::FileCache is in use, each file is read once.
+/// A diagram file as one tree: the files it includes first, itself over them. Of overrides only
+/// those that choose files count here; ApplyOverrides sets all of them in the tree.
+///
+/// Maps are merged key by key, `connections` are appended, everything else is replaced. Included
+/// paths are relative to the file that includes; `${name}` in one is replaced by the parameter of
+/// that name, a text, as overrides, the including files from the outermost on, or the file itself
+/// say first. Problems of all files are added to `problems`. `parameters`, if given, is a map of
+/// values that another file gives to this one, in place of its own. While a models::FileCache is in
+/// use, each file is read once.
 MergedFiles LoadFiles(const std::filesystem::path& file, const std::vector<Override>& overrides,
                       Problems& problems, const Value* parameters = nullptr);
 

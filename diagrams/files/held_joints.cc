@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The parameter type `held` of a model, of diagram_file.h.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>

@@ -22,14 +22,14 @@ using Warn = std::function<void(const std::string& line)>;
 ///
 /// Files are looked up from where the program runs; `package://NAME/` in OCA_PACKAGE_PATH, then
 /// among the models that come with OCA, then near the robot's file (PackageFor).
-/// throws ConfigError if a name is taken, a package is not found or a parameter is wrong; ModelError
-/// if a file cannot be read
+/// throws ConfigError if a name is taken, a package is not found or a parameter is wrong;
+///        ModelError if a file cannot be read
 systems::ModelSet LoadModels(const std::vector<std::pair<std::string, ModelParams>>& models,
                              const Warn& warn = {});
 
-/// One of them, its files being paths. `where` begins the messages about parameters and the lines of
-/// `warn`; `packages` are looked in first, PackageFor the robot last if `near_robot`. It is found as it was read (models::FileCache) if nothing
-/// but its place differs.
+/// One of them, its files being paths. `where` begins the messages about parameters and the lines
+/// of `warn`; `packages` are looked in first, PackageFor the robot last if `near_robot`. It is
+/// found as it was read (models::FileCache) if nothing but its place differs.
 std::shared_ptr<const robot::RobotModel> LoadModel(const std::string& where,
                                                    const ModelParams& params,
                                                    const PackageMap& packages, const Warn& warn,

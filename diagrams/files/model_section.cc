@@ -32,7 +32,8 @@ Location LocationOf(const Value& map, const char* key) {
   return value == nullptr ? map.location() : value->location();
 }
 
-/// Where a model's description is named: an entry may be begun in a file that its user did not write.
+/// Where a model's description is named: an entry may be begun in a file that its user did not
+/// write.
 Location PlaceOf(const Value::Entry& entry) {
   for (const char* key : {"urdf", "xacro"}) {
     if (const Value* const file = entry.value.Find(key)) return file->location();

@@ -84,8 +84,9 @@ fs::path FindPackage(const std::string& package, const std::string& name) {
                                 places.empty() ? "OCA_PACKAGE_PATH" : places));
 }
 
-/// A path without the `..` behind a folder, if that leads to the same folder: a link before it would
-/// lead elsewhere. What a file is called in messages, and what it names in turn lies from there.
+/// A path without the `..` behind a folder, if that leads to the same folder: a link before it
+/// would lead elsewhere. What a file is called in messages, and what it names in turn lies from
+/// there.
 fs::path InShort(const fs::path& file) {
   if (std::find(file.begin(), file.end(), "..") == file.end()) return file;
   const fs::path plain = file.lexically_normal();

@@ -20,8 +20,8 @@ std::vector<std::filesystem::path> PackageFolders();
 
 /// `name` as a path: `package://NAME/REST` looked up in `packages`, then in PackageFolders(), once
 /// while a models::FileCache is in use; a relative path from `folder`, without `..` that only
-/// lead back. `package://oca` is the folder of the diagrams that come with OCA, if no other has that
-/// name.
+/// lead back. `package://oca` is the folder of the diagrams that come with OCA, if no other has
+/// that name.
 /// throws ConfigError naming the places where the package was looked for.
 std::filesystem::path ResolvePath(const std::string& name, const std::filesystem::path& folder,
                                   const PackageMap& packages);

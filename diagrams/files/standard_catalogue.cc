@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// All systems of this tree, by name.
 #include "oca/diagrams/files/catalogue.h"
 #include "oca/systems/basics/constant.h"
 #include "oca/systems/basics/delay.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The parameter type `arguments` of a model in xacro, of diagram_file.h.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>

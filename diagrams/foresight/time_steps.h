@@ -7,9 +7,9 @@
 namespace oca::foresight {
 
 /// The times at which motions and obstacles are searched for what moves, from 0 to a duration, s:
-/// each millisecond of the first 200 s, and then at most 100,000 more up to the end, as far apart as
-/// a share of the time, which is at most 1.1e-4 for the longest run, 1e7 s. So the search of a long
-/// run has a bound, and what goes to and fro with one period does not hide between the looks.
+/// each millisecond of the first 200 s, and then at most 100,000 more up to the end, as far apart
+/// as a share of the time, which is at most 1.1e-4 for the longest run, 1e7 s. So the search of a
+/// long run has a bound, and what goes to and fro with one period does not hide between the looks.
 class TimeSteps {
  public:
   static constexpr double kStep = 1e-3;        ///< s

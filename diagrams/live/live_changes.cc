@@ -128,7 +128,8 @@ std::optional<Eigen::Vector3d> LiveChanges::MoveOf(const LiveParameter& change) 
   return std::nullopt;
 }
 
-/// Takes what clients asked for: moves for the next tick; for the rest, builds the diagram elsewhere.
+/// Takes what clients asked for: moves for the next tick; for the rest, builds the diagram
+/// elsewhere.
 void LiveChanges::BeginChange() {
   const std::vector<LiveParameter> changes = server_.TakeChanges();
   if (changes.empty()) return;

@@ -32,7 +32,8 @@ class LiveChanges final : public runs::RunHook {
   void Change(runs::RunControl& run) override;
 
  private:
-  /// Where obstacles were moved to from where the file has them, m, by the names of their positions.
+  /// Where obstacles were moved to from where the file has them, m, by the names of their
+  /// positions.
   using Moves = std::map<std::string, Eigen::Vector3d>;
 
   std::shared_ptr<const loading::LoadedDiagram> Build(

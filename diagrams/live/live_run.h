@@ -38,11 +38,11 @@ struct LiveRunResult {
 };
 
 /// Runs a diagram in step with the wall clock for whoever looks at `server`: runs::Run, with a hook
-/// for what clients change. An obstacle that is moved is so at the next tick, by the input `offsets`
-/// of its source. A change of a parameter makes the diagram anew, on a thread of its own, and the run
-/// goes on with it from the state it has at the next tick after that. One that the diagram refuses is
-/// undone, and all clients are told why. throws ConfigError if the file cannot be loaded, and as
-/// runs::Run does.
+/// for what clients change. An obstacle that is moved is so at the next tick, by the input
+/// `offsets` of its source. A change of a parameter makes the diagram anew, on a thread of its own,
+/// and the run goes on with it from the state it has at the next tick after that. One that the
+/// diagram refuses is undone, and all clients are told why. throws ConfigError if the file cannot
+/// be loaded, and as runs::Run does.
 LiveRunResult RunLive(const LiveRunOptions& options, LiveServer& server);
 
 }  // namespace oca::live

@@ -84,8 +84,8 @@ void LiveServer::Server::Drain() {
   }
 }
 
-/// Whoever has not asked for anything, or not ended to ask, goes first; then clients that never said
-/// anything; then those that do not read: none of them keeps others out.
+/// Whoever has not asked for anything, or not ended to ask, goes first; then clients that never
+/// said anything; then those that do not read: none of them keeps others out.
 bool LiveServer::Server::MakeRoom() {
   for (Connection* const waiting : waiting_) {
     if (!waiting->open()) continue;

@@ -59,7 +59,8 @@ struct LiveStatistics {
 /// At most max_clients connections are open. A new one takes the place of the oldest that has not
 /// asked for anything within 10 s at most, else of the oldest client that never said anything, else
 /// of the one that has owed the answer to a ping longest, if for `patience`: that does not read.
-/// It waits until all have been asked that long, and is refused if all answered. An exception on the server's thread ends the connection that it is about.
+/// It waits until all have been asked that long, and is refused if all answered. An exception on
+/// the server's thread ends the connection that it is about.
 ///
 /// Access decides who is answered. On an address that others reach, a request needs the token that
 /// stands in url(). Its session is one that no other server has, so that clients see a new run.

@@ -41,14 +41,14 @@ struct BuildOptions {
 ///     }
 ///
 /// Making one reads nothing: a file is read by the first Build that needs it. What is wrong with it
-/// each Build says anew, by a ConfigError: whoever builds many stops at the first. What was read the
-/// Blueprint holds from then on as it was read, whatever becomes of it on disk, and the Builds that follow
-/// share what was made of it, all of it immutable: the text of diagram files, robots, hulls and
-/// other convex parts of meshes, clouds, maps, tables of points. So a Build reads only what its
-/// overrides bring in: another file, or a mesh at another scale. An entry of the file whose
-/// expressions use no parameter that has changed since the last Build is not looked into again.
-/// A robot is made again, of what was read, if its entry under `models` is another; if only its
-/// base_pose is, it is placed again.
+/// each Build says anew, by a ConfigError: whoever builds many stops at the first. What was read
+/// the Blueprint holds from then on as it was read, whatever becomes of it on disk, and the Builds
+/// that follow share what was made of it, all of it immutable: the text of diagram files, robots,
+/// hulls and other convex parts of meshes, clouds, maps, tables of points. So a Build reads only
+/// what its overrides bring in: another file, or a mesh at another scale. An entry of the file
+/// whose expressions use no parameter that has changed since the last Build is not looked into
+/// again. A robot is made again, of what was read, if its entry under `models` is another; if only
+/// its base_pose is, it is placed again.
 ///
 /// Copies share what was read. What a Build gives, and what it refuses, is what LoadDiagram would:
 /// problems with their places, warnings, files, drawn scenario and every number.

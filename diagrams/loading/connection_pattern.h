@@ -22,7 +22,8 @@ bool IsAmbiguous(const std::string& port);
 /// All connections that a pattern stands for: `<arm>.links -> <other>.links_<arm>` makes one of
 /// `left.links -> right.links_left` and one of `right.links -> left.links_right` if `outputs` and
 /// `inputs` have these. `<x>` is the same name, of letters, digits and underscores, wherever it
-/// stands, and another than `<y>`. Neither port is ambiguous. What begins with kInputs or kOutputs is not looked up.
+/// stands, and another than `<y>`. Neither port is ambiguous. What begins with kInputs or kOutputs
+/// is not looked up.
 std::vector<std::pair<std::string, std::string>> MatchConnections(
     const std::string& from, const std::string& to, const std::vector<std::string>& outputs,
     const std::vector<std::string>& inputs);

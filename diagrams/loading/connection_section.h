@@ -15,7 +15,8 @@
 namespace oca::loading {
 
 /// Whether the connections of a file take in what is for an input of this name: one leads from
-/// `inputs.` to it, from the port of the file of this name, or from or to a pattern that can stand for it.
+/// `inputs.` to it, from the port of the file of this name, or from or to a pattern that can stand
+/// for it.
 bool TakesIn(const Value& root, const std::string& input);
 
 /// Section `connections` of a diagram file: connects the systems of the part in the builder, and

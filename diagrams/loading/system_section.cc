@@ -12,7 +12,6 @@
 #include "oca/diagrams/loading/assembly.h"
 #include "oca/diagrams/loading/used_file.h"
 #include "oca/framework/dataflow/error.h"
-#include "oca/framework/dataflow/nearest.h"
 #include "oca/models/file_cache.h"
 #include "oca/models/robot/posture.h"
 #include "oca/systems/signals/roles.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Compression of chunks, of mcap.h and mcap_bytes.h.
 #include <fmt/format.h>
 #include <lz4frame.h>
 #include <zstd.h>

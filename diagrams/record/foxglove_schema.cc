@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The schemas of what foxglove.h writes.
 #include <nlohmann/json.hpp>
 
 #include "oca/diagrams/record/foxglove.h"

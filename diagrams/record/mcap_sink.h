@@ -13,8 +13,8 @@
 
 namespace oca::record {
 
-/// Writes an MCAP stream of JSON messages; what was written is flushed every second. A channel whose
-/// topic it knows goes on.
+/// Writes an MCAP stream of JSON messages; what was written is flushed every second. A channel
+/// whose topic it knows goes on.
 class McapSink final : public RecordSink {
  public:
   /// The stream must outlive the sink.

@@ -6,9 +6,9 @@
 
 namespace oca::record {
 
-/// The page that plays records, without a source. Looked up where the environment's OCA_VIEWER says,
-/// as `viewer/viewer.html` beside the running program, and as `viewer.html` in the data folders
-/// (files::DataFolders).
+/// The page that plays records, without a source. Looked up where the environment's OCA_VIEWER
+/// says, as `viewer/viewer.html` beside the running program, and as `viewer.html` in the data
+/// folders (files::DataFolders).
 /// throws ConfigError saying how to build it if there is none.
 std::string LoadPage();
 

@@ -34,8 +34,9 @@ struct RecordChannel {
 /// A value of a channel at an instant, on its way to sinks; valid during one RecordSink::Write.
 class RecordSample {
  public:
-  /// `value` as `format.type` knows it, of a Vector its numbers. `text` is where its JSON goes, once
-  /// however many sinks ask for it, and is not touched if none does. `time` ns since the epoch.
+  /// `value` as `format.type` knows it, of a Vector its numbers. `text` is where its JSON goes,
+  /// once however many sinks ask for it, and is not touched if none does. `time` ns since the
+  /// epoch.
   RecordSample(const SignalFormat& format, const void* value, std::uint64_t time, std::string& text)
       : format_(&format), value_(value), time_(time), text_(&text) {}
   RecordSample(std::string_view message, std::uint64_t time) : time_(time), json_(message) {}

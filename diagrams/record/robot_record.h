@@ -24,10 +24,10 @@ struct RobotRecord {
                                       ///< meshes that cannot be read: what the page lists
 };
 
-/// The robot stands at 0, or where its limits let it come nearest to it. On `/robot` stand its links
-/// and joints, the pairs of own links that are checked for contact (Clearance), and each warning
-/// with the links that it names; on `/tf` and `/scene/robots` what a run shows, save that a link
-/// without visuals is not drawn; on `/scene/collisions` the shapes that distances see.
+/// The robot stands at 0, or where its limits let it come nearest to it. On `/robot` stand its
+/// links and joints, the pairs of own links that are checked for contact (Clearance), and each
+/// warning with the links that it names; on `/tf` and `/scene/robots` what a run shows, save that a
+/// link without visuals is not drawn; on `/scene/collisions` the shapes that distances see.
 /// throws ModelError for a solid that MakeCollider refuses
 RobotRecord RecordRobot(const std::shared_ptr<const robot::RobotModel>& model,
                         const RobotSource& source);

@@ -10,7 +10,6 @@
 #include "oca/diagrams/record/plot_hints.h"
 #include "oca/diagrams/record/run_metadata.h"
 #include "oca/diagrams/record/signal_json.h"
-#include "oca/diagrams/runs/blind_spots.h"
 #include "oca/diagrams/runs/result_json.h"
 #include "oca/diagrams/runs/signal_table.h"
 #include "oca/framework/dataflow/dynamic_port.h"

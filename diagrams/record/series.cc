@@ -101,20 +101,4 @@ std::vector<Series> ReadSeries(const McapFile& record, const std::string& patter
   return found;
 }
 
-Series LeastDistance(const McapFile& record, const std::string& signal) {
-  Series least{signal, "m", {}, {}, signal};
-  std::map<double, double> at;
-  for (const Series& pair : ReadSeries(record, signal)) {
-    for (std::size_t i = 0; i < pair.times.size(); ++i) {
-      const auto [place, fresh] = at.emplace(pair.times[i], pair.values[i]);
-      if (!fresh) place->second = std::min(place->second, pair.values[i]);
-    }
-  }
-  for (const auto& [time, distance] : at) {
-    least.times.push_back(time);
-    least.values.push_back(distance);
-  }
-  return least;
-}
-
 }  // namespace oca::record

@@ -28,7 +28,4 @@ std::uint64_t StartOf(const McapFile& record);
 /// with `*` and `?`. Of proximities the distance of each pair is one, `system.port.link/obstacle`.
 std::vector<Series> ReadSeries(const McapFile& record, const std::string& pattern);
 
-/// The least distance of all pairs over time, of a signal of proximities.
-Series LeastDistance(const McapFile& record, const std::string& signal);
-
 }  // namespace oca::record

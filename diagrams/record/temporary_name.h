@@ -6,7 +6,8 @@
 
 namespace oca::record::internal {
 
-/// Where temporary files go: /tmp, or what TMPDIR says. throws ConfigError if there is no such folder
+/// Where temporary files go: /tmp, or what TMPDIR says. throws ConfigError if there is no such
+/// folder
 std::filesystem::path TemporaryFolder();
 /// A name for mkdtemp there, `STEM_XXXXXX`. throws as TemporaryFolder
 std::string TemporaryName(const std::string& stem);

@@ -22,8 +22,8 @@ class Evaluator {
   Evaluator& operator=(const Evaluator&) = delete;
 
   /// A JSON object of inputs by port name, perhaps with `time` (s); answers with one of outputs.
-  /// throws ConfigError, WiringError or SimulationError if the line makes no sense; everything is as
-  /// before then.
+  /// throws ConfigError, WiringError or SimulationError if the line makes no sense; everything is
+  ///        as before then.
   std::string Serve(const std::string& line);
 
  private:

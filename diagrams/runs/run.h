@@ -68,8 +68,8 @@ void CheckRunFiles(const loading::LoadedDiagram& loaded, const RunOptions& optio
 /// was not met: `min_distance > 0` joins the others. A calculation that fails ends the run with
 /// `failure`, and so is an output told of that could not be written to the end; what was recorded
 /// and measured up to there is kept. throws ConfigError before anything is written as CheckRunFiles
-/// does, if the duration or the realtime factor is out of bounds, if an output cannot be made or the
-/// simulator's options are wrong.
+/// does, if the duration or the realtime factor is out of bounds, if an output cannot be made or
+/// the simulator's options are wrong.
 RunResult Run(const loading::LoadedDiagram& loaded, const RunOptions& options);
 
 }  // namespace oca::runs

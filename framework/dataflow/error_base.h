@@ -15,7 +15,8 @@ namespace oca {
 struct Error : std::runtime_error {
   explicit Error(const std::string& text) : std::runtime_error(Whole(text)) {}
 
-  /// Puts `where: ` before each line of the text, for whoever knows more of the place and throws on.
+  /// Puts `where: ` before each line of the text, for whoever knows more of the place and throws
+  /// on.
   void AddWhere(const std::string& where) {
     std::string text;
     for (std::string_view rest = what(); !rest.empty();) {

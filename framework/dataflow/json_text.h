@@ -16,7 +16,8 @@ inline constexpr int kDeepestJson = 64;  ///< levels
 /// throws ConfigError `JSON: byte N: ...; got X; expected Y`
 nlohmann::ordered_json ReadJsonTree(std::string_view text);
 
-/// The whole number that a value is. throws ConfigError `got X; expected a whole number from A to B`
+/// The whole number that a value is.
+/// throws ConfigError `got X; expected a whole number from A to B`
 std::int64_t WholeNumber(const nlohmann::ordered_json& json, std::int64_t least, std::int64_t most);
 /// One that T holds.
 template <class T>

@@ -7,7 +7,8 @@ namespace oca {
 
 enum class LogLevel { kDebug, kInfo, kWarning };
 
-/// Where publish events write what a person reads. The base class drops everything.
+/// Where events, publish events and updates, write what a person reads. The base class drops
+/// everything.
 class Log {
  public:
   virtual ~Log() = default;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The parameter types made of others: words of an enum, lists, what may be left out.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

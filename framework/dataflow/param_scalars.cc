@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The parameter types of one value: numbers, texts, periods, vectors.
 #include <fmt/format.h>
 
 #include <algorithm>

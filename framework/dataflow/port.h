@@ -202,7 +202,7 @@ struct When {
 struct Time {};
 inline constexpr Time kTime;
 
-/// Names the log among the things a publish event reads; it arrives as a Log&.
+/// Names the log among the things a publish event or an update reads; it arrives as a Log&.
 struct LogAccess {};
 inline constexpr LogAccess kLog;
 

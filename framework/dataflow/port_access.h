@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The templates behind port.h's handles. They come with context.h: whoever has a Context can read and
-// write ports; a block, which has none, does not pay for them.
+// The templates behind port.h's handles. They come with context.h: whoever has a Context can read
+// and write ports; a block, which has none, does not pay for them.
 
 #include <span>
 

@@ -18,8 +18,8 @@ struct SystemTime {
   std::int64_t calls;
   double seconds;
   double slowest{0.0};  ///< s; of one call
-  /// Calls by what they took: the middle of a class, s, with their number, ascending; classes are 6 %
-  /// wide at most.
+  /// Calls by what they took: the middle of a class, s, with their number, ascending; classes
+  /// are 6 % wide at most.
   std::vector<std::pair<double, std::int64_t>> times{};
 };
 
@@ -27,7 +27,8 @@ struct SystemTime {
 class Profile {
  public:
   struct Entry {
-    /// Sixteen classes an octave, from a nanosecond to half a minute; the last one takes all beyond.
+    /// Sixteen classes an octave, from a nanosecond to half a minute; the last one takes all
+    /// beyond.
     static constexpr int kFine = 4;
     static constexpr std::size_t kClasses = 32U << kFine;
 

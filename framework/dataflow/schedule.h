@@ -15,10 +15,11 @@ namespace oca {
 ///
 /// Everything that can change on its own is a *source*: the time, the continuous state, each
 /// discrete state, each fixed input. A source carries the epoch of its last change. A *node* is
-/// the calculation of an output or a cached value; it carries the epoch at which it was last computed, and nodes with
-/// the same set of sources share one *source class*, whose newest change is looked up once an
-/// epoch. A node is up to date when it was computed no earlier than its class changed. Epoch 0 is
-/// before everything: a source still there is an exported input that nobody has fixed.
+/// the calculation of an output or a cached value; it carries the epoch at which it was last
+/// computed, and nodes with the same set of sources share one *source class*, whose newest change
+/// is looked up once an epoch. A node is up to date when it was computed no earlier than its class
+/// changed. Epoch 0 is before everything: a source still there is an exported input that nobody has
+/// fixed.
 class Schedule {
  public:
   struct Node {

@@ -59,7 +59,8 @@ class ScheduleCompiler {
   void CompileWitnesses();
   void CompileEvents();
 
-  /// The node behind an output, a cached value or an input's driver; -1 for what is always up to date.
+  /// The node behind an output, a cached value or an input's driver; -1 for what is always up to
+  /// date.
   int NodeOf(int leaf, const Read& read) const;
   /// The sources that these depend on.
   Sources SourcesOf(int leaf, const std::vector<Read>& reads) const;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// CVODE's multi-step methods, of sundials_method.h.
 #include <cvode/cvode.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>

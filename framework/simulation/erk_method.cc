@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// ARKODE's explicit Runge-Kutta methods, of sundials_method.h.
 #include <arkode/arkode_erkstep.h>
 
 #include "oca/framework/simulation/sundials_method.h"

@@ -58,7 +58,8 @@ class SundialsMethod : public IntegrationMethod {
   void WarmUp();
   void LoadState(Context& context);
   void ForgetCounters() { counted_ = {}; }
-  /// throws SimulationError unless the flag of prefix + `call` is good, and what a calculation threw
+  /// throws SimulationError unless the flag of prefix + `call` is good, and what a
+  ///        calculation threw
   void Check(int flag, const char* call) {
     if (flag < 0 || failure_) Fail(flag, call);
   }

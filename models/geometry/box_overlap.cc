@@ -18,22 +18,21 @@ using Eigen::Vector3d;
 
 // Cosine below which an axis counts as lying in a face: two boxes touch along an edge or a face.
 constexpr double kAlong = 1e-12;
-constexpr double kParallel2 = 1e-28;  // of a sine, squared
-constexpr double kTie = 1e-14;        // depths that differ by less, relative to the size, are equal
+constexpr double kTie = 1e-14;  // depths that differ by less, relative to the size, are equal
 
 // An exit of box B, half extents `b` at X_AB, from box A about the origin.
-struct Exit {
+struct BoxExit {
   double depth{std::numeric_limits<double>::infinity()};
   int axis_a{-1};                      // -1 if the axis is normal to a face of B
   int axis_b{-1};                      // -1 if the axis is normal to a face of A
   Vector3d normal{Vector3d::UnitX()};  // from A to B
 };
 
-Exit ShortestExit(const Vector3d& a, const Vector3d& b, const Isometry3d& X_AB) {
+BoxExit ShortestExit(const Vector3d& a, const Vector3d& b, const Isometry3d& X_AB) {
   const Matrix3d R = X_AB.linear();
   const Matrix3d size = R.cwiseAbs();
   const Vector3d t = X_AB.translation();
-  Exit best;
+  BoxExit best;
   const auto consider = [&](double depth, double along, const Vector3d& n, int i, int j) {
     if (depth < best.depth) best = {depth, i, j, along < 0.0 ? Vector3d(-n) : n};
   };
@@ -149,7 +148,7 @@ Segment FarthestEdge(const Vector3d& half, const Isometry3d& X, const Vector3d& 
 
 CoreDistance BoxOverlap(const CorePair& pair) {
   const Vector3d &a = pair.a.half(), &b = pair.b.half();
-  const Exit exit = ShortestExit(a, b, pair.X_AB);
+  const BoxExit exit = ShortestExit(a, b, pair.X_AB);
   CoreDistance result{.distance = -exit.depth, .normal = -exit.normal};
   if (exit.axis_b < 0) {
     const double side = std::copysign(1.0, exit.normal[exit.axis_a]);

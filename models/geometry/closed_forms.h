@@ -6,8 +6,8 @@
 namespace oca::geometry::internal {
 
 /// Finds the signed core distance where algebra gives it, with the simpler core second: a point and
-/// anything but a hull, a segment and a segment or box, or a cylinder apart from it, a half-space and
-/// anything that ends. False for other pairs.
+/// anything but a hull, a segment and a segment or box, or a cylinder apart from it, a half-space
+/// and anything that ends. False for other pairs.
 bool ClosedForm(const CorePair& pair, CoreDistance* found);
 
 /// The same for two cores that are known to overlap or touch: two boxes, a point in a hull.

@@ -207,8 +207,4 @@ std::shared_ptr<const Collider> MakeCollider(Shape shape, std::string_view where
   return std::make_shared<const Collider>(std::move(shape), where);
 }
 
-double BoundingRadius(const Collider& collider) {
-  return collider.centre().norm() + collider.bounding_radius();
-}
-
 }  // namespace oca::geometry

@@ -73,8 +73,4 @@ class Collider {
 ///        half-space or a compound among them, or with a pose that is not a finite rigid motion
 std::shared_ptr<const Collider> MakeCollider(Shape shape, std::string_view where);
 
-/// Radius of a sphere about the origin of the shape's frame that contains the shape, m; infinite
-/// for a half-space.
-double BoundingRadius(const Collider& collider);
-
 }  // namespace oca::geometry

@@ -236,7 +236,8 @@ inline Outside OutsideOf(const Collider& core, const Eigen::Vector3d& p) {
   }
 }
 
-/// Corners whose hull contains a core that is neither round all over nor endless; of a hull its own.
+/// Corners whose hull contains a core that is neither round all over nor endless; of a hull its
+/// own.
 inline std::vector<Eigen::Vector3d> CornersAround(const Collider& core) {
   std::vector<Eigen::Vector3d> corners;
   const Eigen::Vector3d& half = core.half();

@@ -6,8 +6,8 @@
 
 namespace oca::geometry::internal {
 
-/// Distance of a cylinder about the z-axis (A, half extents `half`) and a segment (B) apart from it;
-/// false if they overlap or all but touch.
+/// Distance of a cylinder about the z-axis (A, half extents `half`) and a segment (B) apart from
+/// it; false if they overlap or all but touch.
 ///
 /// The distance of a point of the segment is convex in its parameter, and between the crossings of
 /// the cylinder's side and its two end planes smooth; beside a rim Newton's method finds its least.

@@ -28,8 +28,8 @@ inline constexpr std::size_t kDefaultTriangles = 4000;
 /// parts.
 ///
 /// Takes seconds for thousands of triangles, a minute at worst: of a mesh with more than
-/// `most_triangles` the clusters are sought on one of so many, whose vertices lie some hundredths of
-/// the diagonal off. The parts hold every triangle of the mesh all the same.
+/// `most_triangles` the clusters are sought on one of so many, whose vertices lie some hundredths
+/// of the diagonal off. The parts hold every triangle of the mesh all the same.
 ///
 /// throws ModelError naming `name` for a concavity outside (0, 1), and as MakeConvexHull does
 /// source Mamou, Ghorbel 2009, A simple and efficient approach for 3D mesh approximate convex

@@ -11,7 +11,6 @@
 #include "oca/models/error.h"
 #include "oca/models/file_bytes.h"
 #include "oca/models/geometry/decomposition.h"
-#include "oca/models/table_text.h"
 #include "oca/models/whole_file.h"
 
 namespace oca::geometry {

@@ -40,7 +40,8 @@ struct PairCache {
   std::array<Eigen::Vector3d, 4> points_a;
   std::array<Eigen::Vector3d, 4> points_b;
 
-  /// Of bodies that overlap: a closed surface of triangles, the corners differences of their points.
+  /// Of bodies that overlap: a closed surface of triangles, the corners differences of their
+  /// points.
   struct Surface {
     static constexpr int kMostCorners = 64;
     static constexpr int kMostFaces = 2 * kMostCorners - 4;
@@ -57,12 +58,12 @@ struct PairCache {
 /// Signed distance of A at pose `X_WA` and B at pose `X_WB`.
 ///
 /// Closed forms for a half-space with anything, a sphere with anything but a mesh, capsules with
-/// capsules, boxes and cylinders apart from them. Else GJK on the cores, with a lower and an upper bound on the distance; for
-/// overlapping cores the separating axes of boxes, the planes of a mesh around a sphere's centre,
-/// or the face of the Minkowski difference that is nearest to the origin. The distance is
-/// continuous in the poses. Of compounds the least distance of their parts counts: exact apart, in
-/// overlap the depth of the deepest part. A pair farther apart than `max_distance` (m) may be left
-/// early with kBeyond. No heap, no exception; `cache` may be null.
+/// capsules, boxes and cylinders apart from them. Else GJK on the cores, with a lower and an upper
+/// bound on the distance; for overlapping cores the separating axes of boxes, the planes of a mesh
+/// around a sphere's centre, or the face of the Minkowski difference that is nearest to the origin.
+/// The distance is continuous in the poses. Of compounds the least distance of their parts counts:
+/// exact apart, in overlap the depth of the deepest part. A pair farther apart than `max_distance`
+/// (m) may be left early with kBeyond. No heap, no exception; `cache` may be null.
 /// source Gilbert, Johnson, Keerthi 1988 (GJK); van den Bergen 2001 (expanding polytope)
 SignedDistance Distance(const Collider& a, const Eigen::Isometry3d& X_WA, const Collider& b,
                         const Eigen::Isometry3d& X_WB,

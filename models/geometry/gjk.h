@@ -24,8 +24,8 @@ inline constexpr double kRoundProof = 1e-12;
 /// Distance of two separated cores. Starts from the simplex in `cache` (may be null) and leaves its
 /// own there.
 ///
-/// `separated` promises that a plane between the cores is known. `last` (may be null) is the simplex
-/// at the end: of four points around the origin if those prove that the cores overlap.
+/// `separated` promises that a plane between the cores is known. `last` (may be null) is the
+/// simplex at the end: of four points around the origin if those prove that the cores overlap.
 /// Each step takes the support point w along -v: |v| is an upper bound of the distance, v.w / |v| a
 /// lower one.
 /// source Gilbert, Johnson, Keerthi 1988; van den Bergen 1999 (termination)

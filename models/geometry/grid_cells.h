@@ -22,8 +22,8 @@ struct InCell {
   auto operator<=>(const InCell&) const = default;
 };
 
-/// Points in the order of their cells, those of one cell in their own order. Cells are `size` m wide;
-/// std::floor as `whole` has one begin at `origin`, std::round has one there in the middle.
+/// Points in the order of their cells, those of one cell in their own order. Cells are `size` m
+/// wide; std::floor as `whole` has one begin at `origin`, std::round has one there in the middle.
 std::vector<InCell> SortedByCell(const std::vector<Eigen::Vector3d>& points,
                                  const Eigen::Vector3d& origin, double size,
                                  double (*whole)(double));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Heightmaps, of point_cloud.h.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -53,8 +53,8 @@ struct ObstacleEstimate {
   }
 };
 
-/// The k of `k sqrt(n^T P n)`, by which a distance along n to what is known with covariance P counts
-/// for less.
+/// The k of `k sqrt(n^T P n)`, by which a distance along n to what is known with covariance P
+/// counts for less.
 inline constexpr double kConfidence = 3.0;
 
 /// kConfidence sqrt(n^T P n), m.

@@ -12,8 +12,6 @@ using Eigen::Vector3d;
 
 // Below this, relative to the size of the pair, a difference of points carries no direction.
 constexpr double kNoDirection = 1e-13;
-// Sine of the angle below which two directions count as parallel, squared.
-constexpr double kParallel2 = 1e-28;
 
 double NearestTo(const Segment& segment, const Vector3d& p) {
   return std::clamp(segment.direction.dot(p - segment.centre), -segment.half, segment.half);
@@ -72,15 +70,15 @@ SegmentParameters Clip(const Vector3d& half, const Segment& s, int axis) {
   return {low, high};
 }
 
-struct Exit {
+struct SegmentExit {
   Vector3d normal;  // outward of the box
   double depth;
   int axis;   // of the face, or of the edge
   bool edge;  // across an edge and the segment
 };
 
-Exit ShortestExit(const Vector3d& half, const Segment& s) {
-  Exit best{Vector3d::UnitZ(), 0.0, -1, false};
+SegmentExit ShortestExit(const Vector3d& half, const Segment& s) {
+  SegmentExit best{Vector3d::UnitZ(), 0.0, -1, false};
   const double slack = 1e-14 * (half.sum() + s.half);
   const auto consider = [&](const Vector3d& axis_normal, int axis, bool edge) {
     const double centre = axis_normal.dot(s.centre);
@@ -109,7 +107,7 @@ Segment EdgeAlong(const Vector3d& half, const Vector3d& normal, int axis) {
 }
 
 CoreDistance Overlap(const Vector3d& half, const Segment& s) {
-  const Exit exit = ShortestExit(half, s);
+  const SegmentExit exit = ShortestExit(half, s);
   double at = 0.0;
   if (exit.edge) {
     at = NearestOfSegments(EdgeAlong(half, exit.normal, exit.axis), s).b;

@@ -7,6 +7,9 @@
 
 namespace oca::geometry::internal {
 
+/// Sine of the angle below which two directions count as parallel, squared.
+inline constexpr double kParallel2 = 1e-28;
+
 /// Segment centre + s direction, |s| <= half; `direction` unit.
 struct Segment {
   Eigen::Vector3d centre, direction;

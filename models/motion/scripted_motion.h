@@ -88,8 +88,8 @@ ScriptedMotion MakeMotion(const CircularScript& script, const Eigen::Isometry3d&
 /// How a body goes from one waypoint to the next.
 enum class Pace {
   kEven,   ///< with one velocity
-  kSmooth  ///< from rest to rest with the least jerk, as a hand does: 10 x^3 - 15 x^4 + 6 x^5 of the
-           ///< way at the share x of the time (Flash, Hogan, J. Neuroscience 5 (7), 1985)
+  kSmooth  ///< from rest to rest with the least jerk, as a hand does: 10 x^3 - 15 x^4 + 6 x^5 of
+           ///< the way at the share x of the time (Flash, Hogan, J. Neuroscience 5 (7), 1985)
 };
 
 /// Straight between waypoints, held before and after; rotations on the shortest arc; without rpy

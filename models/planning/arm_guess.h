@@ -19,9 +19,9 @@ inline constexpr int kMostArmJoints = 7;
 /// Guessed from the tree alone: the longest chain of joints that move, up to where it branches into
 /// fingers or ends in a jaw, of which the last seven are the arm. A hand begins where, after four
 /// joints or more, several joints go on with at most five each, or one does that others mimic, that
-/// slides by at most 0.15 m (unless it carries a joint that turns, or slides on along the line of the
-/// slide before it, as a telescope does), or whose name, or its link's, says finger, jaw or claw (a
-/// joint's also gripper). Mimics within the chain belong to it. Of chains of one length the
+/// slides by at most 0.15 m (unless it carries a joint that turns, or slides on along the line of
+/// the slide before it, as a telescope does), or whose name, or its link's, says finger, jaw or
+/// claw (a joint's also gripper). Mimics within the chain belong to it. Of chains of one length the
 /// first is taken. The tip is what the last joint carries, at its fixed frame that lies farthest
 /// from the joint.
 /// throws ModelError if fewer than two joints of a chain move

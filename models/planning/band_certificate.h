@@ -21,8 +21,8 @@ namespace oca::planning {
 ///
 /// a span for which that does not suffice is halved. The path of a joint is |q_1 - q_0|, and where
 /// it may turn round A dt^2 / 4 more, A twice the largest acceleration at ends and middle.
-/// A pair that start or goal leave less than the hard distance is asked for half of what they leave;
-/// a link that starts in contact is not looked at.
+/// A pair that start or goal leave less than the hard distance is asked for half of what they
+/// leave; a link that starts in contact is not looked at.
 class BandCertificate {
  public:
   /// The clearance holds the bodies; it must outlive this. `own_reference` is that of its KeepOwn:

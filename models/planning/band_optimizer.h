@@ -116,8 +116,8 @@ inline constexpr double kYieldSlope = 0.25;  ///< m/rad, m/m
 ///        Madsen, Nielsen, Tingleff, Methods for non-linear least squares problems, 2004
 class BandOptimizer {
  public:
-  /// For a robot as `arm` looks at it, which is copied; what contains its links is shared. `own`: the
-  /// ranges of own links, if these are looked at.
+  /// For a robot as `arm` looks at it, which is copied; what contains its links is shared. `own`:
+  /// the ranges of own links, if these are looked at.
   BandOptimizer(const robot::Clearance& arm, const BandSettings& settings,
                 const robot::OwnRanges& own = {});
   BandOptimizer(std::shared_ptr<const robot::RobotModel> model, const BandSettings& settings,
@@ -148,15 +148,15 @@ class BandOptimizer {
   /// Improves a band by at most `most` steps; its cost. Never makes it dearer.
   double Relax(BandCurve& curve, int most);
   BandCheck Check(const BandCurve& curve);
-  /// Which of the first `count` columns of q (num_positions() rows, at most 8) evade all at the end of
-  /// the grid, a bit each. After Prepare and YieldAt.
+  /// Which of the first `count` columns of q (num_positions() rows, at most 8) evade all at the end
+  /// of the grid, a bit each. After Prepare and YieldAt.
   unsigned EvadesAtEnd(const Eigen::Ref<const Eigen::MatrixXd>& q, int count);
-  /// BandCheck::evades() of a band, looked at from `from` (s) on, then from its start up to there, up
-  /// to the first point that does not.
+  /// BandCheck::evades() of a band, looked at from `from` (s) on, then from its start up to there,
+  /// up to the first point that does not.
   bool EvadesAll(const BandCurve& curve, double from);
-  /// Away from these times (BandCheck::near of what is requested), return_nearness is the price of a
-  /// deviation: from 0.2 s before the end of each more and more, up to `before` s before the begin of
-  /// the next. After Prepare, which says that nearness is the price.
+  /// Away from these times (BandCheck::near of what is requested), return_nearness is the price of
+  /// a deviation: from 0.2 s before the end of each more and more, up to `before` s before the
+  /// begin of the next. After Prepare, which says that nearness is the price.
   void ReturnBetween(std::vector<std::pair<double, double>> near, double before) {
     returns_ = true;
     near_ = std::move(near);
@@ -215,15 +215,15 @@ class BandOptimizer {
   double NearnessAt(double time) const;
   void Assemble(const Sample& sample, Normal& normal) const;
   bool Step(const Normal& normal, double damping);
-  /// Asks what may be within `reach` (m) of samples, of the first eight at most, with deviations that
-  /// `deviation` (a sample, into a vector) tells.
+  /// Asks what may be within `reach` (m) of samples, of the first eight at most, with deviations
+  /// that `deviation` (a sample, into a vector) tells.
   template <class Deviation>
   void LookAhead(std::span<const Sample> samples, double reach, const Deviation& deviation);
   void AskAhead(int count, double reach);
   /// Whether at what was visited all is evaded, and, of a band, limits are kept.
   bool Evades(const Sample& sample, const BandCurve* curve);
-  /// Of sample `lane` of those: brings the robot there, and, if need be, the bodies; the pairs within
-  /// that reach are pairs_ then.
+  /// Of sample `lane` of those: brings the robot there, and, if need be, the bodies; the pairs
+  /// within that reach are pairs_ then.
   void Visit(const Sample& sample, int lane, double reach);
   /// What a pair has at the goal or the start, as it counts, m.
   struct Left {

@@ -97,8 +97,8 @@ inline constexpr double kStopWithin =
 /// 1. The request, if nothing deviates and it is clear.
 /// 2. The last band, relaxed; or the way straight back, if that is clear and much cheaper. While
 ///    something moves and the last band is not clear either: escapes, straight motions at once to
-///    where the arm is out of reach, which are tested rather than relaxed: where everything closes in,
-///    a gradient leads nowhere.
+///    where the arm is out of reach, which are tested rather than relaxed: where everything closes
+///    in, a gradient leads nowhere.
 /// 3. If that is not clear, or the task is fresh: retreats along the gradient of the distance,
 ///    pauses before what moves, detours of each joint around the time in question, random ones, and
 ///    if these are not clear, paths of RrtConnect past what stands; the cheapest few are relaxed,
@@ -107,9 +107,9 @@ inline constexpr double kStopWithin =
 ///    what lacks least.
 ///
 /// A plan looks at about most_evaluations configurations, if that is above 0: it then tries some of
-/// the starts, and the next one (BandTask::plans_before) goes on with others. Clear means within the
-/// limits too. The end of a band is free where none that ends where it is to end is clear: while
-/// something moves, where the last one cannot be made clear.
+/// the starts, and the next one (BandTask::plans_before) goes on with others. Clear means within
+/// the limits too. The end of a band is free where none that ends where it is to end is clear:
+/// while something moves, where the last one cannot be made clear.
 ///
 /// Of bands that are clear one that ends where it is to end is better than one that does not (where
 /// something moves, after one that is wide), then one of a wider degree (kClearLevels), then one of
@@ -170,7 +170,8 @@ class BandPlanner {
   BandCurve Followed(const BandTask& task, const BandCurve* last) const;
   /// Whether the last band left its end free, which now could be the goal.
   bool EndsElsewhere(const BandCurve* last) const;
-  /// Where the last band, whose grid goes on beyond moving_horizon, meets something: a shorter grid.
+  /// Where the last band, whose grid goes on beyond moving_horizon, meets something: a shorter
+  /// grid.
   void LookLessFarInNeed(const BandTask& task, const BandCurve* last);
   /// The last band, relaxed; as it is, if only that is clear; escapes, if neither is.
   BandPlan GoOnWith(const BandTask& task, const BandCurve* last);
@@ -191,8 +192,8 @@ class BandPlanner {
                    std::vector<Start>& starts);
   void AddPauses(const BandTask& task, const BandCheck& trouble, std::vector<Start>& starts) const;
   void AddDetours(const BandTask& task, const BandCheck& trouble, std::vector<Start>& starts) const;
-  /// Straight motions from the start to positions, drawn at random, that evade all at the end of the
-  /// grid and on the way.
+  /// Straight motions from the start to positions, drawn at random, that evade all at the end of
+  /// the grid and on the way.
   void TryEscapes(const BandTask& task, BandPlan& best);
   /// Where nothing moves: a band that goes on as near to the request as is clear, and ends there.
   void Wait(const BandTask& task, BandPlan& best);

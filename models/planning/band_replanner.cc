@@ -127,7 +127,8 @@ bool BandReplanner::Astray(const BandSituation& now, BandMemory& memory) const {
   memory.At(now.time).Add(now.time, 0, memory.planned);
   const double off = (now.measured - memory.planned).cwiseAbs().maxCoeff();
   if (off <= kOnPlan || memory.report.plans == 0) memory.off_since = now.time;
-  // A filter that keeps the arm off a band which passes nearer than it allows would keep it for ever.
+  // A filter that keeps the arm off a band which passes nearer than it allows would keep it for
+  // ever.
   const bool rest = std::all_of(now.obstacles.begin(), now.obstacles.end(), Stands);
   return off > settings_.restart_distance || (rest && now.time - memory.off_since > kOffFor);
 }

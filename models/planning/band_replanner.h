@@ -55,19 +55,20 @@ struct BandSituation {
 /// A plan begins with the state that the band before it has at that time, or with the arm, if that
 /// is farther than restart_distance from where the band says. The first eight plans look for
 /// shorter ways even if theirs is clear; after them a plan whose obstacles still stand where they
-/// stood is kept, as long as it goes on to the end of the request, or for half of most_horizon. What it knows from plan to plan is the BandMemory.
+/// stood is kept, as long as it goes on to the end of the request, or for half of most_horizon.
+/// What it knows from plan to plan is the BandMemory.
 /// source docs/explanation/recommended.md
 class BandReplanner {
  public:
   BandReplanner(std::shared_ptr<const robot::RobotModel> model, const ReplanSettings& settings);
 
   /// Whether the arm gets on, into `moved` and `stuck`: it is stuck if the request rests, its goal
-  /// is not reached to 0.01 and for stuck_time the arm was not nearer to it by stuck_motion than ever
-  /// before, nor had a plan that leads there.
+  /// is not reached to 0.01 and for stuck_time the arm was not nearer to it by stuck_motion than
+  /// ever before, nor had a plan that leads there.
   void Follow(const BandSituation& now, BandMemory& memory) const;
 
-  /// For how long the next plan may be made before it begins, s: plan_time, or what one that was late
-  /// has taken.
+  /// For how long the next plan may be made before it begins, s: plan_time, or what one that was
+  /// late has taken.
   double TimeToPlan(const BandMemory& memory) const;
 
   /// Makes the plan that begins at `start` (s), unless the last one is kept, or one is still being
@@ -75,8 +76,9 @@ class BandReplanner {
   ///
   /// The plan's work is counted and priced (PlanPrices). If it counts as more time than there is up
   /// to `start` the plan is late: it is thrown away, the band before it goes on, for no band could
-  /// begin in a state that was not known when it was planned; nothing else is planned while it would
-  /// have been made, and the next one gets a quarter more time than it took, from the same memory.
+  /// begin in a state that was not known when it was planned; nothing else is planned while it
+  /// would have been made, and the next one gets a quarter more time than it took, from the same
+  /// memory.
   void Plan(const BandSituation& now, double start,
             const std::optional<BandSituation::Positions>& rate, BandMemory& memory) const;
 

@@ -30,8 +30,8 @@ struct BandReport {
   double kept{0.0};       ///< m; least distance of what stands where less than is wanted is kept
   double goal_room{0.0};  ///< m; that the goal leaves, at most clear_distance
   BandLack lack{BandLack::kNone};  ///< what leaves less than the margin where it is nearest
-  /// That clear plans came nearer than hard_distance, where start or goal leave no more; false again
-  /// once one keeps twice as much.
+  /// That clear plans came nearer than hard_distance, where start or goal leave no more; false
+  /// again once one keeps twice as much.
   bool tight{false};
   bool stuck{false};     ///< no progress to the goal for stuck_time; link and obstacle say why
   double nearest{0.0};   ///< m; the least distance foreseen, as it counts, or the margin

@@ -132,8 +132,9 @@ struct BatchKernel {
   BatchWorkspace work{scene};
 };
 
-/// What may be too near is in `work.found`, of the lanes that are not surely decided, or of all; how far links
-/// travel, if that was asked for, in `work.travels` (robot::TravelBound of the ball around each).
+/// What may be too near is in `work.found`, of the lanes that are not surely decided, or of all;
+/// how far links travel, if that was asked for, in `work.travels` (robot::TravelBound of the ball
+/// around each).
 BatchAnswer CheckLanes(const BatchScene& scene, const BatchQuestion& question,
                        BatchWorkspace& work);
 /// Whether CheckLanes is to do without what only some processors have; for tests.

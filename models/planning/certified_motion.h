@@ -13,9 +13,9 @@ namespace oca::planning {
 /// Looks at straight motions of a robot's joints among bodies at rest: at samples, which prove
 /// nothing, and for a proof that it stays clear everywhere.
 ///
-/// For the proof a motion is cut into pieces, eight of which are looked at at once: one is clear if,
-/// from its middle, no link can travel as near to anything as the margin (BatchClearance), else it
-/// is halved.
+/// For the proof a motion is cut into pieces, eight of which are looked at at once: one is clear
+/// if, from its middle, no link can travel as near to anything as the margin (BatchClearance), else
+/// it is halved.
 /// source Schwarzer, Saha, Latombe, Adaptive Dynamic Collision Checking for Single and Multiple
 ///        Articulated Robots in Complex Environments, 2005; the bound: robot::TravelBound
 class CertifiedMotion {
@@ -26,15 +26,15 @@ class CertifiedMotion {
 
   /// Whether the position itself is clear.
   bool Clear(const Eigen::Ref<const Eigen::VectorXd>& q);
-  /// Whether the motion from q_0 to q_1 is proved clear; samples, which say no at little cost, first.
-  /// With `room` (m) it says no, too, where these do not keep so much more than the margin.
+  /// Whether the motion from q_0 to q_1 is proved clear; samples, which say no at little cost,
+  /// first. With `room` (m) it says no, too, where these do not keep so much more than the margin.
   bool Clear(const Eigen::Ref<const Eigen::VectorXd>& q_0,
              const Eigen::Ref<const Eigen::VectorXd>& q_1, double room = 0.0);
   /// The share of the motion from q_0 to q_1, from its start, that is proved clear; 0 to 1.
   double ClearShare(const Eigen::Ref<const Eigen::VectorXd>& q_0,
                     const Eigen::Ref<const Eigen::VectorXd>& q_1);
-  /// How much more than the margin, m, samples may keep, that a proof may succeed between them: up to
-  /// `most`, as far as both positions leave twice that.
+  /// How much more than the margin, m, samples may keep, that a proof may succeed between them: up
+  /// to `most`, as far as both positions leave twice that.
   double RoomOf(const Eigen::Ref<const Eigen::VectorXd>& q_0,
                 const Eigen::Ref<const Eigen::VectorXd>& q_1, double most);
   /// Whether all samples on the way are farther from anything than margin and `room`: these are at

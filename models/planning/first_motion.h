@@ -29,13 +29,13 @@ double ReachOf(const robot::RobotModel& model, int link);
 /// Motions to try a robot with, best first, at most `count`: one joint turns, or slides, the tip
 /// goes half of its reach or more, and a ball of a twelfth of the reach lies across its way, clear
 /// of where it starts and ends. Postures are drawn from the middle of the ranges: the arm bent, no
-/// link below the base's foot, own links apart. Where there is none of these, links may be below the
-/// base, as of an arm that hangs; then the tip's way and the room shorter. All distances scale with
-/// the reach.
+/// link below the base's foot, own links apart. Where there is none of these, links may be below
+/// the base, as of an arm that hangs; then the tip's way and the room shorter. All distances scale
+/// with the reach.
 ///
-/// Whether an arm can evade is not known here. The same seed gives the same motions; none if nothing
-/// of the kind is found. `progress` is told now and then what share of the postures was tried; false:
-/// it ends.
+/// Whether an arm can evade is not known here. The same seed gives the same motions; none if
+/// nothing of the kind is found. `progress` is told now and then what share of the postures was
+/// tried; false: it ends.
 /// throws ModelError for a robot whose solids Clearance refuses, or whose postures cannot be drawn
 std::vector<FirstMotion> ProposeMotions(const std::shared_ptr<const robot::RobotModel>& model,
                                         int tip, std::size_t count, std::uint64_t seed = 0,

@@ -15,8 +15,8 @@ struct MotionWay {
 };
 
 /// The way of the request of `task`, to which `curve` is added unless it is empty, in steps of
-/// 0.01 s from 0 to the duration. `size` is the number of positions; it is at the end where no joint
-/// is farther from it than `arrived`, rad or m.
+/// 0.01 s from 0 to the duration. `size` is the number of positions; it is at the end where no
+/// joint is farther from it than `arrived`, rad or m.
 MotionWay WayOf(const ClairvoyantTask& task, const BandCurve& curve, Eigen::Index size,
                 double arrived);
 

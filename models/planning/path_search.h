@@ -30,8 +30,8 @@ struct SearchLevels {
 /// within linearised distances). The nearest position reached is where an arm may rest.
 ///
 /// Edges are looked at by samples; the path that was found is proved clear at its level, and, of an
-/// exhausted search, the one to the nearest position (TreePair, CertifiedMotion). The same calls give
-/// the same answers. Allocates.
+/// exhausted search, the one to the nearest position (TreePair, CertifiedMotion). The same calls
+/// give the same answers. Allocates.
 /// source Kuffner, LaValle, RRT-Connect, 2000; Gammell et al., Informed RRT*, IROS 2014 (the ball)
 class PathSearch {
  public:
@@ -50,8 +50,8 @@ class PathSearch {
   /// Looks at about `most` configurations; adds what it looked at to `evaluations`.
   void Continue(robot::Clearance& clearance, long most, long& evaluations);
 
-  /// After kExhausted: from now on the nearest position reached is the goal, and the path there, which
-  /// was proved, is found.
+  /// After kExhausted: from now on the nearest position reached is the goal, and the path there,
+  /// which was proved, is found.
   void AimAtNearest();
 
   /// At the end of kFound: from the start to the goal.

@@ -12,13 +12,13 @@ namespace oca::planning {
 inline constexpr double kStepSlope = 15.0 / 8.0;
 inline constexpr double kStepBend = 5.7735;
 
-/// When a path of straight pieces reaches each of its positions at the earliest, s, within the limits
-/// of speed and 2 rad/s in the 2-norm: more takes more points of a band.
+/// When a path of straight pieces reaches each of its positions at the earliest, s, within the
+/// limits of speed and 2 rad/s in the 2-norm: more takes more points of a band.
 std::vector<double> TimesAlong(const robot::RobotModel& model,
                                const std::vector<Eigen::VectorXd>& path);
 
-/// In which SmoothStep goes along a path within a share of the limits of speed and acceleration, but
-/// for its corners, s.
+/// In which SmoothStep goes along a path within a share of the limits of speed and acceleration,
+/// but for its corners, s.
 double DurationAlong(const robot::RobotModel& model, const std::vector<Eigen::VectorXd>& path,
                      double limit_share);
 

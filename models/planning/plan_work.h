@@ -13,9 +13,9 @@ struct PlanWork {
   long looks() const { return band + exact + batches; }
 };
 
-/// What work counts as, s: what it takes on one machine, whatever machine it is done on. The defaults
-/// are those of one core of an AMD EPYC server in 2026, release build, lwr4 among 10 and 20 bodies;
-/// `oca_bench --benchmark_filter=plan_cost` prints those of another.
+/// What work counts as, s: what it takes on one machine, whatever machine it is done on. The
+/// defaults are those of one core of an AMD EPYC server in 2026, release build, lwr4 among 10 and
+/// 20 bodies; `oca_bench --benchmark_filter=plan_cost` prints those of another.
 struct PlanPrices {
   double plan{2e-5};
   double band{2.6e-6};

@@ -19,7 +19,7 @@ constexpr int kSolutions = 20;
 // Share of a joint's speed limit that the mean speed may be: a cubic's highest is 1.5 times it, a
 // quintic's 1.875 times.
 constexpr double kSpeedShare = 0.25;
-constexpr double kShortest = 1.0;  // s
+constexpr double kLeastDuration = 1.0;  // s
 
 void CheckBefore(const motion::KeyPoint& before, const robot::RobotModel& model) {
   if (before.position.size() == model.num_positions()) return;
@@ -45,7 +45,7 @@ double ArrivalTime(const PoseGoal& goal, const motion::KeyPoint& before,
                     "expected > {}",
                     *goal.time, before.time));
   }
-  double duration = kShortest;
+  double duration = kLeastDuration;
   for (Eigen::Index j = 0; j < position.size(); ++j) {
     const double way = std::fabs(position[j] - before.position[j]);
     if (way == 0.0) continue;

@@ -22,20 +22,20 @@ struct RrtOptions {
 /// A path of straight joint motions from `start` to `goal` on which the robot stays clear of the
 /// bodies of `clearance`, both ends included; nothing if a tree of `most_nodes` has found none.
 ///
-/// Two trees grow from the ends: one by an edge towards a random position within the joint limits (a
-/// joint without limits: within half a turn of both ends), the other as far as it can towards the new
-/// node. Edges are looked at by samples, eight at once; the path through both trees is proved
-/// clear by CertifiedMotion, so that the answer holds between the points too: an edge that cannot be
-/// proved is cut off with what is behind it, and the search goes on with samples half as far apart.
-/// The same arguments give the same path. Allocates.
+/// Two trees grow from the ends: one by an edge towards a random position within the joint limits
+/// (a joint without limits: within half a turn of both ends), the other as far as it can towards
+/// the new node. Edges are looked at by samples, eight at once; the path through both trees is
+/// proved clear by CertifiedMotion, so that the answer holds between the points too: an edge that
+/// cannot be proved is cut off with what is behind it, and the search goes on with samples half as
+/// far apart. The same arguments give the same path. Allocates.
 /// source Kuffner, LaValle, RRT-Connect: An Efficient Approach to Single-Query Path Planning, 2000
 std::optional<std::vector<Eigen::VectorXd>> RrtConnect(robot::Clearance& clearance,
                                                        const Eigen::VectorXd& start,
                                                        const Eigen::VectorXd& goal,
                                                        const RrtOptions& options = {});
 
-/// Replaces pieces between random points of a path by straight motions where those are proved clear;
-/// how often it looked (CertifiedMotion::evaluations).
+/// Replaces pieces between random points of a path by straight motions where those are proved
+/// clear; how often it looked (CertifiedMotion::evaluations).
 long Shorten(robot::Clearance& clearance, const RrtOptions& options,
              std::vector<Eigen::VectorXd>& path);
 

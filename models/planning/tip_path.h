@@ -34,8 +34,8 @@ struct TipTiming {
 /// by damped least squares on the kinematics, each from the one before, to 1e-9 m; where that leads
 /// nowhere, as from a stretched arm, or beyond a limit, from postures around it, of whose solutions
 /// the nearest is taken. The same arguments give the same key points.
-/// throws ModelError `path: ...` if the path leaves the reach of the robot, takes a joint beyond its
-///        limits or makes one jump, `posture: ...` if that is of another length
+/// throws ModelError `path: ...` if the path leaves the reach of the robot, takes a joint beyond
+///        its limits or makes one jump, `posture: ...` if that is of another length
 /// source Siciliano, Sciavicco, Villani, Oriolo, Robotics, section 3.5
 std::vector<motion::KeyPoint> KeyPointsAlong(const robot::RobotModel& model, int link,
                                              const TipPath& path, const Eigen::VectorXd& posture,

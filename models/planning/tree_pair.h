@@ -11,8 +11,8 @@
 
 namespace oca::planning {
 
-/// Where a search draws positions: within the joints' limits; of a joint without, within half a turn
-/// of both ends.
+/// Where a search draws positions: within the joints' limits; of a joint without, within half a
+/// turn of both ends.
 struct SearchRoom {
   SearchRoom(const robot::RobotModel& model, const Eigen::VectorXd& start,
              const Eigen::VectorXd& goal);
@@ -43,8 +43,8 @@ class TreePair {
   int size() const { return from_start.size() + from_goal.size(); }
 
   /// One tree grows by an edge towards q, then the other as far as it can towards the new node, by
-  /// edges no longer than `step` until both have `most` nodes; whether they meet. Samples keep room()
-  /// besides the margin.
+  /// edges no longer than `step` until both have `most` nodes; whether they meet. Samples keep
+  /// room() besides the margin.
   bool Grow(const Eigen::VectorXd& q, double step, int most, CertifiedMotion& motion);
   /// The path through where they met just now, if it is proved clear; else what is not is cut off,
   /// and samples are closer from now on.

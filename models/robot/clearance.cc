@@ -131,7 +131,8 @@ bool Clearance::LookAtOwn(std::size_t own_pair, double max_distance, NearPair& p
   return true;
 }
 
-// Calls visit(pair) for each pair within the limit, which visit returns anew: below 0 ends the walk.
+// Calls visit(pair) for each pair within the limit, which visit returns anew: below 0 ends the
+// walk.
 template <class Visit>
 void Clearance::ForEach(double max_distance, const Visit& visit) const {
   double limit = max_distance;

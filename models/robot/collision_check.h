@@ -12,8 +12,8 @@
 namespace oca::robot {
 
 /// Why a pair of links need not be checked for collision, or that it must be; the first that holds.
-/// source MoveIt Setup Assistant, compute_default_collisions.cpp, whose shares and reasons they are;
-///        there what always collides counts as kDefault
+/// source MoveIt Setup Assistant, compute_default_collisions.cpp, whose shares and reasons they
+///        are; there what always collides counts as kDefault
 enum class PairKind {
   kAdjacent,  ///< see RobotModel::adjacent
   kAlways,    ///< in collision at kAlwaysShare of the samples or more: by design
@@ -53,8 +53,8 @@ struct LinkPairCheck {
 /// margin, not the number of samples, is what makes "never" safe.
 ///
 /// throws ModelError if samples < 1, the margin is negative or not finite, more than 500 links have
-///        solids, a joint has no range that samples cover, a distance is not finite, or a solid cannot be prepared for distance
-///        queries
+///        solids, a joint has no range that samples cover, a distance is not finite, or a solid
+///        cannot be prepared for distance queries
 std::vector<LinkPairCheck> CheckCollisions(const RobotModel& model,
                                            const CollisionSampling& sampling);
 

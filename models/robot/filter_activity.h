@@ -9,8 +9,8 @@
 
 namespace oca::robot {
 
-/// One bound that held a BarrierFilter's velocity back, or that it had to leave out: kUnmovable is a
-/// distance that should grow and that no joint can change.
+/// One bound that held a BarrierFilter's velocity back, or that it had to leave out: kUnmovable is
+/// a distance that should grow and that no joint can change.
 struct FilterBound {
   enum class Kind { kDistance, kRecovery, kLower, kUpper, kUnmovable };
   Kind kind{Kind::kDistance};

@@ -28,9 +28,10 @@ struct HeldJoints {
 std::vector<int> JointsOfGroup(const RobotModel& robot, const std::vector<SrdfGroup>& groups,
                                const std::string& group);
 
-/// The joints of a robot with those that are held fixed where they are held: X_PJ becomes X_PJ times
-/// their motion there. What mimics a held joint is held with it. A joint stands where `positions`
-/// have it, else where `states` have it, else, outside of `group`, at 0 or the limit nearest to it.
+/// The joints of a robot with those that are held fixed where they are held: X_PJ becomes X_PJ
+/// times their motion there. What mimics a held joint is held with it. A joint stands where
+/// `positions` have it, else where `states` have it, else, outside of `group`, at 0 or the limit
+/// nearest to it.
 ///
 /// throws ModelError `held.NAME: ...` for what is no joint that moves by itself (a mimic is held by
 ///        its leader) or a position beyond its limits, `group: ...` for what is no group, one of

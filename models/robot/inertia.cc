@@ -5,8 +5,6 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "oca/models/counted.h"
-
 namespace oca::robot {
 namespace {
 

@@ -55,11 +55,6 @@ double Along(const KinematicStep& step, const Eigen::Vector3d& axis_W, const Eig
 
 }  // namespace
 
-BodyWrench WrenchAbout(const Eigen::Vector3d& origin_W, const Eigen::Vector3d& p_W,
-                       const Eigen::Vector3d& force) {
-  return {force, (p_W - origin_W).cross(force)};
-}
-
 MappingWorkspace::MappingWorkspace(const RobotModel& model)
     : link_wrenches(model.links().size()),
       composites(model.links().size()),

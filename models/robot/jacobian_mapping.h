@@ -18,11 +18,6 @@ struct BodyWrench {
   Eigen::Vector3d torque{Eigen::Vector3d::Zero()};
 };
 
-/// The wrench that `force` acting at p_W exerts about `origin_W`:
-/// torque = (p_W - origin_W) x force.
-BodyWrench WrenchAbout(const Eigen::Vector3d& origin_W, const Eigen::Vector3d& p_W,
-                       const Eigen::Vector3d& force);
-
 enum class MappingMethod {
   kTranspose,      // delta = alpha J^T w
   kPseudoInverse,  // delta = alpha (J^T J)^-1 J^T w

@@ -122,18 +122,6 @@ void ForwardKinematics(const RobotModel& model, const Eigen::Ref<const Eigen::Ve
   }
 }
 
-void JointScrews(const RobotModel& model, std::span<const Eigen::Isometry3d> X_WL,
-                 std::span<JointScrew> screws) {
-  assert(std::ssize(X_WL) == model.num_links());
-  assert(std::ssize(screws) == model.num_joints());
-  for (int j = 0; j < model.num_joints(); ++j) {
-    const KinematicStep& step = model.steps()[j];
-    screws[j].origin_W = X_WL[j + 1].translation();
-    screws[j].axis_W.setZero();
-    if (step.column >= 0) screws[j].axis_W.noalias() += X_WL[j + 1].linear() * step.axis;
-  }
-}
-
 void PointJacobian(const RobotModel& model, std::span<const Eigen::Isometry3d> X_WL, int link,
                    const Eigen::Vector3d& p_W, Eigen::Ref<Eigen::Matrix3Xd> J_v) {
   assert(std::ssize(X_WL) == model.num_links());

@@ -28,18 +28,6 @@ std::vector<Eigen::Isometry3d> LinkPoses(const RobotModel& model,
 void ForwardKinematics(const RobotModel& model, const Eigen::Ref<const Eigen::VectorXd>& q,
                        std::span<Eigen::Isometry3d> X_WL);
 
-/// A joint seen from the world: unit axis (zero for a fixed joint) and the origin of its child
-/// link (m), a point on the axis of a revolute joint.
-struct JointScrew {
-  Eigen::Vector3d axis_W;
-  Eigen::Vector3d origin_W;
-};
-
-/// All joints (num_joints() entries). The poses of the links alone determine them, because a
-/// joint's motion leaves its own axis where it is.
-void JointScrews(const RobotModel& model, std::span<const Eigen::Isometry3d> X_WL,
-                 std::span<JointScrew> screws);
-
 /// Motion of a link's frame, world axes: velocity of its origin (m/s), angular velocity (rad/s).
 struct LinkVelocity {
   Eigen::Vector3d linear{Eigen::Vector3d::Zero()};
@@ -70,8 +58,9 @@ void DistanceRow(const RobotModel& model, std::span<const Eigen::Isometry3d> X_W
                  const Eigen::Vector3d& p_A, int link_b, const Eigen::Vector3d& p_B,
                  const Eigen::Vector3d& n, Eigen::Ref<Eigen::VectorXd> row);
 
-/// The LinkJacobians of all bodies below each other, in the order of RobotModel::bodies():
-/// J is 6 num_bodies() x n; 42 x 7 for an arm of seven joints. source report eq. (3.4)
+/// The Jacobian of each body (LinkJacobian), all below each other, in the order of
+/// RobotModel::bodies(): J is 6 num_bodies() x n; 42 x 7 for an arm of seven joints.
+/// source report eq. (3.4)
 void StackedJacobian(const RobotModel& model, std::span<const Eigen::Isometry3d> X_WL,
                      Eigen::Ref<Eigen::MatrixXd> J);
 

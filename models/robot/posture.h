@@ -18,7 +18,8 @@ Eigen::VectorXd ZeroPosture(const RobotModel& model);
 using NamedPositions = std::vector<std::pair<std::string, double>>;
 
 /// `q` with these joints moved.
-/// throws ModelError naming the joints of the robot if a name is none of a joint that has a position
+/// throws ModelError naming the joints of the robot if a name is none of a joint that has a
+///        position
 Eigen::VectorXd WithPositions(const RobotModel& model, const NamedPositions& positions,
                               Eigen::VectorXd q);
 

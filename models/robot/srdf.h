@@ -68,9 +68,9 @@ struct DisabledPair {
 };
 
 /// Writes an SRDF file that disables `pairs`, in their order. Of a file that exists the pairs with
-/// the reasons Adjacent, Always, Default and Never are replaced, and all else is kept: groups, states,
-/// comments, and pairs that a person disabled for a reason of his own. The new file replaces the
-/// old one at once or not at all.
+/// the reasons Adjacent, Always, Default and Never are replaced, and all else is kept: groups,
+/// states, comments, and pairs that a person disabled for a reason of his own. The new file
+/// replaces the old one at once or not at all.
 /// throws ModelError if the file exists and is no SRDF of the robot `robot` (a URDF, say), or
 /// cannot be written
 void SaveDisabledPairs(const std::filesystem::path& file, const std::string& robot,

@@ -18,7 +18,7 @@
 namespace oca::robot {
 namespace {
 
-using Names = XmlReader::Names;
+using Names = std::vector<std::string>;
 
 /// What an element may have. source MoveIt's srdfdom, src/model.cpp
 struct Kind {

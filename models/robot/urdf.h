@@ -48,9 +48,9 @@ struct LoadOptions {
   bool decompose_meshes{false};
   VisualAsCollision visual_as_collision{VisualAsCollision::kNone};
   /// Take what is odd but does not matter, or unset: `warn` a line a kind, which names the first of
-  /// it and counts the rest, `warn_each` a line for each thing. A line for each mesh whose hull adds volume, `link 'x': collision mesh ...` or `visual
-  /// mesh`, and for limits that hardly mean what they say (LimitWarnings): `joint X: ...`. The line
-  /// of a mesh ends with `hull_advice`.
+  /// it and counts the rest, `warn_each` a line for each thing. A line for each mesh whose hull
+  /// adds volume, `link 'x': collision mesh ...` or `visual mesh`, and for limits that hardly mean
+  /// what they say (LimitWarnings): `joint X: ...`. The line of a mesh ends with `hull_advice`.
   std::function<void(const std::string&line)> warn{}, warn_each{};
   std::string hull_advice{};
   /// false: meshes that are only drawn need not exist, and their elements name no file.
@@ -61,8 +61,8 @@ struct LoadOptions {
 
 /// Reads a robot, or a world of fixed links, from a URDF file, or from a xacro file, by the ending
 /// .xacro, which it expands first. Relative mesh paths are relative to the file's folder. Links are
-/// numbered depth first, children in the order of the file's joints. A cylinder with a sphere of the
-/// same radius at either end becomes one Capsule.
+/// numbered depth first, children in the order of the file's joints. A cylinder with a sphere of
+/// the same radius at either end becomes one Capsule.
 ///
 /// throws ModelError naming file, line and element, for all that a robot cannot be built from or
 /// that would be lost in silence: see ReadUrdfOutline and CheckUrdfTree; beyond these an unreadable

@@ -38,10 +38,10 @@ struct UrdfOutline {
 };
 
 /// Reads the outline below `root`, of a document that is repaired (RepairUrdf), and refuses what
-/// urdfdom would drop, misread or accept in silence: unexpanded xacro, unknown or repeated elements,
-/// unknown geometry, numbers that are missing or not finite, sizes that are not positive, a zero
-/// axis, limits that are missing or reversed, repeated names. `where` names the file in messages,
-/// each of which names line and element. With errors the outline is incomplete.
+/// urdfdom would drop, misread or accept in silence: unexpanded xacro, unknown or repeated
+/// elements, unknown geometry, numbers that are missing or not finite, sizes that are not positive,
+/// a zero axis, limits that are missing or reversed, repeated names. `where` names the file in
+/// messages, each of which names line and element. With errors the outline is incomplete.
 /// throws ModelError at once if it is no robot or a xacro
 UrdfOutline ReadUrdfOutline(const TiXmlElement& root, const std::string& where,
                             models::ModelErrors& errors);

@@ -9,11 +9,11 @@ namespace oca::robot {
 
 /// Takes out of a URDF document, below `root`, what is wrong in it and that nothing here reads, so
 /// that a robot is not refused for it: attributes that URDF does not have, visuals of no size,
-/// materials that are said twice and materials whose colour is none, inertias that are incomplete, no
-/// numbers or of negative mass. A floating or planar joint below the root link becomes a fixed one:
-/// where the robot stands is said elsewhere. A limit of the effort that is missing, no number or
-/// below 0 becomes 0, which means none (LimitWarnings). An attribute within two letters of one of URDF's stays,
-/// to be refused as a slip of the pen.
+/// materials that are said twice and materials whose colour is none, inertias that are incomplete,
+/// no numbers or of negative mass. A floating or planar joint below the root link becomes a fixed
+/// one: where the robot stands is said elsewhere. A limit of the effort that is missing, no number
+/// or below 0 becomes 0, which means none (LimitWarnings). An attribute within two letters of one
+/// of URDF's stays, to be refused as a slip of the pen.
 ///
 /// Returns what was done: `attributes that URDF does not have, left out: 'a:b' of <origin> of link
 /// 'upper' (line 12), ... and 20 more`.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// What urdf_outline.h says of the tree of links: whether it is one, and its order.
 #include <fmt/format.h>
 
 #include <algorithm>

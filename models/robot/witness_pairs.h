@@ -26,9 +26,9 @@ struct WitnessPair {
 
 /// The nearest points of near bodies in the last kKept seconds. Where a flat lies along a flat the
 /// nearest points of one tick are at one end and those of the next at the other: who keeps only the
-/// nearest ones apart loses what the far end comes nearer, tick by tick. Any two points, one of each
-/// body, are at least as far apart as the bodies, so keeping these apart too asks for nothing that
-/// the distance does not.
+/// nearest ones apart loses what the far end comes nearer, tick by tick. Any two points, one of
+/// each body, are at least as far apart as the bodies, so keeping these apart too asks for nothing
+/// that the distance does not.
 ///
 /// An obstacle moves on with the velocity at its nearest point; that it turns is left out, which
 /// bounds how long a pair of points is worth something.
@@ -42,7 +42,8 @@ class WitnessPairs {
     return {pairs_.data(), static_cast<std::size_t>(count_)};
   }
 
-  /// After `time` s: the obstacles of `set` have moved; what is too old, or of none of it, is forgotten.
+  /// After `time` s: the obstacles of `set` have moved; what is too old, or of none of it, is
+  /// forgotten.
   void Move(double time, const ProximitySet& set);
   /// Keeps the nearest points of `proximity`, which must be apart.
   void Keep(const RobotModel& model, std::span<const Eigen::Isometry3d> X_WL,

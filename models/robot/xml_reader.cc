@@ -34,7 +34,7 @@ std::string InOneLine(std::string text) {
 }
 
 // "link 'NAME' " of the link or joint that holds the element or is it, in one line.
-std::string Holder(const TiXmlElement& element) {
+std::string HolderOf(const TiXmlElement& element) {
   for (const TiXmlNode* node = &element; node != nullptr; node = node->Parent()) {
     const TiXmlElement* at = node->ToElement();
     if (at == nullptr || (at->ValueStr() != "link" && at->ValueStr() != "joint")) continue;
@@ -49,7 +49,7 @@ std::string Holder(const TiXmlElement& element) {
 std::string XmlReader::Describe(const TiXmlElement& element, std::string_view what,
                                 std::string_view got, std::string_view expected) const {
   return fmt::format("{}:{}: {}<{}>: {}; got {}; expected {}", where_, element.Row(),
-                     Holder(element), element.ValueStr(), what, got, expected);
+                     HolderOf(element), element.ValueStr(), what, got, expected);
 }
 
 void XmlReader::Fail(const TiXmlElement& element, std::string_view what, std::string_view got,

@@ -72,8 +72,8 @@ class Foreign {
   std::vector<std::string> Texts(std::string_view key) const;
   /// Three numbers: a list, or a map of x, y and z.
   Eigen::Vector3d Vector() const;
-  /// `position` and `orientation`, or `translation` and `rotation`, each as a list or a map; what is
-  /// not there is zero.
+  /// `position` and `orientation`, or `translation` and `rotation`, each as a list or a map; what
+  /// is not there is zero.
   Eigen::Isometry3d Pose() const;
   /// [x, y, z, w] as a list or a map. throws ModelError unless of length 1 to three digits
   Eigen::Quaterniond Rotation() const;

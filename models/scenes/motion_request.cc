@@ -6,7 +6,6 @@
 #include <memory>
 #include <utility>
 
-#include "oca/models/error.h"
 #include "oca/models/scenes/foreign_tree.h"
 #include "oca/models/scenes/scene_bodies.h"
 #include "oca/models/table_text.h"

@@ -34,8 +34,8 @@ struct MotionRequest {
 };
 
 /// Reads a moveit_msgs/MotionPlanRequest in YAML.
-/// throws ModelError `file:line: what; got X; expected Y`: for what is not of the format, no goal or
-///        several, one of joints and of a pose at once, a joint that is constrained twice, an
+/// throws ModelError `file:line: what; got X; expected Y`: for what is not of the format, no goal
+///        or several, one of joints and of a pose at once, a joint that is constrained twice, an
 ///        orientation without a position, joints and positions of different number
 /// source moveit_msgs MotionPlanRequest, Constraints
 MotionRequest ReadMotionRequest(const std::filesystem::path& file);

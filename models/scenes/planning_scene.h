@@ -98,9 +98,9 @@ struct PlanningScene {
 ///
 /// throws ModelError, a line for each `file:line: what; got X; expected Y`: for what is not of the
 ///        format; a type of primitive that there is not; sizes that are not finite, above zero and
-///        of the right number; quaternions that are not of length 1 (to three digits); ids and names
-///        that are there twice or empty; poses that do not fit the shapes in number; joints and
-///        positions of different number
+///        of the right number; quaternions that are not of length 1 (to three digits); ids and
+///        names that are there twice or empty; poses that do not fit the shapes in number; joints
+///        and positions of different number
 /// source moveit_msgs PlanningScene, CollisionObject, AttachedCollisionObject,
 ///        AllowedCollisionMatrix; shape_msgs SolidPrimitive, Mesh, Plane; MoveIt,
 ///        planning_scene.cpp, saveGeometryToStream

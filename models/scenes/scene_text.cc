@@ -10,7 +10,6 @@
 #include <string_view>
 #include <utility>
 
-#include "oca/models/error.h"
 #include "oca/models/file_bytes.h"
 #include "oca/models/foreign_text.h"
 #include "oca/models/geometry/rotation.h"

@@ -56,8 +56,8 @@ struct BodyTrack {
   double nis{0.0};  ///< innovation^T S^-1 innovation of the last position; of chi-square (3)
 };
 
-/// Velocity, angular velocity, acceleration and covariances of a body from its poses: an interacting
-/// multiple model of five Kalman filters,
+/// Velocity, angular velocity, acceleration and covariances of a body from its poses: an
+/// interacting multiple model of five Kalman filters,
 ///
 ///     rests               p' = w
 ///     goes straight       p'' = w                      w white, of the densities of the settings

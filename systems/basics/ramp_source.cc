@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oca/systems/basics/ramp_source.h"
 
+#include "oca/systems/basics/once.h"
+
 namespace oca::systems {
-namespace {
-
-/// Events repeat; that this one does after eleven days changes nothing.
-const Period kRarely(1000000, 1);
-
-}  // namespace
 
 void RampSource::Params::Describe(Fields<Params>& fields) {
   fields.Add("slope", &Params::slope, "1/s", "rate after the start");
@@ -25,7 +21,7 @@ RampSource::RampSource(const Params& params)
            Unit(params_.unit)},
           kTime, started_)) {
   DeclareInitialization<&RampSource::Initialize>(Writes(started_), kTime);
-  DeclareUpdate<&RampSource::Start>(Every{kRarely, params_.start}, Writes(started_));
+  DeclareUpdate<&RampSource::Start>(internal::Once(params_.start), Writes(started_));
 }
 
 void RampSource::CalcValue(double time, VectorView started, MutableVectorView out) const {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oca/systems/basics/step_source.h"
 
+#include "oca/systems/basics/once.h"
+
 namespace oca::systems {
 namespace {
-
-/// Events repeat; that this one does after eleven days changes nothing.
-const Period kRarely(1000000, 1);
 
 void Fill(const PerComponent& values, MutableVectorView out) {
   for (Eigen::Index i = 0; i < out.size(); ++i) out[i] = values[i];
@@ -29,7 +28,7 @@ StepSource::StepSource(const Params& params)
           params_.initial)),
       value(DeclareStateOutput("value", value_)) {
   DeclareInitialization<&StepSource::Initialize>(Writes(value_), kTime);
-  DeclareUpdate<&StepSource::Switch>(Every{kRarely, params_.time}, Writes(value_));
+  DeclareUpdate<&StepSource::Switch>(internal::Once(params_.time), Writes(value_));
 }
 
 // A run may begin after the step.

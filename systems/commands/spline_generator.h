@@ -52,9 +52,9 @@ struct SplineRequest {
 ///         c2       cubic spline with continuous acceleration; `ends` clamped meets the velocities
 ///                  of the first and last point (absent: 0), natural has no acceleration there
 ///
-/// `position` of a key point is a number a joint; or, of the robot that `model` names, a state of its
-/// SRDF or some joints by name: the others are as in the point before, in the first one at 0 or the
-/// limit nearest to it.
+/// `position` of a key point is a number a joint; or, of the robot that `model` names, a state of
+/// its SRDF or some joints by name: the others are as in the point before, in the first one at 0 or
+/// the limit nearest to it.
 ///
 /// `goal` is a pose of a link of `model`, in place of a last key point: the joints that reach it
 /// are found when the system is made, from those of the key point before, where the spline starts

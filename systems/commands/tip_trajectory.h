@@ -58,8 +58,8 @@ struct TipRequest {
 /// base frame of the robot; its orientation is free.
 ///
 /// From `start` on the joints go within `approach` from `posture` to the path's first point, then
-/// within `duration` along the path, from rest to rest, by planning::KeyPointsAlong. A circle starts
-/// where it is nearest to z and goes round once, counter-clockwise about the normal
+/// within `duration` along the path, from rest to rest, by planning::KeyPointsAlong. A circle
+/// starts where it is nearest to z and goes round once, counter-clockwise about the normal
 /// (planning::CirclePath). The key points, every 0.02 s, are joined by a spline with continuous
 /// acceleration: between them the tip is off by some 1e-6 m.
 ///

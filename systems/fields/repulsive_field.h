@@ -14,8 +14,9 @@ namespace oca::systems {
 ///     F = eta (1/rho' - 1/rho0) / rho'^2 n   if rho <= rho0, else 0;   rho' = max(rho, rho_min)
 ///
 /// with eta = force_gain, rho0 = max_distance, rho_min = min_distance and n the normal from the
-/// obstacle to the link; of own links rho counts rho0 / range times. The floor keeps the force finite, continuous in rho and outward in
-/// penetration, where the formula of the source is infinite at 0 and attracts below.
+/// obstacle to the link; of own links rho counts rho0 / range times. The floor keeps the force
+/// finite, continuous in rho and outward in penetration, where the formula of the source is
+/// infinite at 0 and attracts below.
 ///
 /// in    proximities  ProximitySet
 /// out   forces       LinkForceSet  N  one a proximity, same order, at point_on_link

@@ -58,8 +58,8 @@ namespace oca::systems {
 ///   longer, the time since which the request is at the goal and no joint distance to it of the
 ///   arm, which is not there, was less by more than 0.02
 /// - stuck_pair: what was nearest then, null if nothing was within reach; or, where a joint stood
-///   at a limit that the goal is beyond, [joint, "limit"]. stuck_amount is how far apart the pair was,
-///   or how far the goal is beyond the limit. All three are null without a goal
+///   at a limit that the goal is beyond, [joint, "limit"]. stuck_amount is how far apart the pair
+///   was, or how far the goal is beyond the limit. All three are null without a goal
 ///
 /// The output at a sampling instant whose update is pending has its sample in it, so the end of a
 /// run counts, once. A metric whose inputs are not connected or without a value is null; so are

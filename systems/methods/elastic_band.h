@@ -23,30 +23,32 @@ namespace oca::systems {
 ///     position = request(t) + x(t),   x the deviation of planning::BandOptimizer
 ///
 /// A plan looks ahead to the end of the request and a little further, at least least_horizon. It
-/// takes every obstacle to go on as it does now for `prediction` seconds and then to stay; of one that
-/// a tracker estimated it takes what it is likely to do (planning::LikelyAhead), and counts the
-/// distance less by what its place is uncertain. Of one whose velocity nobody knows it takes the place
-/// alone, and trusts no plan. It begins plan_time after the instant that it is made at, which is
-/// the time there is to compute it, from the state that the band before it then has: position,
-/// velocity and acceleration are continuous. The simulated clock is charged: the work of a plan is counted and priced by plan_cost,
-/// the same on every machine; one that counts as more than plan_time is late, is thrown away, and
-/// while it would have been made nothing else is planned; the next one begins as much later as that
-/// one took and a quarter more. A warning is logged for the first, `plan.overruns` counts them. If the
-/// arm is farther than restart_distance from where the band says, the next band starts from the arm.
-/// The first eight plans look for shorter ways even if theirs is clear; after
-/// them a plan whose obstacles still stand where they stood is kept.
+/// takes every obstacle to go on as it does now for `prediction` seconds and then to stay; of one
+/// that a tracker estimated it takes what it is likely to do (planning::LikelyAhead), and counts
+/// the distance less by what its place is uncertain. Of one whose velocity nobody knows it takes
+/// the place alone, and trusts no plan. It begins plan_time after the instant that it is made at,
+/// which is the time there is to compute it, from the state that the band before it then has:
+/// position, velocity and acceleration are continuous. The simulated clock is charged: the work of
+/// a plan is counted and priced by plan_cost, the same on every machine; one that counts as more
+/// than plan_time is late, is thrown away, and while it would have been made nothing else is
+/// planned; the next one begins as much later as that one took and a quarter more. A warning is
+/// logged for the first, `plan.overruns` counts them. If the arm is farther than restart_distance
+/// from where the band says, the next band starts from the arm. The first eight plans look for
+/// shorter ways even if theirs is clear; after them a plan whose obstacles still stand where they
+/// stood is kept.
 ///
 /// One distance is hard: no plan comes nearer than hard_distance to what stands, nor own links to
-/// each other, at any time; a start or a goal that is nearer, but clear, lowers it there to its own,
-/// with a warning. clear_distance and margin are wishes: they yield to goal, start and passages.
+/// each other, at any time; a start or a goal that is nearer, but clear, lowers it there to its
+/// own, with a warning. clear_distance and margin are wishes: they yield to goal, start and
+/// passages.
 ///
 /// `clear` says for how long the motion is clear from now on: until the plan comes nearer than it
 /// must to what stands (hard_distance, or trust_distance if the plan is not clear), flying_distance
 /// to what moves, or exceeds a limit that the request keeps. It is 0 while the arm is more than
 /// 0.005 from the band, another motion is requested, or obstacles are not where they were foreseen,
 /// to 5 mm now and in 0.3 s, until a plan that was made for them has begun; what stands where it
-/// stood is known all the same, if the arm is within 0.001 of a band that passes nearer than 0.01 m.
-/// A SafetyFilter lets such a motion through.
+/// stood is known all the same, if the arm is within 0.001 of a band that passes nearer than 0.01
+/// m. A SafetyFilter lets such a motion through.
 ///
 /// Control samples are those of the end of each period, held, as from a sampled SplineGenerator.
 ///

@@ -22,8 +22,8 @@ namespace oca::systems {
 /// integrator finds no event at a stop, so the state may pass it by what one step carries it; the
 /// output `position` never does, it is the state clamped to the stops.
 ///
-/// `initial_position` is a number for all or one a joint; or, of the robot that `model` names, a state
-/// of its SRDF or some joints by name: the others are at 0 or the limit nearest to it.
+/// `initial_position` is a number for all or one a joint; or, of the robot that `model` names, a
+/// state of its SRDF or some joints by name: the others are at 0 or the limit nearest to it.
 ///
 /// in    command   n  u/s (order 1), u/s^2 (order 2)
 /// out   position  n  u

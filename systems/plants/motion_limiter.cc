@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/json_text.h"
 #include "oca/models/robot/motion_limits.h"
 #include "oca/models/robot/robot_model.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What BulletDistance looks at, of its model and others: where it looks at nothing, it must not be taken to say
-// that nothing is near.
+// What BulletDistance looks at, of its model and others: where it looks at nothing, it must not be
+// taken to say that nothing is near.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -55,8 +55,8 @@ struct MotionParams {
 };
 
 /// The motion that starts from the pose X_0 in the frame: motion::StandingMotion, or that of
-/// motion::LinearScript, TurningScript, AcceleratingScript, SinusoidalScript, CircularScript, or along
-/// waypoints, which `csv` takes
+/// motion::LinearScript, TurningScript, AcceleratingScript, SinusoidalScript, CircularScript, or
+/// along waypoints, which `csv` takes
 /// from the columns time,x,y,z[,roll,pitch,yaw] of a file.
 /// throws ConfigError naming `where` for keys that are missing or surplus, for what the motion
 ///        refuses, and a file that is no such table

@@ -31,11 +31,11 @@ struct SensorLine {
 /// tick k depends on `seed` and k alone. Twists are reported as they are, and go stale with the
 /// poses; with `velocities` false they are not known, as to a camera, and who reads this takes what
 /// moves for what stands unless an ObstacleTracker tells it. Until the first sample arrives there
-/// are no obstacles. With latency 0 a sample is seen at once. The stamp of what is shown is the time
-/// at which it came in, t_j + latency.
+/// are no obstacles. With latency 0 a sample is seen at once. The stamp of what is shown is the
+/// time at which it came in, t_j + latency.
 ///
-/// A latency between two periods is a whole number of the longest time that divides both: samples of
-/// every 1/30 s, 0.05 s late, come in at (2 j + 3) / 60 s.
+/// A latency between two periods is a whole number of the longest time that divides both: samples
+/// of every 1/30 s, 0.05 s late, come in at (2 j + 3) / 60 s.
 ///
 /// in    in         ObstacleSet
 /// out   obstacles  ObstacleSet

@@ -14,8 +14,8 @@
 
 namespace oca::systems {
 
-/// The bodies that an ObstacleTracker has in sight, in room for a fixed number: a copy takes no memory
-/// after the first one, and no time for room that is empty.
+/// The bodies that an ObstacleTracker has in sight, in room for a fixed number: a copy takes no
+/// memory after the first one, and no time for room that is empty.
 class TrackMemory {
  public:
   struct Body {
@@ -49,14 +49,15 @@ class TrackMemory {
 ///     poses of  t = stamp - latency   (a set without a stamp is of now)
 ///     out(now)  = filter(poses up to t), foreseen by now - t
 ///
-/// Each tick it looks at what came in. A set of the time of the last one says nothing new, one of an
-/// earlier time is left out. A body that a set lacks is `lost` and goes on as it did for keep_time,
-/// then it is gone; until then it may come `back`. An id that comes twice in a set counts once, at
-/// its first place. Of what there is no room for, the pose is passed on with a velocity that is not
-/// known. What is at rest with more than 90 % has velocity 0.
+/// Each tick it looks at what came in. A set of the time of the last one says nothing new, one of
+/// an earlier time is left out. A body that a set lacks is `lost` and goes on as it did for
+/// keep_time, then it is gone; until then it may come `back`. An id that comes twice in a set
+/// counts once, at its first place. Of what there is no room for, the pose is passed on with a
+/// velocity that is not known. What is at rest with more than 90 % has velocity 0.
 ///
-/// Bodies are in the order in which they came into sight, those without room behind them. Velocities
-/// that come in are not looked at. A set that comes in at a tick is used at this tick already.
+/// Bodies are in the order in which they came into sight, those without room behind them.
+/// Velocities that come in are not looked at. A set that comes in at a tick is used at this tick
+/// already.
 ///
 /// in    in         ObstacleSet
 /// out   obstacles  ObstacleSet  with estimates; age is that of the poses

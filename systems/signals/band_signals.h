@@ -11,8 +11,8 @@ namespace oca::systems {
 using planning::BandMemory;
 
 /// JSON: {"plans", "start": "request" | "last" | "pause" | "detour" | "random" | "path" | "escape",
-/// "clear", "reaches", "stuck", "nearest", "link", "obstacle", "distance", "lack": "none" | "start" |
-/// "goal" | "passage" | "own links", "block": "none" | "limit" | "contact" | "way", "block_link",
+/// "clear", "reaches", "stuck", "nearest", "link", "obstacle", "distance", "lack": "none" | "start"
+/// | "goal" | "passage" | "own links", "block": "none" | "limit" | "contact" | "way", "block_link",
 /// "block_body", "block_amount", "time", "cost", "evaluations", "charged", "overruns"}
 using planning::BandReport;
 

@@ -11,9 +11,9 @@
 
 namespace oca::systems {
 
-/// Pairs whose distance does not count, as whoever measures distances leaves them out: a link of the
-/// robot, and the id of an obstacle or <model>/<link>. For systems that measure on their own, so
-/// that all mean the same. JSON: {"pairs": [[link, other], ...]}
+/// Pairs whose distance does not count, as whoever measures distances leaves them out: a link of
+/// the robot, and the id of an obstacle or <model>/<link>. For systems that measure on their own,
+/// so that all mean the same. JSON: {"pairs": [[link, other], ...]}
 struct IgnoredPairs {
   std::vector<std::pair<models::Name, models::Name>> pairs{};
 };

@@ -9,7 +9,6 @@
 #include <unordered_set>
 #include <utility>
 
-#include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/json_text.h"
 #include "oca/models/json_values.h"
 #include "oca/systems/sensing/geometry_params.h"

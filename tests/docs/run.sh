@@ -201,6 +201,101 @@ check_one_name_is_one_class() { # of all headers, whatever the namespace
   [ "$(wc -l <<< "$names")" -ge 500 ] || problem "headers: $(wc -l <<< "$names") classes found; expected at least 500"
 }
 
+target_of() { # FILE... -> FOLDER FILE, the folder that is the file's library or program
+  local file folder
+  for file; do
+    folder=./${file%/*}
+    while [ ! -e "$folder/CMakeLists.txt" ]; do folder=${folder%/*}; done
+    echo "${folder#./} $file"
+  done
+}
+# One compiler run reads several sources of a library (CMAKE_UNITY_BUILD), which ones is chance: names that
+# they hide must differ, but for functions of other parameters and the same alias.
+anonymous_names() { # -> FOLDER NAMESPACE NAME KIND FILE, of libraries and tests
+  local folder file
+  target_of $(files '*.cc') | while read -r folder file; do
+    grep -qE '^oca_(library|test)' "$folder/CMakeLists.txt" && echo "$folder $file"
+  done > "$work/sources"
+  awk '
+    function found(name, kind) { gsub(/ /, "_", kind); print folder, space, name, kind, file }
+    function read_line(line) {
+      sub(/^template <.*> /, "", line)
+      sub(/^enum class /, "class ", line)
+      if (match(line, /^(class|struct|enum) [A-Za-z_0-9]+/)) {
+        if (substr(line, RLENGTH + 1) != ";") { split(line, word, /[ :;{]/); found(word[2], "type") }
+      } else if (line ~ /^using [A-Za-z_0-9]+ =/) {
+        split(line, word, " "); found(word[2], line)
+      } else if (match(line, /^[^(=]*[ *&][A-Za-z_0-9]+\(/) && line !~ /^const[^(]* k[A-Z][A-Za-z_0-9]*\(/) {
+        name = substr(line, 1, RLENGTH - 1); sub(/.*[ *&]/, "", name)
+        kind = substr(line, RLENGTH); gsub(/ [A-Za-z_0-9]+[,)]/, ",", kind); sub(/ \{.*/, "", kind); found(name, kind)
+      } else if (match(line, /^[^(={]*[ *&][A-Za-z_0-9]+(\[[^\]]*\])?( =|\{|\(|;)/)) {
+        name = substr(line, 1, RLENGTH); sub(/(\[[^\]]*\])?( =|[{(;])$/, "", name); sub(/.*[ *&]/, "", name)
+        found(name, "value")
+      }
+    }
+    { folder = $1; file = $2; space = "-"; inside = 0
+      while ((getline line < file) > 0) {
+        if (match(line, /^namespace [a-z:]+ \{/)) space = substr(line, 11, RLENGTH - 12)
+        if (line ~ /^namespace \{/) inside = 1
+        if (line ~ /^}  \/\/ namespace$/) inside = 0
+        if (inside && line ~ /^[A-Za-z]/ && line !~ /^(namespace|TEST|INSTANTIATE)/) read_line(line)
+      }
+      close(file)
+    }' "$work/sources"
+}
+
+check_an_anonymous_name_is_once_a_target() {
+  local name where file
+  anonymous_names > "$work/names"
+  awk '{ key = $1 " " $2 " " $3 }
+       (key in kind) && file[key] != $5 && (kind[key] == $4 ? $4 !~ /^using/ : kind[key] $4 !~ /^\(.*\(/) { print $3, file[key], $5 }
+       { kind[key] = $4; file[key] = $5 }' "$work/names" > "$work/twice"
+  while read -r name where file; do problem "$file: $name, which $where has too; expected one anonymous name once in a library"; done < "$work/twice"
+  [ "$(wc -l < "$work/names")" -ge 1500 ] || problem "anonymous names: $(wc -l < "$work/names") found; expected at least 1500"
+}
+
+installed_headers() { # as oca_library has it: all but INTERNAL_HEADERS and those of a namespace `internal`
+  local lists folder
+  for lists in $(files CMakeLists.txt | grep -E '^(framework|models|systems|diagrams)/'); do
+    folder=$(dirname "$lists")
+    tr '\n' ' ' < "$lists" | grep -oP 'INTERNAL_HEADERS\s+\K[^A-Z()]+' | tr -s ' ' '\n' | sed '/^$/d' | sed "s|^|$folder/|"
+  done > "$work/internal"
+  files '*.h' | grep -E '^(framework|models|systems|diagrams)/' | grep -vxFf "$work/internal" |
+    xargs awk '/^namespace oca[a-z:]* \{/ && !/::internal \{/ { print FILENAME; nextfile }'
+}
+
+# Whoever includes it is of another library, or is installed for such a reason; or docs/cpp.md names it.
+check_installed_headers_serve_somebody_else() {
+  local header
+  installed_headers > "$work/installed"
+  target_of $(files '*.h' '*.cc' | grep -v '^tests/') > "$work/targets"
+  files '*.h' '*.cc' | grep -v '^tests/' | xargs grep -oE '^#include "oca/[a-z0-9_/]+\.h"' | sed -E 's|:#include "oca/| |; s|"$||' > "$work/includes"
+  grep -oE '`[a-z_]+/[a-z_/]+\.h`' docs/cpp.md | tr -d '`' > "$work/told"
+  awk 'FILENAME ~ /targets$/ { target[$2] = $1 } FILENAME ~ /installed$/ { installed[$1] } FILENAME ~ /told$/ { serves[$1] }
+       FILENAME ~ /includes$/ { user[++n] = $1; used[n] = $2; if (target[$1] != target[$2]) serves[$2] }
+       END {
+         do { more = 0; for (i = 1; i <= n; ++i) if ((user[i] in serves) && (user[i] in installed) && !(used[i] in serves)) { serves[used[i]]; more = 1 } } while (more)
+         for (header in installed) if (!(header in serves)) print header
+       }' "$work/targets" "$work/installed" "$work/told" "$work/includes" | sort > "$work/idle"
+  while read -r header; do problem "$header: installed; got sources of its own library alone that include it; expected it in INTERNAL_HEADERS"; done < "$work/idle"
+  [ "$(wc -l < "$work/installed")" -ge 200 ] || problem "headers: $(wc -l < "$work/installed") installed ones found; expected at least 200"
+}
+
+# Its second line is a comment; commands are of commands.h and named by it, a program is its main.
+check_sources_without_a_header_say_what_they_are() {
+  local file
+  for file in $(files '*.cc' | grep -E '^(framework|models|systems|diagrams|tools/simulator)/' | grep -vE '_commands?\.cc$'); do
+    [ -e "${file%.cc}.h" ] || [[ $(sed -n 2p "$file") == //* ]] || problem "$file: no header of its name; got no line of what it is; expected one after the licence's"
+  done
+}
+
+# clang-format, which leaves comments as they are, has the code; `://` is a link, which no line can break.
+check_comments_end_at_column_100() {
+  local place
+  while read -r place; do problem "$place: a comment beyond column 100"; done < <(
+    files '*.h' '*.cc' | LC_ALL=C.UTF-8 xargs grep -nE '^.{101,}$' | grep -E '^[^:]+:[0-9]+: *//|///<' | grep -v '[a-z]://' | cut -d: -f1,2)
+}
+
 all=$(declare -F | awk '{ print $3 }' | grep '^check_' | sed 's/^check_//')
 for name in ${*:-$all}; do
   declare -F "check_$name" > /dev/null || { echo "no such check: $name; there are: $(tr '\n' ' ' <<< "$all")" >&2; exit 2; }

@@ -22,7 +22,7 @@ namespace {
 bool ReadDocument(std::string_view bytes) {
   return Accepts([&] {
     Problems problems;
-    files::LoadDocument(FileOf("fuzz.yaml", bytes), {}, problems);
+    files::LoadFiles(FileOf("fuzz.yaml", bytes), {}, problems);
     problems.Throw();
   });
 }

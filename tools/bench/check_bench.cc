@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Rows planning/check/ARM: is a configuration clear, by BatchClearance, eight at once, of random
-// ones within the joint limits, own links counted; its peers .../exact, the exact distances alone,
-// and .../balls, what the balls alone can decide. Counters: `ns` for a configuration,
-// `balls` that contain the links, `clear` share of configurations, `undecided` share that the balls
-// left to the exact distances.
+// ones within the joint limits, own links counted; its peer .../exact, the exact distances alone.
+// Counters: `ns` for a configuration, `balls` that contain the links, `clear` share of
+// configurations, `undecided` share that the balls left to the exact distances.
 
 #include <benchmark/benchmark.h>
 
@@ -86,12 +85,6 @@ void Batch(benchmark::State& state, const std::string& arm) {
   });
 }
 
-void Balls(benchmark::State& state, const std::string& arm) {
-  OverConfigurations(state, arm, [](auto&, auto& batch, const Eigen::MatrixXd& q) {
-    return batch.SurelyClear(q, kLanes, kMargin);
-  });
-}
-
 void Exact(benchmark::State& state, const std::string& arm) {
   OverConfigurations(state, arm, [](auto& clearance, auto&, const Eigen::MatrixXd& q) {
     unsigned clear = 0;
@@ -103,9 +96,8 @@ void Exact(benchmark::State& state, const std::string& arm) {
   });
 }
 
-#define OCA_CHECK_ROWS(arm)                                                   \
-  BENCHMARK_CAPTURE(Batch, arm, #arm)->Name("planning/check/" #arm);          \
-  BENCHMARK_CAPTURE(Balls, arm, #arm)->Name("planning/check/" #arm "/balls"); \
+#define OCA_CHECK_ROWS(arm)                                          \
+  BENCHMARK_CAPTURE(Batch, arm, #arm)->Name("planning/check/" #arm); \
   BENCHMARK_CAPTURE(Exact, arm, #arm)->Name("planning/check/" #arm "/exact")
 OCA_CHECK_ROWS(lwr4);
 OCA_CHECK_ROWS(ur5e);

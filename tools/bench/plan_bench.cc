@@ -5,8 +5,8 @@
 // `most_us` of the plans that are made, and `counted_us`, the most that their work counts as by
 // planning::PlanPrices; `late`: plans that count as more than 0.02 s; `clear`: share of plans.
 //
-// Row planning/plan_cost: PlanPrices of this machine, counters `plan`, `band`, `exact` and `batch` in
-// us: those with which the work of such plans comes nearest to the time that they take.
+// Row planning/plan_cost: PlanPrices of this machine, counters `plan`, `band`, `exact` and `batch`
+// in us: those with which the work of such plans comes nearest to the time that they take.
 
 #include <benchmark/benchmark.h>
 

@@ -7,7 +7,8 @@
 //   oca_scene_search FOLDER ROBOT [SEED]
 //
 // FOLDER has FAMILY/sceneNNNN.yaml and FAMILY/requestNNNN.yaml as MoveIt writes them; ROBOT is a
-// URDF, beside it a file named .srdf and the packages whose meshes it names; SEED of the search (0).
+// URDF, beside it a file named .srdf and the packages whose meshes it names; SEED of the search
+// (0).
 //
 // Three times, of processor time, each from the begin: `search` until the trees meet, their edges
 // looked at by samples; `proved` until a path is proved clear between them; `shortened` until

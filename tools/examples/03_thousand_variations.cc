@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Many variations of a file, a thread a core:  03_thousand_variations [FILE [RUNS]]
 // YAML, URDF and meshes are read once. Each run has a diagram and a Context of its own; what they
-// share never changes. A file that is wrong is so for all: the first ConfigError ends it. `simulator
-// sweep` does the same with statistics, shards and results on disk.
+// share never changes. A file that is wrong is so for all: the first ConfigError ends it.
+// `simulator sweep` does the same with statistics, shards and results on disk.
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>

@@ -13,7 +13,7 @@ namespace oca::tools {
 std::string PortText(const System::InputInfo& port);
 std::string PortText(const System::OutputInfo& port);
 
-/// The robots that CatalogueRow::make_example needs.
+/// The robots that CatalogueRow::MakeExample needs.
 systems::ModelSet ExampleModels();
 
 }  // namespace oca::tools

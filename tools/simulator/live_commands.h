@@ -17,8 +17,8 @@ namespace oca::tools {
 /// Adds the options of where a record is served.
 void AddServerOptions(CLI::App& command, ViewArguments& arguments);
 
-/// Serves the page on a record, which is `what`, until it is interrupted; of `arguments` it needs no
-/// file.
+/// Serves the page on a record, which is `what`, until it is interrupted; of `arguments` it needs
+/// no file.
 int ServeRecord(const std::string& what, std::string record, const ViewArguments& arguments);
 
 /// `run --live`: runs in step with the clock for whoever looks on, until it is interrupted.

@@ -21,7 +21,8 @@ struct RobotArguments {
 /// Adds their options to `command`.
 void AddRobotOptions(CLI::App& command, RobotArguments& arguments);
 
-/// Packages are looked up as diagram files do, then near the robot's file. throws ConfigError for what is no such value
+/// Packages are looked up as diagram files do, then near the robot's file. throws ConfigError for
+/// what is no such value
 robot::LoadOptions LoadOptionsOf(const RobotArguments& arguments);
 
 }  // namespace oca::tools

@@ -12,7 +12,6 @@
 #include "oca/diagrams/record/run_source.h"
 #include "oca/diagrams/runs/result_json.h"
 #include "oca/diagrams/runs/run.h"
-#include "oca/framework/dataflow/error.h"
 #include "oca/models/foreign_text.h"
 #include "tools/simulator/commands.h"
 #include "tools/simulator/interrupt.h"

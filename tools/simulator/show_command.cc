@@ -16,7 +16,6 @@
 #include "oca/diagrams/record/page.h"
 #include "oca/diagrams/record/robot_record.h"
 #include "oca/diagrams/runs/output_files.h"
-#include "oca/framework/dataflow/error.h"
 #include "oca/models/counted.h"
 #include "oca/models/opened_files.h"
 #include "oca/models/whole_file.h"

@@ -40,7 +40,7 @@ struct Expression {
 };
 using ExpressionPtr = std::unique_ptr<Expression>;
 
-/// Reads the subset of Python's expressions that ReadsOf says.
+/// Reads the subset of Python's expressions that kExpressionParts says.
 /// throws Mistake if it is none of them, longer than 20 000 characters or nested deeper than 100
 ExpressionPtr ParseExpression(std::string_view text);
 

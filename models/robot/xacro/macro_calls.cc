@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The half of Expander that calls macros.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

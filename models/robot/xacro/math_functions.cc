@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Python's module math, of functions.h.
 #include <cmath>
 #include <limits>
 #include <map>

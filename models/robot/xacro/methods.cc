@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Methods of texts, lists and dictionaries, of functions.h.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

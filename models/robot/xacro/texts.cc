@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Texts as Python reads and formats them, of functions.h.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -15,6 +15,14 @@ namespace document_test {
 
 using testing::HasSubstr;
 
+/// The merged files under the overrides.
+Value LoadUnder(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                Problems& problems) {
+  Value root = LoadFiles(file, overrides, problems).root;
+  if (problems.empty()) ApplyOverrides(overrides, root, problems);
+  return root;
+}
+
 class DocumentTest : public testing::Test {
  protected:
   /// Loads `main.yaml` of the folder; the problems go to `problems`.
@@ -22,7 +30,7 @@ class DocumentTest : public testing::Test {
     std::vector<Override> parsed;
     for (const std::string& text : overrides) parsed.push_back(Override::Parse(text));
     Problems found;
-    Value value = LoadDocument(folder.path() / "main.yaml", parsed, found);
+    Value value = LoadUnder(folder.path() / "main.yaml", parsed, found);
     problems.clear();
     for (const Diagnostic& problem : found.all()) problems += problem.ToString() + "\n";
     return value;
@@ -153,7 +161,7 @@ TEST_F(DocumentTest, PlacesInAnIncludedFileAreToldWithoutTheWayThere) {
   folder.Write("parts/more.yaml", "description: more\n");
   folder.Write("scenarios/this.yaml", "include: [../parts/base.yaml]\n");
   Problems found;
-  const Value value = LoadDocument(folder.path() / "scenarios/this.yaml", {}, found);
+  const Value value = LoadFiles(folder.path() / "scenarios/this.yaml", {}, found).root;
   EXPECT_EQ(At(value, "name").location().ToString(),
             (folder.path() / "parts/base.yaml").string() + ":1:7");
   // A folder that is not there leads nowhere, however the name would read without it.
@@ -174,7 +182,7 @@ TEST_F(DocumentTest, ALinkOnTheWayToAnIncludedFileIsFollowed) {
 TEST_F(DocumentTest, AnEmptyNameOfAFileIsRefusedWhereItStands) {
   Problems found;
   EXPECT_THAT(
-      [&] { LoadDocument("", {}, found); },
+      [&] { LoadFiles("", {}, found); },
       testing::ThrowsMessage<ConfigError>("diagram: got an empty file name; expected a path"));
   folder.Write("main.yaml", "include: ['']\nname: main\n");
   Load();
@@ -210,7 +218,7 @@ TEST_F(DocumentTest, AFileThatHoldsNoMapIsRefused) {
   folder.Write("main.yaml", "- 1\n");
   Load();
   EXPECT_THAT(problems, HasSubstr("got a list; expected a map with systems"));
-  EXPECT_THROW(LoadDocument(folder.path() / "none.yaml", {}, *std::make_unique<Problems>()),
+  EXPECT_THROW(LoadFiles(folder.path() / "none.yaml", {}, *std::make_unique<Problems>()),
                ConfigError);
 }
 

@@ -24,8 +24,9 @@ using Overrides = std::vector<files::Override>;
 
 constexpr double kHard = 0.002;  // m; that the files' method keeps
 
-/// The least distance (2-norm of the joints) to the end of the request that ten searches reach, each
-/// of 8000 nodes, or 40000 configurations without a gain, among what stands; they keep what the method keeps.
+/// The least distance (2-norm of the joints) to the end of the request that ten searches reach,
+/// each of 8000 nodes, or 40000 configurations without a gain, among what stands; they keep what
+/// the method keeps.
 double LeastDistance(const loading::LoadedDiagram& loaded) {
   const foresight::Foresight scene(*loaded.diagram, loaded.models, "arm",
                                    loaded.simulator.duration);

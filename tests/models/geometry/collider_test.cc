@@ -69,13 +69,6 @@ TEST(ColliderTest, BoundingRadiiAsWorkedOutByHand) {
   EXPECT_DOUBLE_EQ(radius(Capsule{0.1, 1.0}), 0.6);
 }
 
-TEST(ColliderTest, RadiusAboutTheOriginCountsTheOffsetOfAMesh) {
-  const std::vector<Vector3d> corners = {{1, 0, 0}, {3, 0, 0}, {2, 1, 0}, {2, 0, 1}};
-  const auto mesh = MakeCollider(ConvexMesh{MakeConvexHull(corners, "corner")}, "test");
-  for (const Vector3d& p : corners) EXPECT_LE(p.norm(), BoundingRadius(*mesh));
-  EXPECT_DOUBLE_EQ(BoundingRadius(*MakeCollider(Sphere{0.3}, "test")), 0.3);
-}
-
 TEST(ColliderTest, NoSupportPointLiesOutsideTheBoundingSphere) {
   RandomBodies random(1);
   for (int i = 0; i < 5'000; ++i) {

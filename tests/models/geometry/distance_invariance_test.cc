@@ -55,13 +55,14 @@ TEST(DistanceInvarianceTest, DistanceNeverChangesByMoreThanTheMotion) {
     const Isometry3d X_WB = random.Pose(0.05), X_WA = random.Pose(0.05);
     const Vector3d along = random.Direction(), axis = random.Direction();
     constexpr double kStep = 2e-3, kTurn = 2e-3;
+    const double reach = a->centre().norm() + a->bounding_radius();
     double before = 0.0;
     for (int i = -400; i <= 400; ++i) {
       Isometry3d X = X_WA * AngleAxisd(kTurn * i, axis);
       X.translation() += kStep * i * along;
       const double now = Distance(*a, X, *b, X_WB).distance;
       if (i > -400) {
-        ASSERT_LE(std::abs(now - before), kStep + kTurn * BoundingRadius(*a) + 1e-8)
+        ASSERT_LE(std::abs(now - before), kStep + kTurn * reach + 1e-8)
             << KindName(*a) << " and " << KindName(*b) << " at step " << i;
         signs += (now > 0) != (before > 0);
       }

@@ -13,8 +13,8 @@ namespace first_sight_test {
 
 constexpr double kSeen = 1.0;  // s; until then the box is far away
 
-/// An arm that rests, stretched along x, and a box that stands 0.09 m deep in its end `after` it was
-/// first seen to move.
+/// An arm that rests, stretched along x, and a box that stands 0.09 m deep in its end `after` it
+/// was first seen to move.
 FirstSight Look(double after) {
   const auto model = test::Arm("planar2");
   const robot::PlacedBody box = test::BoxAt({0.2, 0.2, 0.2}, {0.95, 0.0, 0.0});

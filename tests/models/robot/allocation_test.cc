@@ -29,7 +29,6 @@ void ExpectNoAllocation(const char* file) {
   const RobotModel model = LoadUrdf(ProductFile(file));
   const Eigen::VectorXd q = RandomPositions(model, random);
   std::vector<Eigen::Isometry3d> X_WL(model.num_links());
-  std::vector<JointScrew> screws(model.num_joints());
   std::vector<BodyWrench> wrenches(model.num_bodies());
   for (BodyWrench& wrench : wrenches) wrench.force.x() = 1.0;
   Matrix6X J(6, model.num_positions());
@@ -40,7 +39,6 @@ void ExpectNoAllocation(const char* file) {
 
   const std::int64_t before = AllocationCount();
   ForwardKinematics(model, q, X_WL);
-  JointScrews(model, X_WL, screws);
   LinkJacobian(model, X_WL, model.num_links() - 1, J);
   PointJacobian(model, X_WL, model.num_links() - 1, Eigen::Vector3d::Ones(), J_v);
   StackedJacobian(model, X_WL, stacked);

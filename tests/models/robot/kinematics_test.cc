@@ -69,28 +69,6 @@ TEST(KinematicsTest, WhatThePosesHeldBeforeDoesNotMatter) {
   for (int i = 0; i < model.num_links(); ++i) EXPECT_EQ(X_WL[i].matrix(), expected[i].matrix());
 }
 
-TEST(KinematicsTest, ScrewsHoldTheAxisThatTheJointLeavesInPlace) {
-  Random random(12);
-  for (int i = 0; i < 50; ++i) {
-    const RobotModel model = RandomRobot(random, 12, false);
-    const auto X_WL = LinkPoses(model, RandomPositions(model, random));
-    std::vector<JointScrew> screws(model.num_joints());
-    JointScrews(model, X_WL, screws);
-    for (int j = 0; j < model.num_joints(); ++j) {
-      const Joint& joint = model.joints()[j];
-      const Eigen::Isometry3d X_WJ = X_WL[joint.parent_link] * joint.X_PJ;
-      if (!joint.movable()) {
-        EXPECT_EQ(screws[j].axis_W, Eigen::Vector3d::Zero());
-        continue;
-      }
-      EXPECT_LT((screws[j].axis_W - X_WJ.linear() * joint.axis).norm(), 1e-13);
-      const Eigen::Vector3d shift = screws[j].origin_W - X_WJ.translation();
-      const double off_axis = shift.cross(screws[j].axis_W).norm();
-      EXPECT_LT(joint.type == JointType::kPrismatic ? off_axis : shift.norm(), 1e-13);
-    }
-  }
-}
-
 // Central difference of the point of `link` that is at p_L in the link's frame.
 Eigen::Matrix3Xd NumericPointJacobian(const RobotModel& model, const Eigen::VectorXd& q, int link,
                                       const Eigen::Vector3d& p_L) {

@@ -85,14 +85,12 @@ TEST(Lwr4Test, FlangeStandsAtItsPublishedHeight) {
 TEST(Lwr4Test, AxesAndOffsetsAreThePublishedOnes) {
   const RobotModel model = Lwr4();
   const auto X_WL = LinkPoses(model, Eigen::VectorXd::Zero(7));
-  std::vector<JointScrew> screws(model.num_joints());
-  JointScrews(model, X_WL, screws);
   const Eigen::Vector3d y = Eigen::Vector3d::UnitY(), z = Eigen::Vector3d::UnitZ();
   const std::vector<Eigen::Vector3d> axes{z, y, z, -y, z, y, z};
   const double heights[] = {0.11, 0.3105, 0.5105, 0.7105, 0.9105, 1.1005, 1.1785};
   for (int j = 0; j < 7; ++j) {
-    EXPECT_EQ(screws[j].axis_W, axes[j]) << j;
-    EXPECT_NEAR(screws[j].origin_W.z(), heights[j], 1e-15) << j;
+    EXPECT_EQ(X_WL[j + 1].linear() * model.joints()[j].axis, axes[j]) << j;
+    EXPECT_NEAR(X_WL[j + 1].translation().z(), heights[j], 1e-15) << j;
   }
 }
 

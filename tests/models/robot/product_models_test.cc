@@ -71,21 +71,20 @@ TEST(Iiwa14Test, LengthsAxesAndLimitsAreThePublishedOnes) {
   const RobotModel model = Load("robots/iiwa14/iiwa14");
   ASSERT_EQ(model.num_positions(), 7);
   const auto X_WL = LinkPoses(model, Eigen::VectorXd::Zero(7));
-  std::vector<JointScrew> screws(model.num_joints());
-  JointScrews(model, X_WL, screws);
   const Eigen::Vector3d y = Eigen::Vector3d::UnitY(), z = Eigen::Vector3d::UnitZ();
   const std::vector<Eigen::Vector3d> axes{z, y, z, -y, z, y, z};
   const double position[] = {170, 120, 170, 120, 170, 120, 175};
   const double velocity[] = {85, 85, 100, 75, 130, 135, 135};
   for (int j = 0; j < 7; ++j) {
-    EXPECT_EQ(screws[j].axis_W, axes[j]) << j;
+    EXPECT_EQ(X_WL[j + 1].linear() * model.joints()[j].axis, axes[j]) << j;
     EXPECT_NEAR(model.upper_limits()[j], position[j] * kDegree, 1e-15);
     EXPECT_NEAR(model.velocity_limits()[j], velocity[j] * kDegree, 1e-15);
   }
   // Shoulder, elbow, wrist, flange.
-  EXPECT_NEAR(screws[1].origin_W.z(), 0.360, 1e-15);
-  EXPECT_NEAR(screws[3].origin_W.z() - screws[1].origin_W.z(), 0.420, 1e-15);
-  EXPECT_NEAR(screws[5].origin_W.z() - screws[3].origin_W.z(), 0.400, 1e-15);
+  const auto height = [&](int joint) { return X_WL[joint].translation().z(); };
+  EXPECT_NEAR(height(2), 0.360, 1e-15);
+  EXPECT_NEAR(height(4) - height(2), 0.420, 1e-15);
+  EXPECT_NEAR(height(6) - height(4), 0.400, 1e-15);
   EXPECT_NEAR(X_WL[model.FindLink("iiwa14_flange")].translation().z(), 1.306, 1e-15);
 }
 

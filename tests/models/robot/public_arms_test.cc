@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The arms of tests/models/robot/arms, which tools/robot_table.sh runs: wrists and elbows of all kinds, from
-// published Denavit-Hartenberg parameters.
+// The arms of tests/models/robot/arms, which tools/robot_table.sh runs: wrists and elbows of all
+// kinds, from published Denavit-Hartenberg parameters.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the tests of BulletDistance look at: balls, the links of an arm, and the pairs that are near.
+// What the tests of BulletDistance look at: balls, the links of an arm, and the pairs that are
+// near.
 #pragma once
 
 #include <string>

@@ -147,10 +147,10 @@ TEST(SelfDistanceTest, AForceBetweenTwoLinksOfTheArmPushesBoth) {
   std::vector<robot::BodyWrench> wrenches(model->bodies().size());
   for (const Proximity& p : set.proximities) {
     const int link = model->FindLink(p.link.text());
-    const auto wrench =
-        robot::WrenchAbout(links.poses[link].translation(), p.point_on_link, 5.0 * p.normal);
-    wrenches[model->body_index(link)].force += wrench.force;
-    wrenches[model->body_index(link)].torque += wrench.torque;
+    const Vector3d force = 5.0 * p.normal;
+    const Vector3d lever = p.point_on_link - links.poses[link].translation();
+    wrenches[model->body_index(link)].force += force;
+    wrenches[model->body_index(link)].torque += lever.cross(force);
   }
   robot::MappingWorkspace workspace(*model);
   Eigen::VectorXd push(3), row(3);

@@ -9,7 +9,7 @@
 #include "oca/models/robot/urdf.h"
 
 namespace oca::robot {
-namespace motion_certificate_test {
+namespace motion_tally_certificate_test {
 
 using Eigen::Vector2d;
 
@@ -139,5 +139,5 @@ TEST_F(PlanarCertificateTest, HasNoValueOnceSomethingWasUnknown) {
   EXPECT_FALSE(Certified().has_value());
 }
 
-}  // namespace motion_certificate_test
+}  // namespace motion_tally_certificate_test
 }  // namespace oca::robot

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The half of MotionTally that certifies distances between the samples.
 #include <algorithm>
 #include <cmath>
 
