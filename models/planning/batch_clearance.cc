@@ -113,6 +113,11 @@ internal::BatchAnswer BatchClearance::AskAround(const Eigen::Ref<const Eigen::Ma
   return AskKernel(kernel_->paths.data(), count, margin);
 }
 
+unsigned BatchClearance::SurelyClear(const Eigen::Ref<const Eigen::MatrixXd>& q, int count,
+                                     double margin) {
+  return ((1u << count) - 1u) & ~Ask(q, count, margin).open;
+}
+
 unsigned BatchClearance::Clear(const Eigen::Ref<const Eigen::MatrixXd>& q, int count,
                                double margin) {
   const internal::BatchAnswer answer = Ask(q, count, margin);

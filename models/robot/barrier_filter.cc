@@ -181,7 +181,7 @@ void BarrierFilter::FillRows(const Tick& tick, Solution& result) const {
   result.witnesses = tick.witnesses;
   result.witnesses.Move(settings_.period, set);
   for (std::size_t i = 0; i < set.proximities.size(); ++i) {
-    FillRowsOf(static_cast<int>(i), set.proximities[i], tick, result);
+    FillRowsOf(static_cast<int>(i), set.proximities[i], true, tick, result);
   }
   const std::size_t of_nearest = work.rows.size();
   for (const WitnessPair& pair : result.witnesses.pairs()) {
@@ -190,7 +190,7 @@ void BarrierFilter::FillRows(const Tick& tick, Solution& result) const {
     const Proximity between = Between(*model_, tick.X_WL, pair, *at);
     if (!(between.normal.dot(at->normal) > 0.0)) continue;  // one went through the other
     if (work.qp.num_rows + 2 > settings_.most_rows) break;
-    FillRowsOf(static_cast<int>(at - set.proximities.begin()), between, tick, result);
+    FillRowsOf(static_cast<int>(at - set.proximities.begin()), between, false, tick, result);
   }
   for (std::size_t r = 0; r < of_nearest; ++r) {
     const Proximity& proximity = set.proximities[work.rows[r].proximity];
@@ -201,9 +201,10 @@ void BarrierFilter::FillRows(const Tick& tick, Solution& result) const {
   result.activity.rows = work.qp.num_rows;
 }
 
-/// The rows of the distance between two points of the bodies of proximity `number`.
-void BarrierFilter::FillRowsOf(int number, const Proximity& proximity, const Tick& tick,
-                               Solution& result) const {
+/// The rows of the distance between two points of the bodies of proximity `number`. Only the nearest
+/// ones recover: bodies that many points stand for would outweigh others.
+void BarrierFilter::FillRowsOf(int number, const Proximity& proximity, bool nearest,
+                               const Tick& tick, Solution& result) const {
   Eigen::VectorXd& row = result.workspace_->row;
   DistanceRow(*model_, tick.X_WL, proximity, row);
   const double headroom = proximity.distance - std::min(settings_.safe_distance, proximity.range);
@@ -213,10 +214,10 @@ void BarrierFilter::FillRowsOf(int number, const Proximity& proximity, const Tic
       tick.clear != nullptr &&
       tick.clear->ClearFor(proximity.obstacle, !proximity.own_link.empty()) > settings_.trust_time;
   if (known) bound = std::min(bound, row.dot(result.workspace_->qp.wish));
-  const bool recovers = headroom < 0.0 && !known;
+  const bool recovers = headroom < 0.0 && !known && nearest;
   const double growth = std::min(-settings_.recovery_gain * headroom, settings_.recovery_speed);
   if (!Moves(row)) {
-    LeaveOut(proximity, recovers ? rest + growth : bound, result);
+    if (nearest) LeaveOut(proximity, recovers ? rest + growth : bound, result);
     return;
   }
   AddRow({number, false, headroom}, bound, result);

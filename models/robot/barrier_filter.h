@@ -114,7 +114,8 @@ class BarrierFilter {
   void FillBox(Solution& result) const;
   void FillWish(const Tick& tick, Solution& result) const;
   void FillRows(const Tick& tick, Solution& result) const;
-  void FillRowsOf(int number, const Proximity& proximity, const Tick& tick, Solution& result) const;
+  void FillRowsOf(int number, const Proximity& proximity, bool nearest, const Tick& tick,
+                  Solution& result) const;
   bool Moves(const Eigen::VectorXd& row) const;
   void AddRow(const Solution::Row& source, double bound, Solution& result) const;
   void LeaveOut(const Proximity& proximity, double lack, Solution& result) const;

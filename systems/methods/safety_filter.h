@@ -59,10 +59,11 @@ namespace oca::systems {
 /// a row about it asks for no more than r gives, a_i^T u >= min(..., a_i^T r). So the filter does
 /// not push the arm off a way past what comes near fast, nor off a goal that is near what stands.
 ///
-/// Where h < 0 a second row asks for h to grow by min(-recovery_gain h, recovery_speed), at the
-/// price recovery_penalty: a wish that may be denied, so that a slow retreat is never forbidden.
-/// An answer always exists; which rows are active, and what slack they take, is on `activity`.
-/// Within the box position and velocity limits yield to acceleration: see StoppableVelocities.
+/// Where h < 0 a second row, of the nearest points, asks for h to grow by min(-recovery_gain h,
+/// recovery_speed), at the price recovery_penalty: a wish that may be denied, so that a slow
+/// retreat is never forbidden. An answer always exists; which rows are active, and what slack they
+/// take, is on `activity`. Within the box position and velocity limits yield to acceleration: see
+/// StoppableVelocities.
 ///
 /// The held state is the command c of this tick and u; the arm is to be at c + u period at the next
 /// one. So that a DeltaOverlay sends it there, delta = c + u period - position, whatever the
