@@ -59,8 +59,8 @@ class BatchClearance {
   /// which nothing is nearer than `margin` (m, >= 0).
   unsigned Clear(const Eigen::Ref<const Eigen::MatrixXd>& q, int count, double margin);
 
-  /// The same by the balls alone, to prove what they are good for: a bit is 0 also where they cannot
-  /// decide.
+  /// The same by the balls alone, to prove what they are good for: a bit is 0 also where they
+  /// cannot decide.
   unsigned SurelyClear(const Eigen::Ref<const Eigen::MatrixXd>& q, int count, double margin);
 
   /// How many of the first columns are clear, up to the first of `count` that is not.

@@ -201,8 +201,8 @@ void BarrierFilter::FillRows(const Tick& tick, Solution& result) const {
   result.activity.rows = work.qp.num_rows;
 }
 
-/// The rows of the distance between two points of the bodies of proximity `number`. Only the nearest
-/// ones recover: bodies that many points stand for would outweigh others.
+/// The rows of the distance between two points of the bodies of proximity `number`. Only the
+/// nearest ones recover: bodies that many points stand for would outweigh others.
 void BarrierFilter::FillRowsOf(int number, const Proximity& proximity, bool nearest,
                                const Tick& tick, Solution& result) const {
   Eigen::VectorXd& row = result.workspace_->row;
