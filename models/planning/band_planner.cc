@@ -171,7 +171,7 @@ void BandPlanner::SetEnd(Start& start) {
 BandPlan BandPlanner::Finish(Start start, int iterations) {
   SetEnd(start);
   BandPlan plan{.curve = std::move(start.curve), .start = start.kind};
-  plan.cost = band_.Relax(plan.curve, iterations);
+  plan.cost = band_.Relax(plan.curve, std::max(StepsLeft(iterations), kFewestBandSteps));
   Judge(start.end, plan);
   return plan;
 }

@@ -175,6 +175,7 @@ class BandPlanner {
   void LookLessFarInNeed(const BandTask& task, const BandCurve* last);
   /// The last band, relaxed; as it is, if only that is clear; escapes, if neither is.
   BandPlan GoOnWith(const BandTask& task, const BandCurve* last);
+  /// Relaxed by so many steps, or what is left of them, but not less than kFewestBandSteps.
   BandPlan Finish(Start start, int iterations);
   void Judge(BandEnd end, BandPlan& plan);
   /// Whether the arm stands where it is to end, the request rests and nothing moves.
@@ -203,8 +204,9 @@ class BandPlanner {
   void GoOnSearching(const BandTask& task, BandPlan& best);
   SearchLevels LevelsFor(const Eigen::VectorXd& here, const Eigen::VectorXd& goal);
   models::Name StandingName(const BandTask& task, const robot::NearPair& pair) const;
-  /// Makes a band of a path, on a grid that is long and fine enough for it.
-  void TryPath(const BandTask& task, const std::vector<Eigen::VectorXd>& path, BandPlan& best);
+  /// Makes a band of the path that was found, on a grid that is long and fine enough for it; unless
+  /// it is tried again in the next plan the search is over.
+  void TryPath(const BandTask& task, PathSearch& search, BandPlan& best);
   BandCurve Along(const BandTask& task, const std::vector<Eigen::VectorXd>& path) const;
   PlanWork Work() const;
   long LooksLeft(double price, long most) const;

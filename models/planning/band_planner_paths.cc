@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bands of BandPlanner that follow paths past what stands.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -21,7 +22,9 @@ constexpr std::uint64_t kPathTurn = 3;  // one of so many plans looks for paths,
 constexpr double kPathRoom = 1.3;       // times what a band keeps, so that it may bend
 constexpr double kNarrowRoom = 0.015;   // m; where there is no way with that
 constexpr double kEndRoom = 1.02;       // times what must be kept: as much is left at an end
-constexpr double kEndShare = 0.9;       // of what the ends of a path leave, if that is less
+constexpr std::array kPathIntervals{0.25, 0.15, 0.1};  // s; of bands along a path, one try each,
+constexpr double kSlower = 1.4;                        // of which each takes so much longer
+constexpr double kEndShare = 0.9;  // of what the ends of a path leave, if that is less
 
 }  // namespace
 
@@ -58,8 +61,8 @@ void BandPlanner::TryPaths(const BandTask& task, BandEnd end, BandPlan& best) {
       if (path) break;
     }
     if (!path) continue;
-    const int steps = std::max(StepsLeft(2 * settings_.start_iterations), kFewestBandSteps);
-    Keep(task, Finish({BandStart::kPath, end, Along(task, *path)}, steps), best);
+    Keep(task, Finish({BandStart::kPath, end, Along(task, *path)}, 2 * settings_.start_iterations),
+         best);
   }
 }
 
@@ -74,6 +77,7 @@ SearchLevels BandPlanner::LevelsFor(const VectorXd& here, const VectorXd& goal) 
   const double hard = settings_.band.hard_distance;
   const double most = std::max(0.5 * left, left > kEndRoom * hard ? hard : kEndShare * left);
   SearchLevels levels;
+  levels.shortcuts = kShortcuts;
   const auto add = [&](double margin) {
     margin = std::min(margin, most);
     if (levels.margins.empty() || margin < levels.margins.back()) levels.margins.push_back(margin);
@@ -120,15 +124,8 @@ void BandPlanner::GoOnSearching(const BandTask& task, BandPlan& best) {
   search.Continue(*standing_, LooksLeft(settings_.prices.batch, settings_.path_evaluations), looks);
   path_looks_ += looks;
   if (search.state() == PathSearch::State::kFound) {
-    std::vector<VectorXd> path = search.path();
-    RrtOptions options;
-    options.seed = task.seed;
-    options.margin = search.margin();
-    options.shortcuts = kShortcuts;
-    path_looks_ += Shorten(*standing_, options, path);
     standing_->KeepOwn(own_, settings_.band.clear_distance);
-    TryPath(task, path, best);
-    search.Reset();
+    TryPath(task, search, best);
   } else if (search.state() == PathSearch::State::kExhausted) {
     standing_->MoveTo(search.nearest());
     const robot::NearPair pair = standing_->Nearest();
@@ -150,19 +147,24 @@ models::Name BandPlanner::StandingName(const BandTask& task, const robot::NearPa
   return {};
 }
 
-void BandPlanner::TryPath(const BandTask& task, const std::vector<VectorXd>& path, BandPlan& best) {
+void BandPlanner::TryPath(const BandTask& task, PathSearch& search, BandPlan& best) {
+  const std::vector<VectorXd>& path = search.path();
   // A path of straight pieces needs time and points: the more, the nearer the band is to it.
-  double duration = std::max(
+  const double least = std::max(
       std::min(DurationAlong(model(), path, settings_.band.limit_share), settings_.most_horizon),
       task.request_end - task.start);
-  for (const double interval : {0.25, 0.15, 0.1}) {
-    Prepare(task, {duration + settings_.tail, interval});
+  while (search.tries() < std::ssize(kPathIntervals)) {
+    const int tries = search.tries();
+    search.CountTry();
+    Prepare(task, {least * std::pow(kSlower, tries) + settings_.tail,
+                   kPathIntervals[static_cast<std::size_t>(tries)]});
     const Start along{BandStart::kPath, end_, Along(task, path)};
     Keep(task, Unrelaxed(along), best);
     Keep(task, Finish(along, settings_.start_iterations), best);
-    if (best.check.clear() || moving_) return;
-    duration *= 1.4;
+    if (best.check.clear() || moving_) break;
+    if (StepsLeft(kFewestBandSteps) < kFewestBandSteps) return;  // the next plan goes on
   }
+  search.Reset();
 }
 
 }  // namespace oca::planning

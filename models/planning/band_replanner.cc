@@ -226,7 +226,8 @@ BandTask BandReplanner::MakeTask(const BandSituation& now, double start,
                                  BandMemory& memory) const {
   BandTask task;
   task.start = start;
-  task.most_time = start - now.time;
+  const double until = start - now.time;
+  task.most_time = settings_.plan_budget > 0.0 ? std::min(until, settings_.plan_budget) : until;
   task.request = [request = now.request.get()](double t, int derivative, Eigen::Ref<VectorXd> out) {
     request->Evaluate(t, derivative, out);
   };
@@ -241,7 +242,7 @@ BandTask BandReplanner::MakeTask(const BandSituation& now, double start,
   }
   if (Astray(now, memory)) {
     const VectorXd v = rate ? VectorXd(*rate) : VectorXd::Zero(now.measured.size());
-    task.deviation[0] = now.measured + task.most_time * v;
+    task.deviation[0] = now.measured + until * v;
     task.deviation[0] -= now.request->Evaluate(task.start, 0);
     task.deviation[1] = v - now.request->Evaluate(task.start, 1);
     task.deviation[2].setZero();

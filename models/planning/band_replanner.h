@@ -23,6 +23,7 @@ namespace oca::planning {
 struct ReplanSettings {
   BandPlannerSettings planner{};
   double plan_time{0.02};        ///< s; that there is to make a plan
+  double plan_budget{0.0};       ///< s; that a plan's work may count as, about; 0: all that time
   double prediction{2.0};        ///< s; how long obstacles are taken to go on as now
   double restart_distance{0.1};  ///< rad, m; of arm and band above which plans start from the arm
   double stuck_time{2.0};        ///< s; without progress, after which the arm is stuck

@@ -69,14 +69,14 @@ void PathSearch::MoveStart(robot::Clearance& clearance, const VectorXd& start, l
     evaluations += motion.evaluations();
     if (nearest_ == 0) nearest_ = trees_.from_start.last();
     Note(0, levels_.least_gain);
-    if (state_ == State::kFound) path_ = PathToNearest();
+    if (shortens_ && !shortening_.MoveStart(clearance, start, evaluations)) SearchOn();
     return;
   }
   evaluations += motion.evaluations();
   trees_.from_start = SearchTree(start);
   nearest_ = 0;
   nearest_distance_ = (goal_ - start).norm();
-  if (state_ == State::kFound || state_ == State::kExhausted) state_ = State::kSearching;
+  SearchOn();
   since_ = 0;
   level_nodes_ = trees_.from_goal.size();
 }
@@ -86,9 +86,20 @@ void PathSearch::AimAtNearest() {
   goal_clear_ = true;
   trees_.from_goal = SearchTree(goal_);
   nearest_distance_ = 0.0;
-  path_ = PathToNearest();
-  if (path_.size() == 1) path_.push_back(goal_);  // it is where it starts
-  state_ = State::kFound;
+  Find(PathToNearest());
+}
+
+void PathSearch::Find(std::vector<VectorXd> path) {
+  if (path.size() == 1) path.push_back(path.front());  // it is where it starts
+  shortening_ = PathShortening(std::move(path), margin(), seed_, levels_.shortcuts);
+  shortens_ = true;
+  tries_ = 0;
+  state_ = shortening_.done() ? State::kFound : State::kSearching;
+}
+
+void PathSearch::SearchOn() {
+  shortens_ = false;
+  state_ = State::kSearching;
 }
 
 void PathSearch::Note(int node, double least_gain) {
@@ -103,20 +114,25 @@ void PathSearch::Note(int node, double least_gain) {
 bool PathSearch::TryStraight(Tools& tools) {
   if (!goal_clear_ || trees_.from_start.size() > 1 || trees_.from_goal.size() > 1) return false;
   if (!tools.motion.Clear(trees_.from_start.q(0), goal_)) return false;
-  path_ = {trees_.from_start.q(0), goal_};
-  state_ = State::kFound;
+  Find({trees_.from_start.q(0), goal_});
   return true;
 }
 
 void PathSearch::Continue(robot::Clearance& clearance, long most, long& evaluations) {
   const long until = evaluations + most;
   while (state_ == State::kSearching && evaluations < until) {
+    if (shortens_) {
+      shortening_.Continue(clearance, until - evaluations, evaluations);
+      if (shortening_.done()) state_ = State::kFound;
+      continue;
+    }
     Tools tools(clearance, margin(), trees_.from_start.q(0), goal_);
     const VectorXd start = trees_.from_start.q(0);
     // Passages may leave no more than the last margin: half of the nodes are for these.
     const bool narrow = AtLastLevel() && NodesOfLevel() > levels_.last_nodes / 2;
     trees_.LeaveRoom(tools.motion, start, goal_clear_ ? goal_ : start, narrow ? 0.0 : kSampleRoom);
-    while (state_ == State::kSearching && tools.margin == margin() && evaluations < until) {
+    while (state_ == State::kSearching && !shortens_ && tools.margin == margin() &&
+           evaluations < until) {
       const long before = tools.motion.evaluations();
       Draw(tools);
       const long spent = std::max(tools.motion.evaluations() - before, 1L);
@@ -137,7 +153,7 @@ void PathSearch::Draw(Tools& tools) {
     Connect(tools);
   }
   ++draws_;
-  if (state_ != State::kSearching) return;
+  if (state_ != State::kSearching || shortens_) return;
   const int most_nodes = last ? levels_.last_nodes : levels_.nodes;
   // A draw that leads nowhere costs time as well.
   const bool full = goal_clear_ ? NodesOfLevel() >= most_nodes : since_ > levels_.patience;
@@ -177,8 +193,7 @@ void PathSearch::Connect(Tools& tools) {
   for (int i = before; i < trees_.from_start.size(); ++i) Note(i, levels_.least_gain);
   if (!met) return;
   if (auto path = trees_.Prove(tools.motion)) {
-    path_ = *std::move(path);
-    state_ = State::kFound;
+    Find(*std::move(path));
   } else {
     FindNearest();
   }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "oca/models/planning/path_shortening.h"
 #include "oca/models/planning/tree_pair.h"
 #include "oca/models/robot/clearance.h"
 
@@ -18,6 +19,7 @@ struct SearchLevels {
   int last_nodes{6000};     ///< at the last one, after which there is no way
   long patience{12000};     ///< evaluations without getting nearer, where the goal is not clear
   double least_gain{0.02};  ///< share of the distance to the goal that counts as nearer
+  int shortcuts{0};         ///< attempts to shorten what was found, before it is found
 };
 
 /// A search for a path of straight joint motions past bodies at rest that goes on where it ended,
@@ -29,9 +31,9 @@ struct SearchLevels {
 /// the nearest one the way down the distance to the goal along what is in the way (a projection
 /// within linearised distances). The nearest position reached is where an arm may rest.
 ///
-/// Edges are looked at by samples; the path that was found is proved clear at its level, and, of an
-/// exhausted search, the one to the nearest position (TreePair, CertifiedMotion). The same calls
-/// give the same answers. Allocates.
+/// What is found is shortened, as it goes on. Edges are looked at by samples; the path that was
+/// found is proved clear at its level, and, of an exhausted search, the one to the nearest position
+/// (TreePair, CertifiedMotion). The same calls give the same answers. Allocates.
 /// source Kuffner, LaValle, RRT-Connect, 2000; Gammell et al., Informed RRT*, IROS 2014 (the ball)
 class PathSearch {
  public:
@@ -51,11 +53,15 @@ class PathSearch {
   void Continue(robot::Clearance& clearance, long most, long& evaluations);
 
   /// After kExhausted: from now on the nearest position reached is the goal, and the path there,
-  /// which was proved, is found.
+  /// which was proved, is found, once it is shortened.
   void AimAtNearest();
 
+  /// How often somebody tried to follow what was found, who counts it.
+  int tries() const { return tries_; }
+  void CountTry() { ++tries_; }
+
   /// At the end of kFound: from the start to the goal.
-  const std::vector<Eigen::VectorXd>& path() const { return path_; }
+  const std::vector<Eigen::VectorXd>& path() const { return shortening_.path(); }
   /// The level that the search is at, m.
   double margin() const { return levels_.margins[static_cast<std::size_t>(level_)]; }
   /// The reached position nearest to the goal (2-norm of the joints), and the path there.
@@ -74,6 +80,8 @@ class PathSearch {
   int NodesOfLevel() const;
   void Note(int node, double least_gain);
   bool TryStraight(Tools& tools);
+  void Find(std::vector<Eigen::VectorXd> path);
+  void SearchOn();
   void FindNearest();
   void ProveNearest(Tools& tools);
 
@@ -89,8 +97,10 @@ class PathSearch {
   int nearest_{0};
   double nearest_distance_{0.0};
   int improvements_{0};
-  long since_{0};  ///< evaluations since the last gain
-  std::vector<Eigen::VectorXd> path_;
+  long since_{0};         ///< evaluations since the last gain
+  bool shortens_{false};  ///< a path was found
+  PathShortening shortening_;
+  int tries_{0};
 };
 
 }  // namespace oca::planning

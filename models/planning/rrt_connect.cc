@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "oca/models/planning/rrt_connect.h"
 
+#include <limits>
 #include <utility>
 
 #include "oca/models/planning/certified_motion.h"
+#include "oca/models/planning/path_shortening.h"
 #include "oca/models/random.h"
 
 namespace oca::planning {
@@ -34,28 +36,11 @@ std::optional<Path> RrtConnect(robot::Clearance& clearance, const Eigen::VectorX
   return std::nullopt;
 }
 
-long Shorten(robot::Clearance& clearance, const RrtOptions& options, Path& path) {
-  CertifiedMotion motion(clearance, options.margin);
-  if (path.size() <= 2) return 0;
-  // Whatever is nearer takes long to prove.
-  const double room = motion.RoomOf(path.front(), path.back(), kSampleRoom);
-  models::Random random(models::Random::Seed(options.seed, "shorten"));
-  for (int i = 0; i < options.shortcuts && path.size() > 2; ++i) {
-    // Two points on different edges, anywhere on them.
-    std::size_t a = random.Below(path.size() - 1);
-    std::size_t b = random.Below(path.size() - 1);
-    if (a == b) continue;
-    if (a > b) std::swap(a, b);
-    const Eigen::VectorXd from = path[a] + random.Unit() * (path[a + 1] - path[a]);
-    const Eigen::VectorXd to = path[b] + random.Unit() * (path[b + 1] - path[b]);
-    if (!motion.Clear(from, to, room)) continue;
-    Path shorter(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(a) + 1);
-    shorter.push_back(from);
-    shorter.push_back(to);
-    shorter.insert(shorter.end(), path.begin() + static_cast<std::ptrdiff_t>(b) + 1, path.end());
-    path = std::move(shorter);
-  }
-  return motion.evaluations();
+void Shorten(robot::Clearance& clearance, const RrtOptions& options, Path& path) {
+  PathShortening shortening(std::move(path), options.margin, options.seed, options.shortcuts);
+  long evaluations = 0;
+  shortening.Continue(clearance, std::numeric_limits<long>::max(), evaluations);
+  path = shortening.path();
 }
 
 }  // namespace oca::planning

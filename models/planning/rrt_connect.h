@@ -34,9 +34,8 @@ std::optional<std::vector<Eigen::VectorXd>> RrtConnect(robot::Clearance& clearan
                                                        const Eigen::VectorXd& goal,
                                                        const RrtOptions& options = {});
 
-/// Replaces pieces between random points of a path by straight motions where those are proved
-/// clear; how often it looked (CertifiedMotion::evaluations).
-long Shorten(robot::Clearance& clearance, const RrtOptions& options,
+/// PathShortening of all options.shortcuts.
+void Shorten(robot::Clearance& clearance, const RrtOptions& options,
              std::vector<Eigen::VectorXd>& path);
 
 }  // namespace oca::planning

@@ -104,6 +104,12 @@ void ElasticBand::Params::Describe(Fields<Params>& fields) {
       .Add("plan_time", &Params::plan_time, "s",
            "time to make a plan, after which it begins; 0: plan_period")
       .AtLeast(0.0);
+  fields
+      .Add(
+          "plan_budget", &Params::plan_budget, "s",
+          "what the work of a plan may count as, about; what can wait is left to the next plan; 0: "
+          "plan_time")
+      .AtLeast(0.0);
   fields.Add("plan_cost", &Params::plan_cost, "", "what the work of a plan counts as");
   AddDistances(fields);
   AddBandPrices(fields);
@@ -161,6 +167,7 @@ planning::ReplanSettings ElasticBand::SettingsOf(const Params& params, const Mod
   planner.least_horizon = params.least_horizon;
   planner.most_horizon = params.most_horizon;
   settings.plan_time = params.plan_time > 0.0 ? params.plan_time : params.plan_period.seconds();
+  settings.plan_budget = params.plan_budget;
   const PlanCost& cost = params.plan_cost;
   planner.prices = {cost.plan, cost.band, cost.exact, cost.batch};
   settings.prediction = params.prediction;

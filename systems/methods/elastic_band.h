@@ -100,6 +100,7 @@ class ElasticBand final : public System {
     Period period{};
     Period plan_period{1, 50};
     double plan_time{0.0};
+    double plan_budget{0.0};
     PlanCost plan_cost{};
     double margin{0.12};
     double clear_distance{0.045};

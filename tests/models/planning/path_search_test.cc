@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "tests/models/planning/scene.h"
@@ -79,6 +80,31 @@ TEST(PathSearchTest, GoesOnFromAnotherStartWithWhatItFound) {
   ASSERT_EQ(search.state(), State::kFound);
   EXPECT_EQ(search.path().front(), moved);
   ExpectClear(clearance, search.path(), search.margin());
+}
+
+TEST(PathSearchTest, ShortensWhatItFoundWhileTheStartMovesOn) {
+  robot::Clearance clearance(test::Arm("planar2"), false, test::Post());
+  const auto length_with = [&](int shortcuts) {
+    PathSearch search;
+    SearchLevels levels = Levels();
+    levels.shortcuts = shortcuts;
+    search.Begin(kStart, kGoal, true, levels, 3);
+    long looks = 0;
+    VectorXd start = kStart;
+    while (search.state() == State::kSearching) {
+      search.MoveStart(clearance, start, looks);
+      search.Continue(clearance, 8, looks);
+      start[1] = std::max(start[1] - 1e-4, -0.05);
+    }
+    EXPECT_EQ(search.state(), State::kFound);
+    ExpectClear(clearance, search.path(), search.margin());
+    double length = 0.0;
+    for (std::size_t i = 0; i + 1 < search.path().size(); ++i) {
+      length += (search.path()[i + 1] - search.path()[i]).norm();
+    }
+    return length;
+  };
+  EXPECT_LT(length_with(150), 0.95 * length_with(0));
 }
 
 TEST(PathSearchTest, EndsNearAGoalThatIsWalledIn) {
