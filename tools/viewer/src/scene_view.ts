@@ -5,12 +5,26 @@ import { EntityHistory } from "./history";
 import { placeLabel } from "./labels";
 import { Overlays } from "./overlays";
 import type { FrameTransform, FrameTransforms, SceneEntity, SceneUpdate } from "./messages";
-import { element, type Page } from "./page";
+import { byId, element, type Page } from "./page";
 import { overlaid, repaint, segments, solid } from "./primitives";
 import type { Recording } from "./recording";
 
 /** px; keeps the names of obstacles clear of the nearest distance */
 const kUnder = 26;
+
+const kNoWebGL = "This browser has no WebGL, so the scene is not drawn. All else is here.";
+
+function makeRenderer(canvas: HTMLCanvasElement): THREE.WebGLRenderer | undefined {
+  const wanted = { antialias: true, preserveDrawingBuffer: true };
+  const context = canvas.getContext("webgl2", wanted) as WebGL2RenderingContext | null;
+  if (!context) return undefined;
+  const renderer = new THREE.WebGLRenderer({ canvas, context, ...wanted });
+  renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+  renderer.shadowMap.enabled = true;
+  renderer.shadowMap.type = THREE.PCFSoftShadowMap;
+  renderer.toneMapping = THREE.NeutralToneMapping;
+  return renderer;
+}
 
 /** What is solid: topics of entities. */
 export type Solids = "/scene/robots" | "/scene/obstacles" | "/scene/collisions";
@@ -23,7 +37,9 @@ export class SceneView {
   readonly overlays: Overlays;
   readonly camera = new THREE.PerspectiveCamera(38, 1, 0.02, 60);
   readonly controls: OrbitControls;
-  private readonly renderer: THREE.WebGLRenderer;
+  readonly canvas = element("canvas");
+  /** None where the browser has no WebGL: then everything but the picture is there. */
+  private readonly renderer: THREE.WebGLRenderer | undefined;
   private readonly scene = new THREE.Scene();
   private readonly world = new THREE.Group();
   private readonly frames = new Map<string, THREE.Group>();
@@ -40,15 +56,12 @@ export class SceneView {
 
   constructor(private readonly page: Page, private readonly parent: HTMLElement,
               private readonly labels: HTMLElement, private recording: Recording) {
-    this.renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = THREE.PCFSoftShadowMap;
-    this.renderer.toneMapping = THREE.NeutralToneMapping;
-    parent.append(this.renderer.domElement);
+    this.renderer = makeRenderer(this.canvas);
+    parent.append(this.renderer ? this.canvas : element("p", "unseen", kNoWebGL));
+    labels.hidden = byId("switches").hidden = !this.renderer;
     this.camera.up.set(0, 0, 1);
     this.camera.position.set(2.6, -1.9, 1.9);
-    this.controls = new OrbitControls(this.camera, this.renderer.domElement);
+    this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.target.set(0, 0.15, 0.75);
     this.controls.addEventListener("change", () => (this.stale = true));
     this.scene.add(this.world);
@@ -93,12 +106,12 @@ export class SceneView {
     if (this.controls.enabled) this.controls.update();
     if (!this.stale) return;
     this.stale = false;
+    if (!this.renderer) return;
     this.renderer.render(this.scene, this.camera);
     this.placeLabels();
   }
 
   touch(): void { this.stale = true; }
-  get canvas(): HTMLCanvasElement { return this.renderer.domElement; }
 
   /** Where a frame is in the world, for tests. */
   positionOf(frame: string): number[] | undefined {
@@ -164,7 +177,7 @@ export class SceneView {
   }
 
   ray(x: number, y: number): THREE.Raycaster {
-    const { clientWidth: width, clientHeight: height } = this.renderer.domElement;
+    const { clientWidth: width, clientHeight: height } = this.canvas;
     const caster = new THREE.Raycaster();
     caster.setFromCamera(new THREE.Vector2((x / width) * 2 - 1, 1 - (y / height) * 2), this.camera);
     return caster;
@@ -313,7 +326,7 @@ export class SceneView {
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.parent;
     if (width === 0 || height === 0) return;
-    this.renderer.setSize(width, height);
+    this.renderer?.setSize(width, height);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     this.overlays.resize(width, height);

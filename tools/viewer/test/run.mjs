@@ -8,7 +8,7 @@ import { dirname, join } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 import { decompress } from "fzstd";
 import { McapIndexedReader } from "@mcap/core";
-import { embed, launch, openPage } from "./page.mjs";
+import { embed, kNoWebGL, launch, openPage } from "./page.mjs";
 import { delta, final, requested, sampleRecord } from "./sample_record.mjs";
 import { testLive, testView } from "./live.mjs";
 import { testRealRobots, testRobot } from "./robot.mjs";
@@ -150,6 +150,23 @@ await test("while a run goes on, the nearest of all arms counts", async () => {
   assert.match(await page.textContent(".pane.summary"), /-0\.100mNearestright – box, at 3\.00 s/);
   assert.match(await page.textContent(".pane.summary"), /2\.000rad\/sFastest joint/);
   await page.context().close();
+});
+
+await test("a browser without WebGL says so, and shows all but the scene", async () => {
+  const blind = await launch(kNoWebGL);
+  const { page, problems } = await openPage(blind, sample);
+  assert.deepEqual(errorsOf(problems), []);
+  assert.equal(await page.locator("#message").isVisible(), false);
+  assert.match(await page.textContent("#view"), /no WebGL/);
+  assert.equal(await page.evaluate(() => window.oca.plots.data("Final joints")[0].length), 1001);
+  await page.keyboard.press("Home");
+  await page.keyboard.press(".");
+  await page.keyboard.press("1");
+  assert.match(await page.textContent("#clock"), /^0\.02 /);
+  await page.keyboard.press("s");
+  assert.ok(await page.locator(".card").count() > 2);
+  await page.context().close();
+  await blind.close();
 });
 
 await test("a click in a plot moves the scene", async () => {
