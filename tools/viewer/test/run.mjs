@@ -152,6 +152,26 @@ await test("while a run goes on, the nearest of all arms counts", async () => {
   await page.context().close();
 });
 
+await test("links that are always near each other do not mark the time line", async () => {
+  const { page } = await openPage(browser, sample);
+  const share = () => page.evaluate(() => {
+    const { shares } = window.oca.timeline.nearness;
+    return shares.filter((one) => one < 1).length / shares.length;
+  });
+  const before = await share();
+  assert.ok(before > 0.05 && before < 0.8, `${before}`);
+  await page.evaluate(() => {
+    const { recording } = window.oca, topic = recording.topics.get("/distance/proximities");
+    const other = recording.topic("/own/proximities"), near = (k) => [{ link: "one", obstacle: "arm/three", distance: 0.02 + 0.01 * Math.sin(k) }];
+    topic.times.forEach((time, k) => recording.add(other, 1_700_000_000_000_000_000n + BigInt(Math.round(1e9 * time)), new TextEncoder().encode(JSON.stringify({ value: near(k) }))));
+    recording.metadata.set("oca.plots", new Map([["plots", JSON.stringify([{ id: "distance", title: "Distances", topics: [topic.name, other.name] }])]]));
+    window.oca.load(recording);
+  });
+  assert.equal(await share(), before);
+  assert.ok(await page.evaluate(() => Math.min(...window.oca.timeline.nearness.values)) < 0.02);
+  await page.context().close();
+});
+
 await test("a browser without WebGL says so, and shows all but the scene", async () => {
   const blind = await launch(kNoWebGL);
   const { page, problems } = await openPage(blind, sample);
