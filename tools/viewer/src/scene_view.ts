@@ -8,6 +8,7 @@ import type { FrameTransform, FrameTransforms, SceneEntity, SceneUpdate } from "
 import { byId, element, type Page } from "./page";
 import { overlaid, repaint, segments, solid } from "./primitives";
 import type { Recording } from "./recording";
+import { directionTo } from "./viewpoint";
 
 /** px; keeps the names of obstacles clear of the nearest distance */
 const kUnder = 26;
@@ -261,10 +262,10 @@ export class SceneView {
     this.world.updateMatrixWorld(true);
     const box = new THREE.Box3();
     const moving = this.movingFrames();
-    for (const { entity, object } of this.shown.values()) {
-      if (moving.has(entity.frame_id) || entity.frame_id.startsWith("obstacle/")) box.expandByObject(object);
-    }
-    if (box.isEmpty()) for (const { object } of this.shown.values()) box.expandByObject(object);
+    const all = [...this.shown].map(([id, { entity: { frame_id: frame }, object }]) => ({ frame, name: frame === "world" ? id : frame, object }));
+    const chosen = all.filter(({ frame }) => moving.has(frame) || frame.startsWith("obstacle/"));
+    const bodies = chosen.length > 0 ? chosen : all;
+    for (const { object } of bodies) box.expandByObject(object);
     const trails = this.recording.topics.get("/scene/trails");
     if (trails && trails.length > 0) {
       for (const entity of (trails.message(trails.length - 1) as SceneUpdate).entities ?? []) {
@@ -278,8 +279,9 @@ export class SceneView {
     const sphere = box.getBoundingSphere(new THREE.Sphere());
     const narrow = Math.min(1, this.camera.aspect);
     const distance = (Math.max(0.4, sphere.radius) * this.room) / Math.sin((this.camera.fov * Math.PI) / 360) / narrow;
+    const away = Math.min(distance, 12);
     this.controls.target.copy(sphere.center);
-    this.camera.position.copy(sphere.center).addScaledVector(new THREE.Vector3(0.78, -0.5, 0.38).normalize(), Math.min(distance, 12));
+    this.camera.position.copy(sphere.center).addScaledVector(directionTo(sphere.center, away, bodies, all, this.camera), away);
     this.controls.update();
   }
 

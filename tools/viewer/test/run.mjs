@@ -189,6 +189,24 @@ await test("a browser without WebGL says so, and shows all but the scene", async
   await blind.close();
 });
 
+await test("an arm below a ceiling is looked at from below, any other from above", async () => {
+  const { page } = await openPage(browser, sample);
+  const height = () => page.evaluate(() => window.oca.view.camera.position.z - window.oca.view.controls.target.z);
+  const plate = (z) => page.evaluate((at) => {
+    const { recording } = window.oca, size = { x: 4, y: 4, z: 0.05 }, zero = { x: 0, y: 0, z: 0 }, turn = { x: 0, y: 0, z: 0, w: 1 };
+    const entity = { timestamp: { sec: 1_700_000_000, nsec: 0 }, frame_id: "world", id: "arm/plate", frame_locked: true,
+                     cubes: [{ pose: { position: { ...zero, z: at }, orientation: turn }, size, color: { r: 0.5, g: 0.5, b: 0.5, a: 1 } }] };
+    recording.add(recording.topic("/scene/robots"), 1_700_000_000_000_000_000n, new TextEncoder().encode(JSON.stringify({ deletions: [], entities: [entity] })));
+    window.oca.load(recording);
+  }, z);
+  assert.ok(await height() > 0.3);
+  await plate(-0.05);
+  assert.ok(await height() > 0.3);
+  await plate(1.3);
+  assert.ok(await height() < -0.1, `${await height()} m above what is looked at`);
+  await page.context().close();
+});
+
 await test("a click in a plot moves the scene", async () => {
   const { page } = await openPage(browser, sample);
   const box = await page.locator(".u-over").first().boundingBox();
