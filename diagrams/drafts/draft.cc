@@ -75,9 +75,9 @@ class DraftMaker {
     if (ended_) return;
     if (motions.empty()) {
       throw ConfigError(fmt::format(
-          "{}: a first motion; got no posture of '{}' from which its tip goes a quarter of its "
-          "reach, {:.3g} m, own links apart; expected a robot that can",
-          options_.robot.string(), draft_.robot.model->name().text(), draft_.robot.reach));
+          "{}: a first motion; got no posture of '{}' from which its tip goes {:.2g} m, "
+          "a sixteenth of its reach, past a ball, own links apart; expected a robot that can",
+          options_.robot.string(), draft_.robot.model->name().text(), draft_.robot.reach / 16.0));
     }
     if (!limits_.empty()) Keep(limits_, limits_text_);
     WriteDiagram(motions.front());

@@ -65,10 +65,11 @@ std::string Quoted(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-std::string SmallerDistances(double reach) {
-  if (reach >= kUsualReach) return "";
-  return fmt::format("  scale: {:<32.2g} # times the method's distances; the arm's reach, m\n",
-                     reach / kUsualReach);
+std::string SmallerDistances(double size) {
+  if (size >= kUsualReach) return "";
+  return fmt::format(
+      "  scale: {:<32.2g} # times the method's distances; as for an arm that reaches so far, m\n",
+      size / kUsualReach);
 }
 
 std::string SplineUnit(const robot::RobotModel& model) {
@@ -158,10 +159,13 @@ MotionText TextOf(const planning::FirstMotion& motion, const DraftRobot& robot) 
   const auto point = [](double time, const VectorXd& position) {
     return fmt::format("{{time: {:g}, position: {}}}", time, List(position));
   };
-  return {point(kPause, motion.from), point(kPause + duration, motion.to),
+  return {point(kPause, motion.from),
+          point(kPause + duration, motion.to),
           fmt::format("{{id: ball, shape: {{type: sphere, radius: {:.3g}}}, pose: {{xyz: {}}}}}",
                       motion.radius, List(motion.ball)),
-          List(motion.from), fmt::format("{:g}", kPause + 2.0 * duration)};
+          List(motion.from),
+          fmt::format("{:g}", kPause + 2.0 * duration),
+          SmallerDistances(motion.size)};
 }
 
 std::vector<files::Override> OverridesOf(const MotionText& motion, const std::string& made_for) {
@@ -182,7 +186,7 @@ std::string DiagramText(const DraftOptions& options, const DraftRobot& robot,
   for (const models::Name& joint : robot.model->position_names()) joints.push_back(joint.text());
   return Filled(kFirstDiagram, {{"name", Quoted(name)},
                                 {"avoidance", options.avoidance},
-                                {"scale", SmallerDistances(robot.reach)},
+                                {"scale", motion.scale},
                                 {"duration", motion.duration},
                                 {"packages", PackagesText(robot)},
                                 {"model", ModelText(options, robot, srdf, limits)},

@@ -26,8 +26,9 @@ std::string PathBeside(const std::filesystem::path& folder, const std::filesyste
 std::string Filled(std::string_view text, const std::map<std::string_view, std::string>& values);
 /// A text as YAML and JSON write it.
 std::string Quoted(const std::string& text);
-/// Parameters of the parts, for an arm that is smaller than those that their distances are for.
-std::string SmallerDistances(double reach);
+/// Parameters of the parts, for an arm, or a motion, that is smaller than those that their
+/// distances are for.
+std::string SmallerDistances(double size);
 /// What an arm of sliders alone needs, whose positions are in m: a line of the spline, the plant.
 std::string SplineUnit(const robot::RobotModel& model);
 std::string PlantText(const robot::RobotModel& model, const std::string& start);
@@ -44,6 +45,7 @@ struct MotionText {
   std::string first, second;  ///< key points
   std::string ball;           ///< an obstacle
   std::string start, duration;
+  std::string scale;  ///< SmallerDistances
 };
 MotionText TextOf(const planning::FirstMotion& motion, const DraftRobot& robot);
 /// The same as overrides of another one, `made_for` what messages begin with.

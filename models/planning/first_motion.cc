@@ -23,17 +23,19 @@ constexpr int kPostures = 400;
 constexpr int kPathSteps = 16;
 constexpr Index kTurningJoints = 3;  // of the arm, from its base, that may make the motion
 constexpr double kMiddle = 0.7;      // share of a range that postures are drawn from
-// Shares of the reach.
+// Of the reach, how large a motion is, where nothing larger is found.
+constexpr double kSizes[] = {1.0, 0.5, 0.25};
+// Shares of the size.
 constexpr double kRadius = 1.0 / 12.0;
 constexpr double kApart = 0.005, kFarApart = 0.05;  // own links, at least, and as far as it counts
 constexpr double kHandShare = 0.3;  // of the way from the tip back to the last joint
 
-/// What a motion has to keep; shares of the reach.
+/// What a motion has to keep.
 struct Rules {
   bool above;                // no link is below the base
-  double nearest, farthest;  // the tip, from the first joint
-  double way;                // of the tip, end to end
-  double room;               // from the ball, at the ends
+  double nearest, farthest;  // the tip, from the first joint; shares of the reach
+  double way;                // of the tip, end to end; share of the size
+  double room;               // from the ball, at the ends; share of the size
 };
 /// First what a person would ask for, then what arms can that hang, or are short on a long rail.
 constexpr Rules kRules[] = {{true, 0.35, 0.85, 0.45, 1.0 / 8.0},
@@ -48,7 +50,6 @@ class MotionSearch {
       : model_(*model),
         tip_(tip),
         reach_(ReachOf(*model, tip)),
-        ball_(geometry::MakeCollider(geometry::Sphere{kRadius * reach_}, "ball")),
         clearance_(model, true),
         random_(seed) {
     for (Index i = 0; i < model_.num_positions(); ++i) {
@@ -64,13 +65,13 @@ class MotionSearch {
 
   std::vector<FirstMotion> Run(std::size_t count,
                                const std::function<bool(double share)>& progress) {
-    for (const Rules& rules : kRules) {
-      rules_ = rules;
-      for (int i = 0; i < kPostures; ++i) {
-        if (progress && !progress(1.0 * i / kPostures)) return {};
-        TryPosture(Posture());
+    for (const double share : kSizes) {
+      size_ = share * reach_;
+      ball_ = geometry::MakeCollider(geometry::Sphere{kRadius * size_}, "ball");
+      for (const Rules& rules : kRules) {
+        rules_ = rules;
+        if (found_.empty() && !TryPostures(progress)) return {};
       }
-      if (!found_.empty()) break;
     }
     std::stable_sort(found_.begin(), found_.end(),
                      [](const Scored& a, const Scored& b) { return a.score > b.score; });
@@ -86,6 +87,15 @@ class MotionSearch {
     FirstMotion motion;
     double score;
   };
+
+  /// false: it is told to end.
+  bool TryPostures(const std::function<bool(double share)>& progress) {
+    for (int i = 0; i < kPostures; ++i) {
+      if (progress && !progress(1.0 * i / kPostures)) return false;
+      TryPosture(Posture());
+    }
+    return true;
+  }
 
   VectorXd Posture() {
     VectorXd q(model_.num_positions());
@@ -128,21 +138,21 @@ class MotionSearch {
     return model_.position_names()[static_cast<std::size_t>(position)].text();
   }
 
-  double OwnDistance() const { return clearance_.Nearest(kFarApart * reach_).distance; }
+  double OwnDistance() const { return clearance_.Nearest(kFarApart * size_).distance; }
 
   void TryMotion(FirstMotion& motion) {
     clearance_.SetBodies({});
     clearance_.MoveTo(motion.from);
     const Vector3d start = Tip();
     clearance_.MoveTo(motion.to);
-    if ((Tip() - start).norm() < rules_.way * reach_) return;
+    if ((Tip() - start).norm() < rules_.way * size_) return;
     double lowest = robot::kUnlimited;
-    double apart = kFarApart * reach_;
+    double apart = kFarApart * size_;
     for (int step = 0; step <= kPathSteps; ++step) {
       const double s = static_cast<double>(step) / kPathSteps;
       clearance_.MoveTo(motion.from + s * (motion.to - motion.from));
       apart = std::min(apart, OwnDistance());
-      if (apart < kApart * reach_) return;
+      if (apart < kApart * size_) return;
       lowest = std::min(lowest, Lowest());
     }
     if (rules_.above && lowest < 0.0) return;
@@ -163,38 +173,39 @@ class MotionSearch {
     clearance_.MoveTo(0.5 * (motion.from + motion.to));
     const int hand = model_.body(tip_);
     motion.ball = Tip() + kHandShare * (OriginOf(hand) - Tip());
-    motion.radius = kRadius * reach_;
+    motion.size = size_;
+    motion.radius = kRadius * size_;
     Eigen::Matrix3Xd J(3, model_.num_positions());
     robot::PointJacobian(model_, clearance_.X_WL(), tip_, Tip(), J);
     const double least_move = J.jacobiSvd().singularValues().minCoeff();
     Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
     X_WO.translation() = motion.ball;
     clearance_.SetBodies({{ball_, X_WO}});
-    motion.depth = -clearance_.Nearest(reach_).distance;
+    motion.depth = -clearance_.Nearest(size_).distance;
     if (motion.depth < 0.3 * motion.radius) return;
     motion.room = robot::kUnlimited;
     for (const VectorXd& end : {motion.from, motion.to}) {
       clearance_.MoveTo(end);
       for (const double distance : Distances()) motion.room = std::min(motion.room, distance);
     }
-    if (motion.room < rules_.room * reach_) return;
-    const double score = std::min(least_move / reach_, 0.3) +
-                         std::clamp(lowest / reach_, 0.0, 0.2) +
-                         std::min(motion.room / reach_, 0.3) + 3.0 * apart / reach_;
+    if (motion.room < rules_.room * size_) return;
+    const double score = std::min(least_move / size_, 0.3) + std::clamp(lowest / size_, 0.0, 0.2) +
+                         std::min(motion.room / size_, 0.3) + 3.0 * apart / size_;
     found_.push_back({motion, score});
   }
 
   /// Of each link to the ball.
   std::vector<double> Distances() const {
     std::vector<double> least(model_.links().size());
-    clearance_.LinkDistances(reach_, least);
+    clearance_.LinkDistances(size_, least);
     return least;
   }
 
   const robot::RobotModel& model_;
   const int tip_;
   const double reach_;
-  const std::shared_ptr<const geometry::Collider> ball_;
+  double size_{0.0};
+  std::shared_ptr<const geometry::Collider> ball_;
   robot::Clearance clearance_;
   Rules rules_{kRules[0]};
   models::Random random_;
@@ -202,31 +213,74 @@ class MotionSearch {
   std::vector<Scored> found_;
 };
 
-}  // namespace
-
-double ReachOf(const robot::RobotModel& model, int link) {
-  double reach = 0.0;
-  std::vector<double> slides;
-  double offset = 0.0;  // fixed frames between the last joint that moves and the one at hand
-  for (int at = link; at > 0;) {
-    const robot::Joint& joint = model.joints()[at - 1];
-    if (joint.movable()) {
-      reach += offset;
-      offset = 0.0;
-    }
+/// The slides of a chain, from its end on.
+class SlideGroups {
+ public:
+  /// The joint before those that were added.
+  void Add(const robot::Joint& joint) {
     if (joint.type == robot::JointType::kPrismatic) {
       const double range = joint.upper_limit - joint.lower_limit;
       if (!std::isfinite(range)) {
         throw models::ModelError("joint '" + joint.name.text() +
                                  "': slides without end; got no limits; expected a range");
       }
-      slides.push_back(range);
+      if (groups_.empty() || turned_) groups_.emplace_back();
+      turned_ = false;
+      groups_.back().push_back({joint.axis, range});
+    } else if (joint.movable()) {
+      turned_ = true;
     }
+    if (groups_.empty()) return;
+    for (Slide& slide : groups_.back()) slide.axis = joint.X_PJ.linear() * slide.axis;
+  }
+
+  /// m; how far they go together, each at most `most` (0: its range). Those with a joint that turns
+  /// between them can come to lie along one line; of others that the squares of ways add up where
+  /// they are across each other, and their lengths where they are along one line.
+  double Reach(double most) const {
+    double reach = 0.0;
+    for (const std::vector<Slide>& group : groups_) {
+      double square = 0.0;
+      for (const Slide& a : group) {
+        for (const Slide& b : group) {
+          square += std::fabs(a.axis.dot(b.axis)) * Capped(a.range, most) * Capped(b.range, most);
+        }
+      }
+      reach += std::sqrt(square);
+    }
+    return reach;
+  }
+
+ private:
+  struct Slide {
+    Vector3d axis;  // in the frame of the joint at hand's parent
+    double range;   // m
+  };
+  static double Capped(double range, double most) {
+    return most > 0.0 ? std::min(range, most) : range;
+  }
+
+  std::vector<std::vector<Slide>> groups_;
+  bool turned_{false};  // since the last slide
+};
+
+}  // namespace
+
+double ReachOf(const robot::RobotModel& model, int link) {
+  double lengths = 0.0;
+  SlideGroups slides;
+  double offset = 0.0;  // fixed frames between the last joint that moves and the one at hand
+  for (int at = link; at > 0;) {
+    const robot::Joint& joint = model.joints()[at - 1];
+    if (joint.movable()) {
+      lengths += offset;
+      offset = 0.0;
+    }
+    slides.Add(joint);
     offset += joint.X_PJ.translation().norm();
     at = joint.parent_link;
   }
-  const double lengths = reach;
-  for (const double range : slides) reach += lengths > 0.0 ? std::min(range, lengths) : range;
+  const double reach = lengths + slides.Reach(lengths);
   if (!(reach > 0.0)) {
     throw models::ModelError("link '" + model.links()[static_cast<std::size_t>(link)].name.text() +
                              "': its reach; got 0 m, for it lies where the joint is that moves it; "

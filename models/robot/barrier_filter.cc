@@ -23,7 +23,14 @@ constexpr double kFastestWish = 10.0;
 // Of a row, times the reach; a slider's: times 1.
 constexpr double kLeastLever = 1e-12;
 
-/// No point of the arm is farther than this from a joint before it.
+/// How far a slide carries what is beyond it; one without end has no such length, and counts none.
+double SlideOf(const Joint& joint) {
+  if (joint.type != JointType::kPrismatic) return 0.0;
+  const double slide = std::max(std::abs(joint.lower_limit), std::abs(joint.upper_limit));
+  return std::isfinite(slide) ? slide : 0.0;
+}
+
+/// No point of the arm is farther than this from a joint before it that turns.
 double ReachOf(const RobotModel& model) {
   // Along each link's chain of joints, to the far side of its solids.
   std::vector<double> from_base(model.links().size(), 0.0);
@@ -31,7 +38,10 @@ double ReachOf(const RobotModel& model) {
   for (int i = 1; i < model.num_links(); ++i) {
     const Joint& joint = model.joints()[i - 1];
     const bool first = model.body(joint.parent_link) < 0;
-    from_base[i] = first ? 0.0 : from_base[joint.parent_link] + joint.X_PJ.translation().norm();
+    if (!first) {
+      from_base[i] =
+          from_base[joint.parent_link] + joint.X_PJ.translation().norm() + SlideOf(joint);
+    }
     reach = std::max(reach, from_base[i]);
   }
   for (const LinkCollider& link : LinkCollidersOf(model)) {

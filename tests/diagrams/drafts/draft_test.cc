@@ -158,6 +158,48 @@ TEST_F(DraftTest, OfSlidersAloneIsInMetres) {
   EXPECT_NO_THROW(loading::LoadDiagram(draft.diagram));
 }
 
+/// Three slides across each other of `range` m each, which carry a wrist of three joints.
+std::string GantryWithWrist(double range) {
+  std::string text = "<robot name='gantry'><link name='l0'/>";
+  int links = 0;
+  const auto add = [&](const char* type, const char* axis, double drop, double lower, double upper,
+                       const std::string& solid) {
+    const std::string parent = "l" + std::to_string(links), child = "l" + std::to_string(++links);
+    text += "<link name='" + child + "'><collision>" + solid + "</collision></link><joint name='j" +
+            std::to_string(links) + "' type='" + type + "'><parent link='" + parent +
+            "'/><child link='" + child + "'/><origin xyz='0 0 " + std::to_string(-drop) +
+            "'/><axis xyz='" + axis + "'/><limit lower='" + std::to_string(lower) + "' upper='" +
+            std::to_string(upper) + "' velocity='1' effort='1'/></joint>";
+  };
+  const std::string block = "<geometry><box size='0.06 0.06 0.06'/></geometry>";
+  const std::string segment =
+      "<origin xyz='0 0 -0.06'/><geometry><cylinder radius='0.03' length='0.12'/></geometry>";
+  for (const char* axis : {"1 0 0", "0 1 0", "0 0 -1"}) {
+    add("prismatic", axis, 0.0, 0.0, range, block);
+  }
+  add("revolute", "0 0 1", 0.15, -3.0, 3.0, segment);
+  add("revolute", "0 1 0", 0.12, -3.0, 3.0, segment);
+  add("revolute", "0 0 1", 0.12, -3.0, 3.0, segment);
+  return text +
+         "<link name='tool'/><joint name='at' type='fixed'><parent link='l6'/><child link='tool'/>"
+         "<origin xyz='0 0 -0.12'/></joint></robot>";
+}
+
+TEST_F(DraftTest, OfAGantryIsOfTheSizeThatItsSlidesAllow) {
+  for (const double range : {0.3, 1.0}) {
+    const Draft draft = Make(GantryWithWrist(range));
+    EXPECT_EQ(draft.robot.model->num_positions(), 6);
+    EXPECT_TRUE(draft.attempt.contact()) << range;
+    EXPECT_TRUE(draft.attempt.evaded()) << range;
+    const bool small = draft.attempt.motion.size < draft.robot.reach;
+    EXPECT_EQ(small, range < 0.5) << range;
+    if (small) {
+      EXPECT_THAT(Content(draft.diagram), HasSubstr("  scale: 0.")) << range;
+    }
+    std::filesystem::remove_all(folder_.path() / "out");
+  }
+}
+
 TEST_F(DraftTest, FillsInLimitsThatAreMissing) {
   const Draft draft = Make(ArmWithGripper(1.0, "velocity='0'"));
   ASSERT_EQ(draft.files.size(), 3);

@@ -26,32 +26,53 @@ TEST(ReachTest, IsTheLengthBetweenTheJoints) {
   EXPECT_DOUBLE_EQ(ReachOf(*arm, arm->FindLink("planar2_tip")), 0.9);
 }
 
-/// The arm of planar2 on a slide of `rail` m.
-robot::RobotModel OnARail(double rail) {
-  const std::string joint =
-      "'><parent link='{}'/><child link='{}'/><axis xyz='{}'/><origin xyz='{} 0 0'/><limit "
-      "lower='0' "
-      "upper='{}' velocity='1' effort='1'/></joint>";
-  std::string text =
-      "<robot name='railed'><link name='a'/><link name='b'/><link name='c'/>"
-      "<link name='d'/><link name='tip'/>";
-  text += "<joint name='slide' type='prismatic" +
-          fmt::format(fmt::runtime(joint), "a", "b", "1 0 0", 0.0, rail);
-  text += "<joint name='shoulder' type='revolute" +
-          fmt::format(fmt::runtime(joint), "b", "c", "0 0 1", 0.0, 2.0);
-  text += "<joint name='elbow' type='revolute" +
-          fmt::format(fmt::runtime(joint), "c", "d", "0 0 1", 0.5, 2.0);
-  text +=
-      "<joint name='end' type='fixed'><parent link='d'/><child link='tip'/>"
-      "<origin xyz='0.3 0 0'/></joint></robot>";
-  return robot::ParseUrdf(text, "railed.urdf");
+/// An arm of 0.5 and 0.3 m that stands on slides one after the other, each an axis and a range, m;
+/// "turn": a joint that turns stands there.
+robot::RobotModel OnSlides(const std::vector<std::pair<std::string, double>>& slides) {
+  std::string text = "<robot name='on_slides'><link name='l0'/>";
+  int links = 0;
+  const auto add = [&](const char* type, const std::string& axis, double offset, double range) {
+    text += fmt::format(
+        "<link name='l{1}'/><joint name='j{1}' type='{2}'><parent link='l{0}'/><child link='l{1}'/>"
+        "<axis xyz='{3}'/><origin xyz='{4} 0 0'/><limit lower='0' upper='{5}' velocity='1' "
+        "effort='1'/></joint>",
+        links, links + 1, type, axis, offset, range);
+    ++links;
+  };
+  for (const auto& [axis, range] : slides) {
+    if (axis == "turn") {
+      add("revolute", "0 0 1", 0.0, 2.0);
+    } else {
+      add("prismatic", axis, 0.0, range);
+    }
+  }
+  add("revolute", "0 0 1", 0.0, 2.0);
+  add("revolute", "0 0 1", 0.5, 2.0);
+  text += fmt::format(
+      "<link name='tip'/><joint name='end' type='fixed'><parent link='l{}'/><child link='tip'/>"
+      "<origin xyz='0.3 0 0'/></joint></robot>",
+      links);
+  return robot::ParseUrdf(text, "on_slides.urdf");
+}
+
+double ReachOnSlides(const std::vector<std::pair<std::string, double>>& slides) {
+  const robot::RobotModel arm = OnSlides(slides);
+  return ReachOf(arm, arm.FindLink("tip"));
 }
 
 TEST(ReachTest, CountsASlideNoMoreThanTheLengthsTogether) {
   for (const auto& [rail, reach] : {std::pair(0.2, 1.0), {0.8, 1.6}, {4.0, 1.6}}) {
-    const robot::RobotModel arm = OnARail(rail);
-    EXPECT_DOUBLE_EQ(ReachOf(arm, arm.FindLink("tip")), reach) << rail;
+    EXPECT_DOUBLE_EQ(ReachOnSlides({{"1 0 0", rail}}), reach) << rail;
   }
+}
+
+TEST(ReachTest, CountsSlidesAcrossEachOtherAsTheDiagonal) {
+  EXPECT_DOUBLE_EQ(ReachOnSlides({{"1 0 0", 0.3}, {"0 1 0", 0.4}}), 0.8 + 0.5);
+  EXPECT_DOUBLE_EQ(ReachOnSlides({{"0.8 0.6 0", 0.2}, {"0.6 -0.8 0", 0.2}, {"0 0 -1", 0.1}}),
+                   0.8 + 0.3);
+  EXPECT_DOUBLE_EQ(ReachOnSlides({{"1 0 0", 0.3}, {"-1 0 0", 0.4}}), 0.8 + 0.7);
+  EXPECT_DOUBLE_EQ(ReachOnSlides({{"1 0 0", 0.3}, {"turn", 0.0}, {"0 1 0", 0.4}}), 0.8 + 0.7)
+      << "they can come to lie along one line";
 }
 
 /// iiwa14 as it hangs from a ceiling: all that it reaches is below its base.

@@ -173,6 +173,18 @@ TEST_F(BarrierFilterTest, TheMarginIsWhatCurvatureCostsOverWhatIsWonBack) {
   EXPECT_NEAR(linear.reach(), 0.95, 1e-12);  // the fore link's solid ends 0.45 m from the elbow
 }
 
+TEST_F(BarrierFilterTest, ReachesAsFarAsSlidesCarryTheArm) {
+  const auto arm = std::make_shared<const RobotModel>(ParseUrdf(
+      "<robot name='r'><link name='a'/><link name='b'/><link name='c'><collision><geometry>"
+      "<sphere radius='0.1'/></geometry></collision></link><joint name='turn' type='revolute'>"
+      "<parent link='a'/><child link='b'/><axis xyz='0 0 1'/><limit lower='-1' upper='1' "
+      "velocity='1' effort='1'/></joint><joint name='slide' type='prismatic'><parent link='b'/>"
+      "<child link='c'/><axis xyz='1 0 0'/><origin xyz='0.2 0 0'/><limit lower='-0.7' upper='0.4' "
+      "velocity='1' effort='1'/></joint></robot>",
+      "r.urdf"));
+  EXPECT_NEAR(BarrierFilter(arm, Settings()).reach(), 0.2 + 0.7 + 0.1, 1e-12);
+}
+
 TEST_F(BarrierFilterTest, RefusesAProximityOfAStrangersLink) {
   AddBeside(0.08).link = models::Name("lwr4_link_3");
   EXPECT_THROW(Answer(Settings(), {0, 0}), models::ModelError);

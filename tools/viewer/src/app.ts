@@ -11,7 +11,8 @@ import { byId, element, type Page } from "./page";
 import { badges, limits, logLines, parameters, reportOf, showWarnings, summary, warningsOf } from "./panels";
 import { Player } from "./player";
 import { Plots } from "./plots";
-import { Recording, upperBound } from "./recording";
+import { nearnessOf } from "./nearness";
+import { Recording } from "./recording";
 import { SceneView } from "./scene_view";
 import { makeSwitches, markSwitch, Tabs } from "./tabs";
 import { Timeline } from "./timeline";
@@ -22,6 +23,7 @@ const kSwitches: [layer: Layer, name: string][] = [
 ];
 const kTabs = ["Plots", "Summary", "Limits", "Parameters", "Log"] as const;
 type Tab = (typeof kTabs)[number];
+const kNear = 0.3;             // m; from where on a distance counts as near, where no field says it
 const kLivePast = 60;          // s that a live page remembers
 const kLiveRefresh = 250;      // ms between refreshes of the plots of a live page
 const kLiveSaid = 1000;        // ms between those of its words
@@ -162,17 +164,8 @@ export class App {
   private setNearness(): void {
     const distances = this.plots?.specs.find((spec) => spec.role === "distance");
     const all = (distances?.signals ?? []).flatMap((name) => this.recording.topics.get(name) ?? []).map(columnsOf);
-    if (!distances || all.length === 0) return this.timeline.setNearness([], [], 0.3);
-    const { times } = all[0]!;
-    const least = times.map((time) => {
-      let low = Infinity;
-      for (const { times: own, values } of all) {
-        const row = upperBound(own, time + 1e-9) - 1;
-        for (const column of values) low = Math.min(low, column[row] ?? Infinity);
-      }
-      return low;
-    });
-    this.timeline.setNearness(times, least, distances.limit ?? 0.3);
+    const scale = Number(this.recording.about("scale", "oca.parameters") ?? 1) || 1;
+    this.timeline.setNearness(nearnessOf(all, distances?.limit ?? kNear * scale));
   }
 
   private beginLive(recording: Recording): void {

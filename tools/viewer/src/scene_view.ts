@@ -5,12 +5,27 @@ import { EntityHistory } from "./history";
 import { placeLabel } from "./labels";
 import { Overlays } from "./overlays";
 import type { FrameTransform, FrameTransforms, SceneEntity, SceneUpdate } from "./messages";
-import { element, type Page } from "./page";
+import { byId, element, type Page } from "./page";
 import { overlaid, repaint, segments, solid } from "./primitives";
 import type { Recording } from "./recording";
+import { directionTo } from "./viewpoint";
 
 /** px; keeps the names of obstacles clear of the nearest distance */
 const kUnder = 26;
+
+const kNoWebGL = "This browser has no WebGL, so the scene is not drawn. All else is here.";
+
+function makeRenderer(canvas: HTMLCanvasElement): THREE.WebGLRenderer | undefined {
+  const wanted = { antialias: true, preserveDrawingBuffer: true };
+  const context = canvas.getContext("webgl2", wanted) as WebGL2RenderingContext | null;
+  if (!context) return undefined;
+  const renderer = new THREE.WebGLRenderer({ canvas, context, ...wanted });
+  renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+  renderer.shadowMap.enabled = true;
+  renderer.shadowMap.type = THREE.PCFSoftShadowMap;
+  renderer.toneMapping = THREE.NeutralToneMapping;
+  return renderer;
+}
 
 /** What is solid: topics of entities. */
 export type Solids = "/scene/robots" | "/scene/obstacles" | "/scene/collisions";
@@ -23,7 +38,9 @@ export class SceneView {
   readonly overlays: Overlays;
   readonly camera = new THREE.PerspectiveCamera(38, 1, 0.02, 60);
   readonly controls: OrbitControls;
-  private readonly renderer: THREE.WebGLRenderer;
+  readonly canvas = element("canvas");
+  /** None where the browser has no WebGL: then everything but the picture is there. */
+  private readonly renderer: THREE.WebGLRenderer | undefined;
   private readonly scene = new THREE.Scene();
   private readonly world = new THREE.Group();
   private readonly frames = new Map<string, THREE.Group>();
@@ -40,15 +57,12 @@ export class SceneView {
 
   constructor(private readonly page: Page, private readonly parent: HTMLElement,
               private readonly labels: HTMLElement, private recording: Recording) {
-    this.renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = THREE.PCFSoftShadowMap;
-    this.renderer.toneMapping = THREE.NeutralToneMapping;
-    parent.append(this.renderer.domElement);
+    this.renderer = makeRenderer(this.canvas);
+    parent.append(this.renderer ? this.canvas : element("p", "unseen", kNoWebGL));
+    labels.hidden = byId("switches").hidden = !this.renderer;
     this.camera.up.set(0, 0, 1);
     this.camera.position.set(2.6, -1.9, 1.9);
-    this.controls = new OrbitControls(this.camera, this.renderer.domElement);
+    this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.target.set(0, 0.15, 0.75);
     this.controls.addEventListener("change", () => (this.stale = true));
     this.scene.add(this.world);
@@ -93,12 +107,12 @@ export class SceneView {
     if (this.controls.enabled) this.controls.update();
     if (!this.stale) return;
     this.stale = false;
+    if (!this.renderer) return;
     this.renderer.render(this.scene, this.camera);
     this.placeLabels();
   }
 
   touch(): void { this.stale = true; }
-  get canvas(): HTMLCanvasElement { return this.renderer.domElement; }
 
   /** Where a frame is in the world, for tests. */
   positionOf(frame: string): number[] | undefined {
@@ -164,7 +178,7 @@ export class SceneView {
   }
 
   ray(x: number, y: number): THREE.Raycaster {
-    const { clientWidth: width, clientHeight: height } = this.renderer.domElement;
+    const { clientWidth: width, clientHeight: height } = this.canvas;
     const caster = new THREE.Raycaster();
     caster.setFromCamera(new THREE.Vector2((x / width) * 2 - 1, 1 - (y / height) * 2), this.camera);
     return caster;
@@ -248,10 +262,10 @@ export class SceneView {
     this.world.updateMatrixWorld(true);
     const box = new THREE.Box3();
     const moving = this.movingFrames();
-    for (const { entity, object } of this.shown.values()) {
-      if (moving.has(entity.frame_id) || entity.frame_id.startsWith("obstacle/")) box.expandByObject(object);
-    }
-    if (box.isEmpty()) for (const { object } of this.shown.values()) box.expandByObject(object);
+    const all = [...this.shown].map(([id, { entity: { frame_id: frame }, object }]) => ({ frame, name: frame === "world" ? id : frame, object }));
+    const chosen = all.filter(({ frame }) => moving.has(frame) || frame.startsWith("obstacle/"));
+    const bodies = chosen.length > 0 ? chosen : all;
+    for (const { object } of bodies) box.expandByObject(object);
     const trails = this.recording.topics.get("/scene/trails");
     if (trails && trails.length > 0) {
       for (const entity of (trails.message(trails.length - 1) as SceneUpdate).entities ?? []) {
@@ -265,8 +279,9 @@ export class SceneView {
     const sphere = box.getBoundingSphere(new THREE.Sphere());
     const narrow = Math.min(1, this.camera.aspect);
     const distance = (Math.max(0.4, sphere.radius) * this.room) / Math.sin((this.camera.fov * Math.PI) / 360) / narrow;
+    const away = Math.min(distance, 12);
     this.controls.target.copy(sphere.center);
-    this.camera.position.copy(sphere.center).addScaledVector(new THREE.Vector3(0.78, -0.5, 0.38).normalize(), Math.min(distance, 12));
+    this.camera.position.copy(sphere.center).addScaledVector(directionTo(sphere.center, away, bodies, all, this.camera), away);
     this.controls.update();
   }
 
@@ -313,7 +328,7 @@ export class SceneView {
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.parent;
     if (width === 0 || height === 0) return;
-    this.renderer.setSize(width, height);
+    this.renderer?.setSize(width, height);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     this.overlays.resize(width, height);

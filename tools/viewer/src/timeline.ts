@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+import type { Nearness } from "./nearness";
 import { byId, type Page } from "./page";
 
 /** The bar under everything: time, and along it how near the arm came. */
@@ -8,7 +9,7 @@ export class Timeline {
   private start = 0;
   private end = 0;
   private time = 0;
-  private nearness: { times: number[]; values: number[]; limit: number } | undefined;
+  private nearness: Nearness = { times: [], values: [], shares: [] };
 
   constructor(private readonly page: Page, seek: (time: number) => void) {
     const toTime = (event: PointerEvent): void => {
@@ -26,8 +27,7 @@ export class Timeline {
     page.onTheme(() => this.draw());
   }
 
-  /** The least distance (m) at each time; `limit` is where the arm begins to be pushed. */
-  setNearness(times: number[], values: number[], limit: number): void { this.nearness = { times, values, limit }; }
+  setNearness(nearness: Nearness): void { this.nearness = nearness; }
 
   show(time: number, start: number, end: number): void {
     [this.time, this.start, this.end] = [time, start, end];
@@ -58,17 +58,16 @@ export class Timeline {
     ctx.fill();
   }
 
-  /** The nearer, the higher the bar; beyond the limit it is low and pale. */
+  /** The nearer, the higher the bar; where nothing is near it is low and pale. */
   private drawNearness(ctx: CanvasRenderingContext2D, x: (time: number) => number, track: number): void {
-    const near = this.nearness;
-    if (!near || near.times.length === 0) return;
-    for (let i = 0; i < near.times.length; ++i) {
-      const value = near.values[i]!;
-      if (!Number.isFinite(value)) continue;
-      const left = x(near.times[i]!), right = i + 1 < near.times.length ? x(near.times[i + 1]!) : left + 1;
-      const share = Math.min(1, Math.max(0.04, 1 - value / (2 * near.limit)));
-      ctx.fillStyle = this.page.colour(value <= 0 ? "--bad" : value < near.limit ? "--warn" : "--calm");
-      ctx.fillRect(left, track * (1 - share), Math.max(0.6, right - left + 0.3), track * share);
+    const { times, values, shares } = this.nearness;
+    for (let i = 0; i < times.length; ++i) {
+      const share = shares[i]!;
+      if (!Number.isFinite(share)) continue;
+      const left = x(times[i]!), right = i + 1 < times.length ? x(times[i + 1]!) : left + 1;
+      const height = Math.min(1, Math.max(0.04, 1 - share / 2));
+      ctx.fillStyle = this.page.colour(values[i]! <= 0 ? "--bad" : share < 1 ? "--warn" : "--calm");
+      ctx.fillRect(left, track * (1 - height), Math.max(0.6, right - left + 0.3), track * height);
     }
   }
 

@@ -14,10 +14,11 @@ export async function newContext(browser, options = {}) {
   return context;
 }
 
-export async function launch() {
-  return chromium.launch({ executablePath: kChromium, headless: true,
-                           args: ["--enable-unsafe-swiftshader", "--no-sandbox", "--disable-dev-shm-usage"] });
+/** `graphics`: arguments that say what draws. */
+export async function launch(graphics = ["--enable-unsafe-swiftshader"]) {
+  return chromium.launch({ executablePath: kChromium, headless: true, args: [...graphics, "--no-sandbox", "--disable-dev-shm-usage"] });
 }
+export const kNoWebGL = ["--disable-gpu", "--disable-software-rasterizer", "--disable-3d-apis"];
 
 /** Opens the page and waits until it shows something; `problems` gathers what the console says. */
 export async function openPage(browser, url, options = {}) {

@@ -8,7 +8,7 @@ import { dirname, join } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 import { decompress } from "fzstd";
 import { McapIndexedReader } from "@mcap/core";
-import { embed, launch, openPage } from "./page.mjs";
+import { embed, kNoWebGL, launch, openPage } from "./page.mjs";
 import { delta, final, requested, sampleRecord } from "./sample_record.mjs";
 import { testLive, testView } from "./live.mjs";
 import { testRealRobots, testRobot } from "./robot.mjs";
@@ -149,6 +149,61 @@ await test("while a run goes on, the nearest of all arms counts", async () => {
   assert.match(await page.textContent("#badges"), /✗ contact, 0\.100 m deep/);
   assert.match(await page.textContent(".pane.summary"), /-0\.100mNearestright – box, at 3\.00 s/);
   assert.match(await page.textContent(".pane.summary"), /2\.000rad\/sFastest joint/);
+  await page.context().close();
+});
+
+await test("links that are always near each other do not mark the time line", async () => {
+  const { page } = await openPage(browser, sample);
+  const share = () => page.evaluate(() => {
+    const { shares } = window.oca.timeline.nearness;
+    return shares.filter((one) => one < 1).length / shares.length;
+  });
+  const before = await share();
+  assert.ok(before > 0.05 && before < 0.8, `${before}`);
+  await page.evaluate(() => {
+    const { recording } = window.oca, topic = recording.topics.get("/distance/proximities");
+    const other = recording.topic("/own/proximities"), near = (k) => [{ link: "one", obstacle: "arm/three", distance: 0.02 + 0.01 * Math.sin(k) }];
+    topic.times.forEach((time, k) => recording.add(other, 1_700_000_000_000_000_000n + BigInt(Math.round(1e9 * time)), new TextEncoder().encode(JSON.stringify({ value: near(k) }))));
+    recording.metadata.set("oca.plots", new Map([["plots", JSON.stringify([{ id: "distance", title: "Distances", topics: [topic.name, other.name] }])]]));
+    window.oca.load(recording);
+  });
+  assert.equal(await share(), before);
+  assert.ok(await page.evaluate(() => Math.min(...window.oca.timeline.nearness.values)) < 0.02);
+  await page.context().close();
+});
+
+await test("a browser without WebGL says so, and shows all but the scene", async () => {
+  const blind = await launch(kNoWebGL);
+  const { page, problems } = await openPage(blind, sample);
+  assert.deepEqual(errorsOf(problems), []);
+  assert.equal(await page.locator("#message").isVisible(), false);
+  assert.match(await page.textContent("#view"), /no WebGL/);
+  assert.equal(await page.evaluate(() => window.oca.plots.data("Final joints")[0].length), 1001);
+  await page.keyboard.press("Home");
+  await page.keyboard.press(".");
+  await page.keyboard.press("1");
+  assert.match(await page.textContent("#clock"), /^0\.02 /);
+  await page.keyboard.press("s");
+  assert.ok(await page.locator(".card").count() > 2);
+  await page.context().close();
+  await blind.close();
+});
+
+await test("an arm below a ceiling is looked at from below, any other from above", async () => {
+  const { page } = await openPage(browser, sample);
+  const height = () => page.evaluate(() => window.oca.view.camera.position.z - window.oca.view.controls.target.z);
+  const plate = (z) => page.evaluate((at) => {
+    const { recording } = window.oca, size = { x: 4, y: 4, z: 0.05 }, zero = { x: 0, y: 0, z: 0 }, turn = { x: 0, y: 0, z: 0, w: 1 };
+    const entity = { timestamp: { sec: 1_700_000_000, nsec: 0 }, frame_id: "world", id: "arm/plate", frame_locked: true,
+                     cubes: [{ pose: { position: { ...zero, z: at }, orientation: turn }, size, color: { r: 0.5, g: 0.5, b: 0.5, a: 1 } }] };
+    recording.add(recording.topic("/scene/robots"), 1_700_000_000_000_000_000n, new TextEncoder().encode(JSON.stringify({ deletions: [], entities: [entity] })));
+    window.oca.load(recording);
+  }, z);
+  assert.ok(await height() > 0.3);
+  await plate(-0.05);
+  assert.ok(await height() > 0.3);
+  await plate(1.3);
+  assert.ok(await height() < -0.1, `${await height()} m above what is looked at`);
   await page.context().close();
 });
 
