@@ -16,6 +16,10 @@
 #include "oca/models/error.h"
 #include "oca/models/geometry/mesh.h"
 
+// What assimp 5.2 leaks itself is no fault of ours.
+extern "C" const char* __lsan_default_suppressions();  // NOLINT(bugprone-reserved-identifier)
+extern "C" const char* __lsan_default_suppressions() { return "leak:libassimp"; }
+
 namespace oca::geometry {
 namespace mesh_peer_test {
 
