@@ -71,7 +71,8 @@ class DraftMaker {
     if (ended_) return;
     const auto motions = planning::ProposeMotions(
         draft_.robot.model, draft_.robot.tip, kMostProposals, options_.seed,
-        [this](double share) { return GoesOn("looking for a first motion", share); });
+        [this](double share) { return GoesOn("looking for a first motion", share); },
+        internal::LongestWays(*draft_.robot.model));
     if (ended_) return;
     if (motions.empty()) {
       throw ConfigError(fmt::format(

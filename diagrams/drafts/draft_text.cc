@@ -22,6 +22,8 @@ using Eigen::VectorXd;
 
 constexpr double kSpeedShare = 0.25;   // of the speed limit, on the average
 constexpr double kShortest = 4.0;      // s
+constexpr double kLongest = 300.0;     // s
+constexpr double kForeseen = 25.0;     // s; of a motion that plans of the parts see to its end
 constexpr double kPause = 0.5;         // s, before the motion
 constexpr double kGuessedSpeed = 1.0;  // rad/s
 constexpr double kGuessedSlide = 0.2;  // m/s
@@ -33,16 +35,32 @@ std::string List(const VectorXd& numbers) {
   return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 
+/// rad/s or m/s; of a first motion, on the average.
+double SpeedOf(const robot::RobotModel& model, Index joint) {
+  const double limit = model.velocity_limits()[joint];
+  if (std::isfinite(limit)) return kSpeedShare * limit;
+  const auto& name = model.position_names()[static_cast<std::size_t>(joint)].text();
+  const bool slides = model.joints()[static_cast<std::size_t>(model.FindJoint(name))].type ==
+                      robot::JointType::kPrismatic;
+  return kSpeedShare * (slides ? kGuessedSlide : kGuessedSpeed);
+}
+
 double DurationOf(const planning::FirstMotion& motion, const robot::RobotModel& model) {
   double duration = kShortest;
   for (Index j = 0; j < motion.from.size(); ++j) {
     const double way = std::fabs(motion.to[j] - motion.from[j]);
-    if (way == 0.0) continue;
-    double speed = model.velocity_limits()[j];
-    if (!std::isfinite(speed)) speed = model.position_unit() == "m" ? kGuessedSlide : kGuessedSpeed;
-    duration = std::max(duration, way / (kSpeedShare * speed));
+    if (way > 0.0) duration = std::max(duration, way / SpeedOf(model, j));
   }
   return std::ceil(duration);
+}
+
+/// What lets a plan see a motion to its end.
+double TimeScaleOf(double duration) { return std::max(1.0, std::ceil(duration / kForeseen)); }
+
+std::string LongerTimes(const std::string& time_scale) {
+  if (time_scale == "1") return "";
+  return fmt::format("  time_scale: {:<27} # times those of plans; for so long a motion\n",
+                     time_scale);
 }
 
 }  // namespace
@@ -70,6 +88,12 @@ std::string SmallerDistances(double size) {
   return fmt::format(
       "  scale: {:<32.2g} # times the method's distances; as for an arm that reaches so far, m\n",
       size / kUsualReach);
+}
+
+Eigen::VectorXd LongestWays(const robot::RobotModel& model) {
+  VectorXd ways(model.num_positions());
+  for (Index j = 0; j < ways.size(); ++j) ways[j] = kLongest * SpeedOf(model, j);
+  return ways;
 }
 
 std::string SplineUnit(const robot::RobotModel& model) {
@@ -165,7 +189,8 @@ MotionText TextOf(const planning::FirstMotion& motion, const DraftRobot& robot) 
                       motion.radius, List(motion.ball)),
           List(motion.from),
           fmt::format("{:g}", kPause + 2.0 * duration),
-          SmallerDistances(motion.size)};
+          SmallerDistances(motion.size),
+          fmt::format("{:g}", TimeScaleOf(duration))};
 }
 
 std::vector<files::Override> OverridesOf(const MotionText& motion, const std::string& made_for) {
@@ -175,7 +200,8 @@ std::vector<files::Override> OverridesOf(const MotionText& motion, const std::st
   return {change("systems.spline.key_points", fmt::format("[{}, {}]", motion.first, motion.second)),
           change("systems.obstacles.obstacles", fmt::format("[{}]", motion.ball)),
           change("systems.plant.initial_position", motion.start),
-          change("simulator.duration", motion.duration)};
+          change("simulator.duration", motion.duration),
+          change("parameters.time_scale", motion.time_scale)};
 }
 
 std::string DiagramText(const DraftOptions& options, const DraftRobot& robot,
@@ -186,7 +212,7 @@ std::string DiagramText(const DraftOptions& options, const DraftRobot& robot,
   for (const models::Name& joint : robot.model->position_names()) joints.push_back(joint.text());
   return Filled(kFirstDiagram, {{"name", Quoted(name)},
                                 {"avoidance", options.avoidance},
-                                {"scale", motion.scale},
+                                {"scale", motion.scale + LongerTimes(motion.time_scale)},
                                 {"duration", motion.duration},
                                 {"packages", PackagesText(robot)},
                                 {"model", ModelText(options, robot, srdf, limits)},

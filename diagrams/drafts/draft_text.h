@@ -29,6 +29,8 @@ std::string Quoted(const std::string& text);
 /// Parameters of the parts, for an arm, or a motion, that is smaller than those that their
 /// distances are for.
 std::string SmallerDistances(double size);
+/// rad or m, n: how far joints go within the longest first motion.
+Eigen::VectorXd LongestWays(const robot::RobotModel& model);
 /// What an arm of sliders alone needs, whose positions are in m: a line of the spline, the plant.
 std::string SplineUnit(const robot::RobotModel& model);
 std::string PlantText(const robot::RobotModel& model, const std::string& start);
@@ -45,7 +47,8 @@ struct MotionText {
   std::string first, second;  ///< key points
   std::string ball;           ///< an obstacle
   std::string start, duration;
-  std::string scale;  ///< SmallerDistances
+  std::string scale;       ///< SmallerDistances
+  std::string time_scale;  ///< of the parts
 };
 MotionText TextOf(const planning::FirstMotion& motion, const DraftRobot& robot);
 /// The same as overrides of another one, `made_for` what messages begin with.

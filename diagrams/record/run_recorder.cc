@@ -10,6 +10,7 @@
 #include "oca/diagrams/record/plot_hints.h"
 #include "oca/diagrams/record/run_metadata.h"
 #include "oca/diagrams/record/signal_json.h"
+#include "oca/diagrams/runs/position_unit.h"
 #include "oca/diagrams/runs/result_json.h"
 #include "oca/diagrams/runs/signal_table.h"
 #include "oca/framework/dataflow/dynamic_port.h"
@@ -260,6 +261,7 @@ Metadata RunRecorder::MainMetadata(const std::string& outcome,
                {"start_epoch_ns", std::to_string(options_.start_epoch)},
                {"dropped_messages", std::to_string(dropped())},
                {"not_seen", NotSeenJson(loaded_)},
+               {"position_unit", runs::PositionUnit(loaded_)},
                {"outcome", outcome}};
   if (result != nullptr) {
     values["duration"] = fmt::format("{}", result->duration);

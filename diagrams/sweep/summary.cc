@@ -108,7 +108,7 @@ std::string FailureOf(const SampleRow& row, double arrival) {
                                metrics.min_distance.value_or(0.0)));
   }
   if (judgement.arrived == false) {
-    whys.push_back(fmt::format("not arrived, {:.3g} rad off", *metrics.final_error));
+    whys.push_back(fmt::format("not arrived, {:.3g} off", *metrics.final_error));
   }
   for (const std::string& unmet : row.unmet) whys.push_back("not met: " + unmet);
   std::string text;

@@ -46,9 +46,11 @@ constexpr Rules kRules[] = {{true, 0.35, 0.85, 0.45, 1.0 / 8.0},
 /// One call of ProposeMotions.
 class MotionSearch {
  public:
-  MotionSearch(const std::shared_ptr<const robot::RobotModel>& model, int tip, std::uint64_t seed)
+  MotionSearch(const std::shared_ptr<const robot::RobotModel>& model, int tip, std::uint64_t seed,
+               const VectorXd& ways)
       : model_(*model),
         tip_(tip),
+        ways_(ways),
         reach_(ReachOf(*model, tip)),
         clearance_(model, true),
         random_(seed) {
@@ -122,8 +124,8 @@ class MotionSearch {
       const double range = upper - lower;
       const bool turns =
           model_.joints()[model_.FindJoint(Name(j))].type != robot::JointType::kPrismatic;
-      const double widest =
-          turns ? std::min(0.9 * range, 5.0 * std::numbers::pi / 9.0) : 0.8 * range;
+      double widest = turns ? std::min(0.9 * range, 5.0 * std::numbers::pi / 9.0) : 0.8 * range;
+      if (ways_.size() > 0) widest = std::min(widest, ways_[j]);
       FirstMotion motion{q, q};
       const double middle = std::clamp(q[j], lower + 0.025 * range + 0.5 * widest,
                                        upper - 0.025 * range - 0.5 * widest);
@@ -203,6 +205,7 @@ class MotionSearch {
 
   const robot::RobotModel& model_;
   const int tip_;
+  const VectorXd& ways_;
   const double reach_;
   double size_{0.0};
   std::shared_ptr<const geometry::Collider> ball_;
@@ -291,8 +294,9 @@ double ReachOf(const robot::RobotModel& model, int link) {
 
 std::vector<FirstMotion> ProposeMotions(const std::shared_ptr<const robot::RobotModel>& model,
                                         int tip, std::size_t count, std::uint64_t seed,
-                                        const std::function<bool(double share)>& progress) {
-  return MotionSearch(model, tip, seed).Run(count, progress);
+                                        const std::function<bool(double share)>& progress,
+                                        const VectorXd& ways) {
+  return MotionSearch(model, tip, seed, ways).Run(count, progress);
 }
 
 }  // namespace oca::planning

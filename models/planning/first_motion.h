@@ -36,12 +36,15 @@ double ReachOf(const robot::RobotModel& model, int link);
 /// with the motion's size: the reach, or, where that gives none, its half or its quarter, as of an
 /// arm whose first joints slide by little.
 ///
+/// No joint goes farther than `ways` has for it, rad or m, n; empty: than its range lets it.
+///
 /// Whether an arm can evade is not known here. The same seed gives the same motions; none if
 /// nothing of the kind is found. `progress` is told now and then what share of the postures was
 /// tried; false: it ends.
 /// throws ModelError for a robot whose solids Clearance refuses, or whose postures cannot be drawn
 std::vector<FirstMotion> ProposeMotions(const std::shared_ptr<const robot::RobotModel>& model,
                                         int tip, std::size_t count, std::uint64_t seed = 0,
-                                        const std::function<bool(double share)>& progress = {});
+                                        const std::function<bool(double share)>& progress = {},
+                                        const Eigen::VectorXd& ways = {});
 
 }  // namespace oca::planning

@@ -95,8 +95,9 @@ std::filesystem::path FirstFile(const std::vector<std::filesystem::path>& candid
     }
     tried += (tried.empty() ? "" : " or ") + candidate.string();
   }
+  const char* const elsewhere = PackageOf(name).empty() ? "a path" : "a known package";
   throw models::ModelError(fmt::format("{}: missing mesh file; got '{}'; expected a file at {}",
-                                       where, name, tried.empty() ? "a known package" : tried));
+                                       where, name, tried.empty() ? elsewhere : tried));
 }
 
 /// A message for meshes of a package that lies at none of `folders`.

@@ -99,6 +99,8 @@ class UrdfReader {
   void Tell(const std::string& line) const { Tell(WarningLines{{line}, {line}}); }
 
   void Warn(const RobotModel& model) const {
+    Tell(SummedUpByLink(hulls_));
+    Tell(SummedUpByLink(flat_));
     Tell(SummedUp(missing_visuals_, "visual"));
     Tell(InertiaWarnings(model));
     for (const UrdfOutline::Joint& joint : outline_.joints) {
@@ -231,7 +233,7 @@ class UrdfReader {
   }
 
   geometry::Shape ReadShape(const urdf::Geometry& geometry, const std::string& link,
-                            const char* kind, const std::string& where) const {
+                            const char* kind, const std::string& where) {
     if (geometry.type == urdf::Geometry::MESH) {
       const auto& mesh = static_cast<const urdf::Mesh&>(geometry);
       const std::filesystem::path file = FindMesh(mesh.filename, directory_, options_, where);
@@ -239,10 +241,12 @@ class UrdfReader {
         const Eigen::Vector3d scale = ToVector(mesh.scale);
         if (options_.decompose_meshes) return geometry::LoadDecomposition(file, scale);
         const auto [hull, excess, flatness] = geometry::LoadMeshHull(file, scale);
-        const std::string remark = excess.empty() ? flatness : excess + options_.hull_advice;
-        if (!remark.empty()) {
-          Tell(fmt::format("link '{}': {} mesh '{}' {}", link, kind, mesh.filename, remark));
-        }
+        const auto remark = [&](const std::string& what) {
+          return LinkWarning{
+              link, fmt::format("link '{}': {} mesh '{}' {}", link, kind, mesh.filename, what)};
+        };
+        if (!excess.empty()) hulls_.push_back(remark(excess + options_.hull_advice));
+        if (!flatness.empty()) flat_.push_back(remark(flatness));
         return geometry::ConvexMesh{hull};
       } catch (const models::ModelError& error) {
         throw models::ModelError(where + ": " + error.what());
@@ -296,6 +300,7 @@ class UrdfReader {
   std::vector<Joint> joints_;
   std::vector<std::string> softened_;         // joints
   std::vector<std::string> missing_visuals_;  // why each one is not drawn
+  std::vector<LinkWarning> hulls_, flat_;     // meshes
 };
 
 }  // namespace

@@ -48,9 +48,10 @@ struct LoadOptions {
   bool decompose_meshes{false};
   VisualAsCollision visual_as_collision{VisualAsCollision::kNone};
   /// Take what is odd but does not matter, or unset: `warn` a line a kind, which names the first of
-  /// it and counts the rest, `warn_each` a line for each thing. A line for each mesh whose hull
-  /// adds volume, `link 'x': collision mesh ...` or `visual mesh`, and for limits that hardly mean
-  /// what they say (LimitWarnings): `joint X: ...`. The line of a mesh ends with `hull_advice`.
+  /// it and counts the rest, `warn_each` a line for each thing. Meshes whose hull adds volume,
+  /// `link 'x': collision mesh ...` or `visual mesh`, and flat ones, are of two kinds that name the
+  /// links of the rest; limits that hardly mean what they say (LimitWarnings) have lines of their
+  /// own: `joint X: ...`. The line of a hull ends with `hull_advice`.
   std::function<void(const std::string&line)> warn{}, warn_each{};
   std::string hull_advice{};
   /// false: meshes that are only drawn need not exist, and their elements name no file.

@@ -2,10 +2,7 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
-
-#include "oca/models/counted.h"
 
 namespace oca::robot {
 
@@ -16,12 +13,13 @@ struct WarningLines {
 };
 
 /// Of one kind: the sum is the first line `...; and 2 more links`.
-inline WarningLines SummedUp(std::vector<std::string> each, const std::string& thing) {
-  if (each.empty()) return {};
-  const std::size_t more = each.size() - 1;
-  std::string sum = each.front();
-  if (more > 0) sum += "; and " + models::Counted(more, "more " + thing);
-  return {{std::move(sum)}, std::move(each)};
-}
+WarningLines SummedUp(std::vector<std::string> each, const std::string& thing);
+
+struct LinkWarning {
+  std::string link{}, line{};
+};
+
+/// Of one kind: the sum is the first line `...; and 3 more, of links 'b', 'c'`.
+WarningLines SummedUpByLink(const std::vector<LinkWarning>& all);
 
 }  // namespace oca::robot

@@ -62,6 +62,9 @@ void CheckSizes(const SolidParams& shape, bool parts, const std::string& where) 
   CheckPresence(shape.size.has_value(), has.size, "size", shape.type, where);
   CheckPresence(shape.radii.has_value(), has.radii, "radii", shape.type, where);
   CheckPresence(shape.file.has_value(), has.file, "file", shape.type, where);
+  if (shape.file && shape.file->empty()) {
+    throw ConfigError(where + ".file: got an empty file name; expected a path");
+  }
   CheckPresence(parts, has.parts, "parts", shape.type, where);
 }
 

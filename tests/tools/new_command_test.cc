@@ -10,6 +10,7 @@ namespace new_command_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 class NewCommandTest : public testing::Test {
  protected:
@@ -31,6 +32,24 @@ TEST_F(NewCommandTest, LeadsFromARobotToAReportOfARunThatIsClear) {
   EXPECT_THAT(run.Read("ur5e/ur5e.html"), HasSubstr("id=\"oca-record\""));
   EXPECT_THAT(run.Read("ur5e/ur5e.yaml"), HasSubstr("urdf: \"package://ur5e/ur5e.urdf\""));
   EXPECT_EQ(run("cd " + run.folder().path().string() + "; $S run ur5e/ur5e.yaml").status, 0);
+}
+
+TEST_F(NewCommandTest, TellsOfSlidersInMetres) {
+  const auto slide = [](const std::string& from, const std::string& to, const std::string& axis) {
+    return "<link name='" + to +
+           "'><collision><geometry><box size='0.1 0.1 0.1'/></geometry></collision></link>"
+           "<joint name='to_" +
+           to + "' type='prismatic'><parent link='" + from + "'/><child link='" + to +
+           "'/><axis xyz='" + axis +
+           "'/><limit lower='0' upper='1' velocity='1' effort='1'/></joint>";
+  };
+  run.folder().Write("table.urdf", "<robot name='table'><link name='base'/>" +
+                                       slide("base", "x", "1 0 0") + slide("x", "y", "0 1 0") +
+                                       slide("y", "z", "0 0 1") + "</robot>");
+  const Ran ran = New("table.urdf");
+  EXPECT_THAT(ran.out, AllOf(HasSubstr(" m off"), HasSubstr(" m, path "), HasSubstr(" m/s, "),
+                             HasSubstr(" m/s^2\n"), Not(HasSubstr("rad"))))
+      << ran.err;
 }
 
 TEST_F(NewCommandTest, ReplacesNothing) {

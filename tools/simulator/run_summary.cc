@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "oca/diagrams/runs/blind_spots.h"
+#include "oca/diagrams/runs/position_unit.h"
 #include "oca/models/robot/joint_limits.h"
 #include "oca/models/robot/robot_model.h"
 #include "tools/simulator/terminal.h"
@@ -19,7 +20,7 @@ namespace {
 
 using systems::MotionMetricsValue;
 
-/// An arm that ends nearer than this to its goal has arrived, rad.
+/// An arm that ends nearer than this to its goal has arrived, rad or m.
 constexpr double kAtGoal = 0.01;
 
 std::string Line(const char* label, const std::string& text) {
@@ -113,25 +114,28 @@ std::string GoalLine(const MotionMetricsValue& metrics, const loading::LoadedDia
                      bool colour) {
   if (!metrics.final_error) return "";
   const double off = *metrics.final_error;
+  const std::string unit = runs::PositionUnit(loaded);
   const std::string arrival =
-      off < kAtGoal ? Good("reached", colour) + fmt::format(": {:.2g} rad off", off)
-                    : Bad("NOT REACHED", colour) + fmt::format(": {:.3g} rad off", off);
+      off < kAtGoal ? Good("reached", colour) + fmt::format(": {:.2g} {} off", off, unit)
+                    : Bad("NOT REACHED", colour) + fmt::format(": {:.3g} {} off", off, unit);
   return Line("goal", arrival + Standstill(metrics, loaded, off < kAtGoal));
 }
 
-std::string MotionLine(const MotionMetricsValue& metrics) {
+std::string MotionLine(const MotionMetricsValue& metrics, const std::string& unit) {
   std::string text;
-  const auto add = [&text](const std::optional<double>& value, const char* pattern) {
+  const auto add = [&text](const std::optional<double>& value, const char* pattern,
+                           const std::string& of = "") {
     if (!value) return;
-    text += (text.empty() ? "" : ", ") + fmt::format(fmt::runtime(pattern), *value);
+    text += (text.empty() ? "" : ", ") + fmt::format(fmt::runtime(pattern), *value, of);
   };
-  add(metrics.max_abs_delta, "largest delta {:.3g} rad");
+  add(metrics.max_abs_delta, "largest delta {:.3g} {}", unit);
   add(metrics.total_variation_ratio, "path {:.3g} times the request's");
   add(metrics.delta_sign_changes_per_second, "{:.1f} delta reversals a second");
   std::string lines = text.empty() ? "" : Line("alteration", text);
   text.clear();
-  add(metrics.max_joint_speed, "joint speed up to {:.3g} rad/s");
-  add(metrics.max_joint_acceleration, "acceleration up to {:.3g} rad/s^2");
+  add(metrics.max_joint_speed, "joint speed up to {:.3g} {}", runs::UnitOverTime(unit, "s"));
+  add(metrics.max_joint_acceleration, "acceleration up to {:.3g} {}",
+      runs::UnitOverTime(unit, "s^2"));
   return lines + (text.empty() ? "" : Line("motion", text));
 }
 
@@ -166,8 +170,8 @@ std::string RunSummary(const loading::LoadedDiagram& loaded, const runs::RunResu
   const bool judged = result.metrics && runs::JudgesDistances(loaded);
   const MotionMetricsValue metrics = result.metrics.value_or(MotionMetricsValue());
   text += ClearanceLine(metrics, result.duration, judged, colour) + NotSeenLine(loaded) +
-          GoalLine(metrics, loaded, colour) + BlockedLines(result) + MotionLine(metrics) +
-          ExpectationLines(result, colour);
+          GoalLine(metrics, loaded, colour) + BlockedLines(result) +
+          MotionLine(metrics, runs::PositionUnit(loaded)) + ExpectationLines(result, colour);
   text += Line("time", fmt::format("{:g} s in {:.3g} s, {:.0f} times real time; {} steps",
                                    result.duration, result.wall_seconds,
                                    result.duration / result.wall_seconds, result.statistics.steps));

@@ -263,7 +263,7 @@ void AddSweep(CLI::App& app, std::function<int()>& command, const files::Catalog
   sub->add_option("--shard", arguments->shard,
                   "I/N: run samples I, I + N, ... alone; for `merge`. By itself within a Slurm "
                   "array or mpirun");
-  sub->add_option("--arrival", campaign.arrival, "final error that counts as arrived, rad")
+  sub->add_option("--arrival", campaign.arrival, "final error that counts as arrived, rad or m")
       ->capture_default_str();
   sub->add_option("--timeout", arguments->timeout, "seconds of the wall clock that a run may take")
       ->check(CLI::Range(1e-3, 1e9));

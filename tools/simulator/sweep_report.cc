@@ -73,7 +73,7 @@ std::vector<Measure> Measures() {
           {"expectations met", share(&C::met)},
           {"least distance, m", median(&C::min_distance)},
           {"  worst", worst(&C::min_distance)},
-          {"final error, rad", median(&C::final_error)},
+          {"final error, rad or m", median(&C::final_error)},
           {"  worst", worst(&C::final_error)},
           {"delta reversals, 1/s", median(&C::reversals)},
           {"  worst", worst(&C::reversals)},

@@ -200,6 +200,15 @@ TEST_F(DraftTest, OfAGantryIsOfTheSizeThatItsSlidesAllow) {
   }
 }
 
+TEST_F(DraftTest, OfASlowArmIsOverInTenMinutesAndIsForeseenToItsEnd) {
+  const Draft draft = Make(ArmWithGripper(1.0, "velocity='0.01'"));
+  EXPECT_TRUE(draft.attempt.contact());
+  EXPECT_TRUE(draft.attempt.evaded());
+  const loading::LoadedDiagram loaded = loading::LoadDiagram(draft.diagram);
+  EXPECT_LE(loaded.simulator.duration, 601.0);
+  EXPECT_THAT(Content(draft.diagram), HasSubstr("  time_scale: 12 "));
+}
+
 TEST_F(DraftTest, FillsInLimitsThatAreMissing) {
   const Draft draft = Make(ArmWithGripper(1.0, "velocity='0'"));
   ASSERT_EQ(draft.files.size(), 3);

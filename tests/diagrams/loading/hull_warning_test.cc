@@ -49,6 +49,29 @@ TEST_F(HullWarningTest, NamesLinkFileAndVolumeOfARobotsMesh) {
                         EndsWith("collision: decomposition splits it"))));
 }
 
+TEST_F(HullWarningTest, IsOneLineHoweverManyMeshesWhichNamesTheirLinks) {
+  std::string arm = "<robot name='arm'>", before;
+  const auto mesh = [](const char* file) {
+    return std::string("<collision><geometry><mesh filename='") + file +
+           "'/></geometry></collision>";
+  };
+  for (const char* link : {"a", "b", "c", "d"}) {
+    const bool twice = link == std::string("b"), convex = link == std::string("c");
+    arm += std::string("<link name='") + link + "'>" + mesh(convex ? "pyramid.obj" : "angle.obj") +
+           (twice ? mesh("angle.obj") : "") + "</link>";
+    if (!before.empty()) {
+      arm += std::string("<joint name='to_") + link + "' type='fixed'><parent link='" + before +
+             "'/><child link='" + link + "'/></joint>";
+    }
+    before = link;
+  }
+  folder.Write("arm.urdf", arm + "</robot>");
+  EXPECT_THAT(Load("models: {arm: {urdf: arm.urdf}}\nsystems: {one: {type: Constant, value: 1}}\n")
+                  .warnings,
+              ElementsAre(AllOf(HasSubstr("models.arm: link 'a': collision mesh 'angle.obj'"),
+                                EndsWith("splits it; and 3 more, of links 'b', 'd'"))));
+}
+
 TEST_F(HullWarningTest, IsSilentForConvexMeshesAndDecompositions) {
   EXPECT_THAT(WarningsOfRobot("pyramid.obj"), IsEmpty());
   EXPECT_THAT(WarningsOfRobot("angle.obj", ", collision: decomposition"), IsEmpty());

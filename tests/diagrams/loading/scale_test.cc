@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parameter `scale` of the parts: all distances of a method, and nothing else.
+// The parameters `scale` and `time_scale` of the parts: all distances of a method, all times of its
+// plans, and nothing else.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -47,6 +48,17 @@ TEST(ScaleTest, HalvesTheDistancesOfEachMethodAndNothingElse) {
         << file;
   }
   EXPECT_GE(methods, 9);
+}
+
+TEST(TimeScaleTest, StretchesWhatPlansTakeAndHowFarTheyLookAndNothingElse) {
+  const auto load = [](const char* scale) {
+    return LoadDiagram(OCA_SOURCE_DIR "/diagrams/static_test.yaml",
+                       {{"parameters.avoidance", "recommended"}, {"parameters.time_scale", scale}});
+  };
+  const LoadedDiagram usual = load("1"), slow = load("2");
+  // plan_period, most_horizon, stuck_time
+  EXPECT_EQ(
+      ExpectHalved(*slow.resolved.Find("systems"), *usual.resolved.Find("systems"), "systems"), 3);
 }
 
 }  // namespace scale_test

@@ -92,8 +92,7 @@ TEST(SummarizeTest, CountsSharesAndFindsMedianAndWorst) {
   EXPECT_EQ(summary.unmet, 1);
   ASSERT_EQ(summary.failures.size(), 3u);
   EXPECT_EQ(summary.failures[0].why, "contact, -0.1 m");
-  EXPECT_EQ(summary.failures[1].why,
-            "not arrived, 0.5 rad off; not met: final_error <= 0.1 (got 0.5)");
+  EXPECT_EQ(summary.failures[1].why, "not arrived, 0.5 off; not met: final_error <= 0.1 (got 0.5)");
   EXPECT_EQ(summary.failures[2].why, "failed: lost");
   EXPECT_EQ(summary.failures[2].command, "simulator run f.yaml --seed 0");
 }

@@ -41,6 +41,9 @@ TEST(SourceShapesTest, RefusesACloudWithoutRadiusFileOrPoints) {
   ObstacleSource::ObstacleParams cloud = Ball("cloud", Vector3d::Zero());
   cloud.shape.type = ShapeType::kCloud;
   EXPECT_THAT(RefusalOf({.obstacles = {cloud}}), HasSubstr("file: got none"));
+  cloud.shape.file = "";
+  EXPECT_THAT(RefusalOf({.obstacles = {cloud}}),
+              HasSubstr("shape.file: got an empty file name; expected a path"));
   cloud.shape.file = "missing.csv";
   EXPECT_THAT(RefusalOf({.obstacles = {cloud}}), HasSubstr("missing.csv"));
   const test::TemporaryFolder folder;

@@ -8,13 +8,19 @@ import type { Recording } from "./recording";
 
 type Seek = (time: number) => void;
 
+/** `u` stands for the unit of the joints. */
 const kMetrics: [key: string, name: string, unit: string][] = [
   ["min_distance", "Nearest", "m"], ["contact_time", "In contact", "s"],
-  ["final_error", "Off the goal at the end", "rad"], ["max_abs_delta", "Largest delta", "rad"],
+  ["final_error", "Off the goal at the end", "u"], ["max_abs_delta", "Largest delta", "u"],
   ["delta_sign_changes_per_second", "Delta reversals", "1/s"],
-  ["total_variation_ratio", "Path over the request's", ""], ["max_joint_speed", "Fastest joint", "rad/s"],
-  ["max_joint_acceleration", "Largest acceleration", "rad/s²"],
+  ["total_variation_ratio", "Path over the request's", ""], ["max_joint_speed", "Fastest joint", "u/s"],
+  ["max_joint_acceleration", "Largest acceleration", "u/s²"],
 ];
+
+/** Of an arm of which some joints turn and some slide, "rad/s or m/s". */
+function unitOfMetric(unit: string, joints: string): string {
+  return unit.startsWith("u") ? joints.split(" or ").map((one) => unit.replace("u", one)).join(" or ") : unit;
+}
 
 /** All arms as one, as at the end of a run: the nearest approach, the largest of everything else. */
 function joined(all: Record<string, unknown>[]): Record<string, unknown> {
@@ -117,12 +123,12 @@ export function summary(parent: HTMLElement, recording: Recording, report: RunRe
   if (dropped > 0) parent.append(element("p", "warning", `⚠ ${dropped} messages did not fit and are not in this record.`));
   if (report.failure) parent.append(element("p", "warning", `✗ ${report.failure}`));
   parent.append(expectationTable(report.expectations ?? []));
-  const cards = element("div", "cards");
+  const cards = element("div", "cards"), joints = recording.about("position_unit") ?? "rad";
   for (const [key, name, unit] of kMetrics) {
     const value = metrics[key];
     if (typeof value !== "number") continue;
     const card = element("button", "card");
-    card.append(element("b", "", short(value)), element("small", "", unit), element("span", "", name));
+    card.append(element("b", "", short(value)), element("small", "", unitOfMetric(unit, joints)), element("span", "", name));
     const when = key === "contact_time" ? metrics["first_contact_time"] : metrics[`${key}_time`];
     if (typeof when === "number") {
       const pair = key === "min_distance" ? metrics["min_distance_pair"] : undefined;

@@ -189,6 +189,18 @@ await test("a browser without WebGL says so, and shows all but the scene", async
   await blind.close();
 });
 
+await test("metrics of joints have the unit that the record says", async () => {
+  const { page } = await openPage(browser, sample);
+  const largest = (unit) => page.evaluate((name) => {
+    window.oca.recording.metadata.get("oca").set("position_unit", name);
+    window.oca.load(window.oca.recording);
+    return [...document.querySelectorAll(".card")].map((card) => card.textContent).find((text) => text.endsWith("Largest delta"));
+  }, unit);
+  assert.equal(await largest("m"), "0.300mLargest delta");
+  assert.equal(await largest("rad or m"), "0.300rad or mLargest delta");
+  await page.context().close();
+});
+
 await test("an arm below a ceiling is looked at from below, any other from above", async () => {
   const { page } = await openPage(browser, sample);
   const height = () => page.evaluate(() => window.oca.view.camera.position.z - window.oca.view.controls.target.z);
