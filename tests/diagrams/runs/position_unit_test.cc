@@ -27,7 +27,7 @@ std::string UnitWhere(const std::vector<std::string>& judged) {
   for (const std::string& model : judged) {
     text += "  m_" + model + ": {type: MotionMetrics, period: 0.01" +
             (model.empty() ? "" : ", model: " + model) + "}\n";
-    connections += "  - one.out -> m_" + model + ".position\n";
+    connections += "  - one.value -> m_" + model + ".position\n";
   }
   return PositionUnit(loading::LoadDiagram(folder.Write("d.yaml", text + connections)));
 }
