@@ -59,7 +59,7 @@ bool Asks(const Value::Entry& field) {
 }
 
 /// `params` with its files found by the packages of the tree.
-Value Resolved(const Value& root, Value params, Problems& problems) {
+Value Resolved(const Value& root, const Value& params, Problems& problems) {
   Value::Map packages;
   if (const Value* const section = root.Find("packages")) {
     packages.push_back({"packages", section->location(), *section});

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "oca/diagrams/record/message_values.h"
+#include "oca/models/geometry/convex_hull.h"
 #include "oca/models/json_values.h"
 
 namespace oca::record {

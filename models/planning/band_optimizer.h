@@ -42,8 +42,8 @@ using BandRequest =
     std::function<void(double time, int derivative, Eigen::Ref<Eigen::VectorXd> out)>;
 
 struct BandSettings {
-  double margin{0.1};            ///< m; distances below it cost
-  double clear_distance{0.04};   ///< m; a band that keeps it is wide
+  double margin{0.12};           ///< m; distances below it cost
+  double clear_distance{0.045};  ///< m; a band that keeps it is wide
   double hard_distance{0.002};   ///< m; what stands, and own links, never come nearer
   double trust_distance{0.03};   ///< m; a band that keeps it from what stands need not be helped
   double flying_distance{0.01};  ///< m; nor one that keeps this from what moves
@@ -53,7 +53,7 @@ struct BandSettings {
   double return_nearness{10.0};  ///< 1/rad^2; the same where nothing is in the way any more
   double calm{0.1};              ///< s^2/rad^2; price of a speed of the deviation
   double limits{1e3};            ///< price of the square of an excess
-  double limit_share{0.9};       ///< of the velocity and acceleration limits that a band may use
+  double limit_share{0.95};      ///< of the velocity and acceleration limits that a band may use
 };
 
 /// What is true of a band on a grid of times that is finer than that of its optimisation.

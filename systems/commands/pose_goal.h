@@ -8,8 +8,8 @@
 
 #include "oca/framework/dataflow/params.h"
 #include "oca/models/motion/key_points.h"
-#include "oca/systems/sensing/geometry_params.h"
 #include "oca/systems/sensing/obstacle_source.h"
+#include "oca/systems/sensing/pose_params.h"
 
 namespace oca::robot {
 class RobotModel;

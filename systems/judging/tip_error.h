@@ -5,7 +5,7 @@
 
 #include "oca/framework/dataflow/params.h"
 #include "oca/framework/dataflow/system.h"
-#include "oca/systems/sensing/geometry_params.h"
+#include "oca/systems/sensing/pose_params.h"
 #include "oca/systems/signals/signals.h"
 
 namespace oca::systems {

@@ -46,9 +46,6 @@ double ProcessorTime() {
 
 planning::ReplanSettings SettingsOfRecommended() {
   planning::ReplanSettings settings;
-  settings.planner.band.margin = 0.12;
-  settings.planner.band.clear_distance = 0.045;
-  settings.planner.band.limit_share = 0.95;
   settings.planner.most_evaluations = 4000;
   settings.plan_time = kPlanPeriod;
   settings.self_collision = true;
