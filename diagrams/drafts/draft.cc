@@ -101,9 +101,10 @@ class DraftMaker {
     return !ended_;
   }
 
-  void RemoveAll() const {
+  void RemoveAll() {
     std::error_code ignored;
     for (const fs::path& file : draft_.files) fs::remove(file, ignored);
+    draft_.files.clear();
     if (made_folder_) fs::remove(options_.folder, ignored);  // if it is empty
   }
 

@@ -61,7 +61,7 @@ struct Attempt {
 struct Draft {
   DraftRobot robot{};
   std::filesystem::path diagram{};
-  std::vector<std::filesystem::path> files{};  ///< all that were written
+  std::vector<std::filesystem::path> files{};  ///< all that were written; none: it was ended
   Attempt attempt{};                           ///< the one that the file has
   int tries{0};                                ///< motions that were run
 };

@@ -291,26 +291,13 @@ const Schedule::InputEntry& Schedule::input(const InputHandle& handle) const {
 }
 
 template <class H>
-const Schedule& Schedule::OfHandle(const H& handle, const Context& context) {
-  const Schedule* const schedule = handle.system == nullptr ? nullptr : handle.system->schedule_;
-  if (schedule != nullptr && schedule == context.schedule_) return *schedule;
+void Schedule::RefuseForeign(const H& handle) {
   throw WiringError(internal::ForeignText(handle, "the diagram that made the context"));
 }
 
-const Schedule& Schedule::Of(const InputHandle& input, const Context& context) {
-  return OfHandle(input, context);
-}
-
-const Schedule& Schedule::Of(const OutputHandle& output, const Context& context) {
-  return OfHandle(output, context);
-}
-
-const Schedule& Schedule::Of(const CachedHandle& cached, const Context& context) {
-  return OfHandle(cached, context);
-}
-
-const Schedule& Schedule::Of(const StateHandle& state, const Context& context) {
-  return OfHandle(state, context);
-}
+template void Schedule::RefuseForeign(const InputHandle& handle);
+template void Schedule::RefuseForeign(const OutputHandle& handle);
+template void Schedule::RefuseForeign(const CachedHandle& handle);
+template void Schedule::RefuseForeign(const StateHandle& handle);
 
 }  // namespace oca

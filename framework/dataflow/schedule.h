@@ -147,11 +147,14 @@ class Schedule {
     if (source == kContinuousSource) context.header().integrator_step = 0.0;
     versions(context)[source] = ++context.header().epoch;
   }
-  /// Throws WiringError if the handle's system is not part of this schedule or the context not its.
-  static const Schedule& Of(const InputHandle& input, const Context& context);
-  static const Schedule& Of(const OutputHandle& output, const Context& context);
-  static const Schedule& Of(const CachedHandle& cached, const Context& context);
-  static const Schedule& Of(const StateHandle& state, const Context& context);
+  /// The schedule of a handle of an input, output, cached value or state. Throws WiringError if the
+  /// context is of another diagram.
+  template <class H>
+  static const Schedule& Of(const H& handle, const Context& context) {
+    const Schedule* const schedule = handle.system == nullptr ? nullptr : handle.system->schedule_;
+    if (schedule == nullptr || schedule != context.schedule_) RefuseForeign(handle);
+    return *schedule;
+  }
 
   std::byte* arena(const Context& context) const { return context.arena_.get(); }
   std::uint64_t* versions(const Context& context) const {
@@ -249,9 +252,9 @@ class Schedule {
                               const StateEntry& state) const;
   void FailDerivative(const Context& context) const;
   void GrowLikeNext(Context& context, const StateEntry& state) const;
-  /// The name of the port that a node's failure is told of.
   template <class H>
-  static const Schedule& OfHandle(const H& handle, const Context& context);
+  [[noreturn]] static void RefuseForeign(const H& handle);
+  /// The name of the port that a node's failure is told of.
   std::string PortOf(const Node& node) const;
 };
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Core>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -132,37 +133,43 @@ class TableauIntegrator final : public FixedStepIntegrator {
   TableauIntegrator(const Schedule& schedule, const IntegratorOptions& options,
                     const Tableau<S>& tableau)
       : FixedStepIntegrator(schedule, options), tableau_(tableau) {
-    for (auto& stage : stages_) stage.resize(start_.size());
+    for (auto& stage : later_stages_) stage.resize(start_.size());
   }
 
  private:
   void Advance(Context& context, double t, double h) override {
-    for (std::size_t i = 0; i < S; ++i) {
+    at_ = start_;
+    Derivatives(context, t, at_, slope_);
+    for (std::size_t i = 1; i < S; ++i) {
       Combine(h, tableau_.a[i], i);
-      Derivatives(context, t + tableau_.c[i] * h, at_, i == 0 ? slope_ : stages_[i]);
-      if (i == 0) stages_[0] = slope_;
+      Derivatives(context, t + tableau_.c[i] * h, at_, later_stages_[i - 1]);
     }
     Combine(h, tableau_.b, S);
   }
 
   double Bulge(std::size_t k, double h) const override {
     double sum = tableau_.d[S] * end_slope_[k];
-    for (std::size_t j = 0; j < S; ++j) sum += tableau_.d[j] * stages_[j][k];
+    for (std::size_t j = 0; j < S; ++j) sum += tableau_.d[j] * Stage(j)[k];
     return h * sum;
+  }
+
+  const std::vector<double>& Stage(std::size_t j) const {
+    return j == 0 ? slope_ : later_stages_[j - 1];
   }
 
   /// at = start + h sum_j weight_j stage_j over the first `count` stages.
   void Combine(double h, const std::array<double, S>& weights, std::size_t count) {
-    at_ = start_;
+    const auto size = static_cast<Eigen::Index>(at_.size());
+    Eigen::Map<Eigen::VectorXd> at(at_.data(), size);
+    at = Eigen::Map<const Eigen::VectorXd>(start_.data(), size);
     for (std::size_t j = 0; j < count; ++j) {
       if (weights[j] == 0.0) continue;
-      const double weight = h * weights[j];
-      for (std::size_t k = 0; k < at_.size(); ++k) at_[k] += weight * stages_[j][k];
+      at += h * weights[j] * Eigen::Map<const Eigen::VectorXd>(Stage(j).data(), size);
     }
   }
 
   const Tableau<S> tableau_;
-  std::array<std::vector<double>, S> stages_;
+  std::array<std::vector<double>, S - 1> later_stages_;
 };
 
 }  // namespace

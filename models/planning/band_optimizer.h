@@ -50,7 +50,7 @@ struct BandSettings {
   double clearance{1e4};         ///< 1/m^2; price of a missing margin
   double smoothness{0.02};       ///< s^4/rad^2; price of an acceleration of the deviation
   double nearness{0.1};          ///< 1/rad^2; price of a deviation
-  double return_nearness{10.0};  ///< 1/rad^2; the same where nothing is in the way any more
+  double return_nearness{20.0};  ///< 1/rad^2; the same where nothing is in the way any more
   double calm{0.1};              ///< s^2/rad^2; price of a speed of the deviation
   double limits{1e3};            ///< price of the square of an excess
   double limit_share{0.95};      ///< of the velocity and acceleration limits that a band may use

@@ -14,13 +14,12 @@ namespace {
 using Eigen::VectorXd;
 
 // Intervals of a band, s.
-constexpr double kFine = 0.1;  // of the first fine_span while something moves
+constexpr double kFine = 0.1;  // of the first fine_span while something moves or the arm returns
 constexpr double kGrowth = 1.3;
 constexpr double kCoarse = 0.4;
 constexpr int kFewest = 8;
 constexpr std::size_t kMostGrowing = 10;  // intervals from kFine to kCoarse, and a few
 
-constexpr double kMuchCheaper = 0.7;
 constexpr double kSameRoom = 1e-4;      // m; of the goal and of a band that comes no nearer
 constexpr double kNotCertified = 1e-6;  // m s; what a band lacks that is not proved
 constexpr double kEvadeAhead = 1.5;     // s; before what stands a band begins to bend
@@ -80,14 +79,14 @@ std::vector<double> BandPlanner::TimesOf(const BandTask& task, const Grid& grid)
   double step = kFine;
   // Even where the start is so late that a step does not show.
   const auto most = static_cast<std::size_t>(settings_.fine_span / kFine) + kMostGrowing;
-  while (moving && times.back() - task.start + step < horizon && step < kCoarse &&
+  const bool fine = moving || grid.returns;
+  while (fine && times.back() - task.start + step < horizon && step < kCoarse &&
          times.size() < most) {
     times.push_back(times.back() + step);
     if (times.back() - task.start > settings_.fine_span) step *= kGrowth;
   }
   const double rest = task.start + horizon - times.back();
-  const int count =
-      std::max(moving ? 1 : kFewest, static_cast<int>(std::ceil(rest / grid.interval)));
+  const int count = std::max(fine ? 1 : kFewest, static_cast<int>(std::ceil(rest / grid.interval)));
   const double from = times.back();
   for (int i = 1; i <= count; ++i) times.push_back(from + i * rest / count);
   return times;
@@ -249,8 +248,12 @@ BandPlan BandPlanner::Plan(const BandTask& task, const BandCurve* last) {
   certified_looks_ = path_looks_ = 0;
   PrepareStanding(task);
   std::optional<BandPlan> kept = KeepLast(task, last);
-  BandPlan best = kept && kept->level == 0 && !task.fresh ? *kept : PlanAnew(task, last);
-  if (kept) Keep(task, *std::move(kept), best);
+  BandPlan best = PlanAnew(task, last);
+  if (kept && kept->level == 0 && !task.fresh) {
+    if (!MuchCheaper(best, task, last)) best = *std::move(kept);
+  } else if (kept) {
+    Keep(task, *std::move(kept), best);
+  }
   if (task.path_search != nullptr && best.check.clear() && best.reaches && best.level == 0) {
     task.path_search->Reset();
   }
@@ -267,7 +270,8 @@ bool BandPlanner::HasArrived(const BandTask& task) const {
 }
 
 BandPlan BandPlanner::PlanAnew(const BandTask& task, const BandCurve* last) {
-  Prepare(task, GridOf(task, last, moving_));
+  Grid grid = GridOf(task, last, moving_);
+  Prepare(task, grid);
   LookLessFarInNeed(task, last);
   const bool at_rest = task.deviation[0].cwiseAbs().maxCoeff() < kAtRest &&
                        task.deviation[1].cwiseAbs().maxCoeff() < kAtRest;
@@ -275,6 +279,12 @@ BandPlan BandPlanner::PlanAnew(const BandTask& task, const BandCurve* last) {
   const bool arrived = HasArrived(task);
   if (arrived) best.curve.controls().colwise() = task.deviation[0];
   Judge(end_, best);
+  if (!moving_ && !at_rest && !arrived && best.check.near.empty()) {
+    grid.returns = true;
+    Prepare(task, grid);
+    best.curve = zero_;
+    Judge(end_, best);
+  }
   const bool nothing_near = best.check.min_distance >= settings_.band.margin;
   const bool enough = nothing_near || (last == nullptr && best.check.wide());
   const bool stays = (at_rest && enough) || arrived;

@@ -86,9 +86,10 @@ struct BandPlan {
 /// where start and goal leave it. The first is clear_distance, the last hard_distance.
 inline constexpr std::array kClearLevels{0.02, 0.01, 0.005};
 
-inline constexpr double kMarginWay = 10.0;  ///< rad/m
-inline constexpr int kFewestBandSteps = 5;  ///< on a start; less is no trial
-inline constexpr double kSameState = 1e-9;  ///< of a last band and a task's start or end
+inline constexpr double kMarginWay = 10.0;   ///< rad/m
+inline constexpr int kFewestBandSteps = 5;   ///< on a start; less is no trial
+inline constexpr double kMuchCheaper = 0.7;  ///< of the cost of a band that is clear
+inline constexpr double kSameState = 1e-9;   ///< of a last band and a task's start or end
 inline constexpr double kStopWithin =
     0.15;  ///< s; how long an arm that stops goes on as fast, about
 
@@ -113,10 +114,11 @@ inline constexpr double kStopWithin =
 ///
 /// Of bands that are clear one that ends where it is to end is better than one that does not (where
 /// something moves, after one that is wide), then one of a wider degree (kClearLevels), then one of
-/// a shorter way. Where nothing moves the last band as it is counts as well. What stands and own
-/// links are proved to keep hard_distance between the points of the grid too (BandCertificate),
-/// else a band is not clear. BandTask::path_search goes on in every plan that is not
-/// clear, or of which a wider degree may be found.
+/// a shorter way. Where nothing moves the last band as it is counts as well; while that is wide, and
+/// no plan is fresh, only what costs much less replaces it. What stands and own links are proved to
+/// keep hard_distance between the points of the grid too (BandCertificate), else a band is not
+/// clear. BandTask::path_search goes on in every plan that is not clear, or of which a wider degree
+/// may be found.
 ///
 /// The work is bounded and the answer a function of the arguments. Allocates.
 class BandPlanner {
@@ -149,6 +151,7 @@ class BandPlanner {
   struct Grid {
     double least_horizon{0.0};  ///< s
     double interval{0.4};       ///< s; the longest
+    bool returns{false};        ///< the arm is to be back soon: short intervals first
   };
   double HorizonOf(const BandTask& task, bool moving) const;
   std::vector<double> TimesOf(const BandTask& task, const Grid& grid) const;
@@ -158,6 +161,8 @@ class BandPlanner {
   /// What the end of the grid leaves, s, and whether bands may end where they are to.
   void LookAtGoal(const BandTask& task, double end);
   std::optional<BandPlan> KeepLast(const BandTask& task, const BandCurve* last);
+  /// Whether a wide band costs so much less than to go on with the last one, on the grid at hand.
+  bool MuchCheaper(const BandPlan& plan, const BandTask& task, const BandCurve* last);
   int LevelOf(const BandCheck& check) const;
   Eigen::VectorXd GoalAt(const BandTask& task, double time) const;
   void Certify(const BandTask& task, BandPlan& plan);

@@ -35,6 +35,13 @@ std::optional<BandPlan> BandPlanner::KeepLast(const BandTask& task, const BandCu
   return plan;
 }
 
+bool BandPlanner::MuchCheaper(const BandPlan& plan, const BandTask& task, const BandCurve* last) {
+  if (!plan.check.clear() || !plan.reaches || plan.level > 0) return false;
+  Start followed{BandStart::kLast, BandEnd::kGoal, Followed(task, last)};
+  SetEnd(followed);
+  return plan.cost < kMuchCheaper * band_.Cost(followed.curve);
+}
+
 BandCurve BandPlanner::Followed(const BandTask& task, const BandCurve* last) const {
   if (last == nullptr || last->empty()) return zero_;
   VectorXd x(zero_.size());

@@ -91,7 +91,7 @@ int NewCommand(const NewArguments& arguments) {
   };
   const drafts::Draft draft = drafts::MakeDraft(options);
   progress.reset();
-  if (Interrupted()) return kInterrupted;
+  if (draft.files.empty()) return kInterrupted;
   PrintRobot(draft.robot);
   for (const fs::path& file : draft.files) Print("wrote {}\n", file.string());
   PrintWithout(draft.attempt.without);

@@ -142,7 +142,7 @@ TEST(ReturnTimeTest, IsASecondAtMostInTheMedianForTasksOfTheTip) {
     std::vector<double> times;
     double least = robot::kUnlimited;
     for (const bool circle : {false, true}) {
-      for (int seed = 0, runs = 0; runs < 8 && seed < 40; ++seed) {
+      for (int seed = 0, runs = 0; runs < 16 && seed < 80; ++seed) {
         MethodRun run(circle ? "scenarios/task_circle" : "scenarios/task_line", "recommended",
                       {{"systems.obstacles.obstacles", TextOf({circle, kind, seed})}});
         const Returns returns = Meter(run).Measure();
