@@ -15,7 +15,7 @@ namespace oca::geometry::internal {
 namespace {
 
 using Eigen::Vector3d;
-using Triangle = std::array<int, 3>;
+using Corners = std::array<int, 3>;
 
 constexpr double kFinestCell = 1e-3;  // cell, of the diagonal
 constexpr double kLeast = 1.2;        // by which cells grow
@@ -34,7 +34,7 @@ std::vector<int> CellsOf(const std::vector<Vector3d>& points, const Extent& exte
 
 /// A triangle between cells; two with the same corners in either sense are one.
 struct Between {
-  Triangle sorted;
+  Corners sorted;
   int index;  // of the original
   auto operator<=>(const Between&) const = default;
 };
@@ -44,7 +44,7 @@ bool Same(const Between& a, const Between& b) { return a.sorted == b.sorted; }
 std::vector<Between> Spanning(const TriangleMesh& mesh, const std::vector<int>& cells) {
   std::vector<Between> between;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    Triangle t = mesh.triangles[i];
+    Corners t = mesh.triangles[i];
     for (int& corner : t) corner = cells[static_cast<std::size_t>(corner)];
     std::sort(t.begin(), t.end());
     if (t[0] != t[1] && t[1] != t[2]) between.push_back({t, static_cast<int>(i)});
@@ -120,7 +120,7 @@ CoarseMesh Coarsen(const TriangleMesh& mesh, std::size_t most) {
   std::fill(result.nearest.begin(), result.nearest.end(), -1);
   for (std::size_t i = 0; i < between.size(); ++i) {
     if (i == 0 || !Same(between[i - 1], between[i])) {
-      Triangle corners = mesh.triangles[static_cast<std::size_t>(between[i].index)];
+      Corners corners = mesh.triangles[static_cast<std::size_t>(between[i].index)];
       for (int& corner : corners) corner = cells[static_cast<std::size_t>(corner)];
       result.mesh.triangles.push_back(corners);
     }

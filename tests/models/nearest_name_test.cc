@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace oca::models::test {
+namespace oca::models {
 namespace nearest_name_test {
 
 TEST(NearestNameTest, PicksTheClosestAndTheFirstOfEquals) {
@@ -27,4 +27,4 @@ TEST(MisspeltNameTest, IsTheNearestWithinTwoEditsAndNeverTheNameItself) {
 }
 
 }  // namespace nearest_name_test
-}  // namespace oca::models::test
+}  // namespace oca::models
