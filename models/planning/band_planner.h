@@ -114,11 +114,11 @@ inline constexpr double kStopWithin =
 ///
 /// Of bands that are clear one that ends where it is to end is better than one that does not (where
 /// something moves, after one that is wide), then one of a wider degree (kClearLevels), then one of
-/// a shorter way. Where nothing moves the last band as it is counts as well; while that is wide, and
-/// no plan is fresh, only what costs much less replaces it. What stands and own links are proved to
-/// keep hard_distance between the points of the grid too (BandCertificate), else a band is not
-/// clear. BandTask::path_search goes on in every plan that is not clear, or of which a wider degree
-/// may be found.
+/// a shorter way. Where nothing moves the last band as it is counts as well; while that is wide,
+/// and no plan is fresh, only what costs much less replaces it. What stands and own links are
+/// proved to keep hard_distance between the points of the grid too (BandCertificate), else a band
+/// is not clear. BandTask::path_search goes on in every plan that is not clear, or of which a wider
+/// degree may be found.
 ///
 /// The work is bounded and the answer a function of the arguments. Allocates.
 class BandPlanner {
