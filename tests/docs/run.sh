@@ -211,10 +211,10 @@ target_of() { # FILE... -> FOLDER FILE, the folder that is the file's library or
 }
 # One compiler run reads several sources of a library (CMAKE_UNITY_BUILD), which ones is chance: names that
 # they hide must differ, but for functions of other parameters and the same alias.
-anonymous_names() { # -> FOLDER NAMESPACE NAME KIND FILE, of libraries and tests
+anonymous_names() { # -> FOLDER NAMESPACE NAME KIND FILE, of libraries, tests and benchmarks
   local folder file
   target_of $(files '*.cc') | while read -r folder file; do
-    grep -qE '^oca_(library|test)' "$folder/CMakeLists.txt" && echo "$folder $file"
+    grep -qE '^(oca_(library|test)|add_executable\(oca_bench)' "$folder/CMakeLists.txt" && echo "$folder $file"
   done > "$work/sources"
   awk '
     function found(name, kind) { gsub(/ /, "_", kind); print folder, space, name, kind, file }

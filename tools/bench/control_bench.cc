@@ -156,7 +156,7 @@ void PlainTick(benchmark::State& state, int obstacle_count, bool meshes, bool cu
   }
 }
 
-void Register() {
+void RegisterControl() {
   using benchmark::RegisterBenchmark;
   for (const bool meshes : {false, true}) {
     for (const int n : {1, 10, 100, 1000}) {
@@ -175,7 +175,7 @@ void Register() {
   }
 }
 
-const bool kRegistered = (Register(), true);
+const bool kControlRegistered = (RegisterControl(), true);
 
 }  // namespace
 }  // namespace oca::bench

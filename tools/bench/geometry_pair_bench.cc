@@ -157,7 +157,7 @@ void Register(const Named& first, const Named& second) {
   }
 }
 
-[[maybe_unused]] const bool kRegistered = [] {
+[[maybe_unused]] const bool kPairsRegistered = [] {
   const auto& shapes = Shapes();
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     for (std::size_t k = i; k < shapes.size(); ++k) {
