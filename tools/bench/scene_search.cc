@@ -40,7 +40,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMargin = 0.001;  // m
+constexpr double kSearchMargin = 0.001;  // m
 constexpr int kMostDraws = 200'000;
 
 double Seconds() {
@@ -87,7 +87,7 @@ Times Search(robot::Clearance& clearance, const Eigen::VectorXd& start, const Ei
              std::uint64_t seed) {
   Times times;
   const double made = Seconds();
-  planning::CertifiedMotion motion(clearance, kMargin);
+  planning::CertifiedMotion motion(clearance, kSearchMargin);
   motion.batch();
   const double begin = Seconds();
   times.scene = begin - made;
@@ -109,7 +109,7 @@ Times Search(robot::Clearance& clearance, const Eigen::VectorXd& start, const Ei
   times.found = path.has_value();
   times.looked_at = static_cast<double>(motion.batch().looked_at());
   times.undecided = static_cast<double>(motion.batch().undecided());
-  if (path) planning::Shorten(clearance, {.seed = seed, .margin = kMargin}, *path);
+  if (path) planning::Shorten(clearance, {.seed = seed, .margin = kSearchMargin}, *path);
   times.shortened = Seconds() - begin;
   return times;
 }
