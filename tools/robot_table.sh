@@ -10,7 +10,7 @@
 #                             the goal as a share of that without avoidance; least distance of all,
 #                             own links too
 #
-# The last line counts robots that arrived clear in at most twice the time. Exit status 0 however
+# The last line counts robots that arrived clear in at most twice the time, of those with a task. Exit status 0 however
 # many arrive.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -32,21 +32,25 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 IFS=, read -ra methods <<< "$methods"
 
-number() { grep -o "\"$1\": *[-0-9.e]*" "$work/result" | head -n 1 | sed 's/.*: *//'; }
+# Of the last run; nothing if it has none, or failed.
+number() { sed -n "s/.*\"$1\": *\([-0-9.e]*\).*/\1/p" "$work/result" | head -n 1; }
 run() { "$simulator" run "$@" --json --no-progress > "$work/result" 2> "$work/err" || true; }
 
 printf '%-28s' robot
 printf '  %-34s' "${methods[@]}"
 echo
 declare -A good
-robots=0
+robots=0 without=0
 while read -r robot; do
-  name=$(basename "${robot%%.*}")
+  name=$(basename "$robot")
+  name=${name%%.*}
   srdf=()
   [ ! -e "${robot%.*}.srdf" ] || srdf=(--srdf "${robot%.*}.srdf")
   "$simulator" new "$robot" "${srdf[@]}" --seed "$seed" --tries 1 -o "$work/$robots" > "$work/new" 2>&1 || true
-  diagram=$(find "$work/$robots" -name '*.yaml' ! -name '*_limits.yaml' 2> /dev/null | head -n 1)
+  # A robot without a task leaves no folder.
+  diagram=$(find "$work/$robots" -name '*.yaml' ! -name '*_limits.yaml' 2> /dev/null | head -n 1) || true
   if [ -z "$diagram" ]; then
+    without=$((without + 1))
     printf '%-28s  no task: %s\n' "$name" "$(tail -n 1 "$work/new" | head -c 150)"
     continue
   fi
@@ -64,6 +68,7 @@ while read -r robot; do
         if (e == "") print "no: failed"
         else if (d != "" && d + 0 <= 0) printf "no: contact, %.3f m\n", d
         else if (e > 0.01 || t == "") printf "no: %.2f off at %.3f m\n", e, d
+        else if (free + 0 <= 0) printf "yes, %.3f m, never without\n", d
         else printf("yes, time %.2f, %.3f m%s\n", t / free, d, (t > 2 * free) ? ", late" : "")
       }')
     printf '  %-34s' "$verdict"
@@ -71,6 +76,7 @@ while read -r robot; do
   done
   echo
 done < <(find -L "$(cd "$folder" && pwd)" \( -name '*.urdf' -o -name '*.urdf.xacro' \) | sort)
+[ "$without" -eq 0 ] || echo "$without without a task"
 printf '%-28s' "of $robots"
 for method in "${methods[@]}"; do
   printf '  %-34s' "$(awk -v n="${good[$method]:-0}" -v all="$robots" 'BEGIN { printf "%d, %.0f %%", n, all ? 100 * n / all : 0 }')"
