@@ -54,10 +54,11 @@ const Judges& Foresight::FindJudge(const systems::ModelSet& models, const std::s
     judged.push_back(fmt::format("'{}' by {}", of, judge.path));
   }
   if (judges.size() != 1) {
-    throw ConfigError(fmt::format(
-        "judge; got {}; expected one of {}",
-        judged.empty() ? "none" : fmt::format("{}", fmt::join(judged, ", ")),
-        model.empty() ? "one model, or the name of one" : fmt::format("the model '{}'", model)));
+    throw ConfigError(
+        fmt::format("judge; got {}; expected {}",
+                    judged.empty() ? "none" : fmt::format("{}", fmt::join(judged, ", ")),
+                    model.empty() ? "one, or the model that is meant"
+                                  : fmt::format("one of the model '{}'", model)));
   }
   name_ = FullName(models, judges[0].role->model);
   judge_ = judges[0].path;

@@ -95,7 +95,7 @@ Ranges RangesAt(const LoadedDiagram& loaded, const std::string& prefix, const Va
       if (!name.empty() && bounds) Narrow(name, *bounds, ranges);
     }
   }
-  for (const LoadedDiagram::UsedFile& used : loaded.used_files) {
+  for (const LoadedDiagram::InnerFile& used : loaded.used_files) {
     if (given(used.path) == nullptr) continue;
     const Ranges inner = RangesAt(loaded, used.path + ".", used.document);
     for (const Value::Entry& entry : GivenBy(document, *given(used.path))) {

@@ -27,7 +27,7 @@ struct LoadedDiagram {
     std::shared_ptr<const systems::ModelSet> models;
   };
   /// A diagram file that another one uses: a system of type Diagram.
-  struct UsedFile {
+  struct InnerFile {
     std::string path;  ///< of the system
     std::string file;
     Value document, resolved;  ///< as below
@@ -48,7 +48,7 @@ struct LoadedDiagram {
   files::SimulatorParams simulator;
   systems::ModelSet models;  ///< by full names
   std::vector<Block> systems;
-  std::vector<UsedFile> used_files;  ///< each before those that it uses itself
+  std::vector<InnerFile> used_files;  ///< each before those that it uses itself
   std::unique_ptr<Diagram> diagram;
   std::vector<files::RecordedSignal> record;
   Period scene_period{1, 60};  ///< of the scene in a record

@@ -84,7 +84,7 @@ void Set(Value::Map& map, const std::string& key, Value value) {
 }
 
 /// The name under which a used file is attached.
-std::string NameOf(const loading::LoadedDiagram::UsedFile& used) {
+std::string NameOf(const loading::LoadedDiagram::InnerFile& used) {
   return "diagram." + used.path + ".yaml";
 }
 
@@ -107,7 +107,7 @@ Value WithUsedFiles(const loading::LoadedDiagram& loaded, const std::string& pat
 
 /// A used file that knows all that it is given: what only other parts that could be chosen know is
 /// a parameter of its own.
-void AddGiven(const loading::LoadedDiagram::UsedFile& used, Value& document) {
+void AddGiven(const loading::LoadedDiagram::InnerFile& used, Value& document) {
   for (const Value::Entry& given : used.given) {
     const Value* const parameters = document.Find("parameters");
     if (parameters != nullptr && parameters->Find(given.key) != nullptr) continue;

@@ -78,12 +78,24 @@ bool IsOfContact(const files::Expectation& expectation) {
   return expectation.member == "min_distance" || expectation.member == "contact_time";
 }
 
+/// Links of several arms may have the same names: `left/lwr4_link_6`, as judged by left.metrics.
+MotionMetricsValue WithItsArm(const Judgement& judgement) {
+  const std::string arm = judgement.judge.substr(0, judgement.judge.rfind('.'));
+  MotionMetricsValue metrics = judgement.metrics;
+  for (models::Name* const link : {&metrics.min_distance_link, &metrics.stuck_link}) {
+    if (!link->empty()) *link = models::Name(fmt::format("{}/{}", arm, link->text()));
+  }
+  return metrics;
+}
+
 }  // namespace
 
 std::optional<MotionMetricsValue> MetricsOfAll(const std::vector<Judgement>& judgements) {
+  if (judgements.size() == 1) return judgements[0].metrics;
   std::optional<MotionMetricsValue> worst;
   for (const Judgement& one : judgements) {
-    worst = worst ? systems::WorstOf(*worst, one.metrics) : one.metrics;
+    const MotionMetricsValue metrics = WithItsArm(one);
+    worst = worst ? systems::WorstOf(*worst, metrics) : metrics;
   }
   return worst;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <new>
 #include <utility>
@@ -47,7 +48,8 @@ void Schedule::PullRange(const Context& context, std::uint32_t begin, std::uint3
   std::byte* const memory = arena(context);
   const std::uint64_t epoch = context.header().epoch;
   Profile* const profile = context.header().profile;
-  std::uint32_t last_class = Slot::kNone;  // neighbours mostly share their class
+  constexpr std::uint32_t kNoClass = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t last_class = kNoClass;  // neighbours mostly share their class
   std::uint64_t changed = 0;
   std::uint32_t index = 0;
   try {
@@ -254,7 +256,13 @@ void Schedule::SetTimeAndState(Context& context, double time, const double* stat
 
 void Schedule::TakeCapacity(Context& context) const {
   // A trial: what it would tell the first tick tells.
-  Log* const log = std::exchange(context.header().log, &SilentLog());
+  struct Silence {
+    explicit Silence(Context& context)
+        : header(context.header()), log(std::exchange(header.log, &SilentLog())) {}
+    ~Silence() { header.log = log; }
+    Context::Header& header;
+    Log* log;
+  } silence(context);
   for (const Event& event : events) {
     if (event.stage != System::Stage::kUpdate && event.stage != System::Stage::kReset) continue;
     const bool writes_objects = std::any_of(event.writes.begin(), event.writes.end(),
@@ -269,7 +277,6 @@ void Schedule::TakeCapacity(Context& context) const {
       if (states[index].type != &kVectorType) GrowLikeNext(context, states[index]);
     }
   }
-  context.header().log = log;
 }
 
 void Schedule::GrowLikeNext(Context& context, const StateEntry& state) const {

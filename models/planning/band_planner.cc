@@ -154,8 +154,8 @@ void BandPlanner::PrepareStanding(const BandTask& task) {
 int BandPlanner::LevelOf(const BandCheck& check) const {
   if (check.wide()) return 0;
   int level = 1;
-  for (const double distance : kClearLevels) {
-    if (check.kept >= distance) return level;
+  for (const double share : kClearShares) {
+    if (check.kept >= share * settings_.band.clear_distance) return level;
     ++level;
   }
   return level;
@@ -170,7 +170,7 @@ void BandPlanner::SetEnd(Start& start) {
 BandPlan BandPlanner::Finish(Start start, int iterations) {
   SetEnd(start);
   BandPlan plan{.curve = std::move(start.curve), .start = start.kind};
-  plan.cost = band_.Relax(plan.curve, std::max(StepsLeft(iterations), kFewestBandSteps));
+  plan.cost = band_.Relax(plan.curve, std::max(StepsLeft(iterations), kFewestSteps));
   Judge(start.end, plan);
   return plan;
 }
@@ -248,11 +248,16 @@ BandPlan BandPlanner::Plan(const BandTask& task, const BandCurve* last) {
   certified_looks_ = path_looks_ = 0;
   PrepareStanding(task);
   std::optional<BandPlan> kept = KeepLast(task, last);
-  BandPlan best = PlanAnew(task, last);
+  BandPlan best;
   if (kept && kept->level == 0 && !task.fresh) {
+    BandTask cheaper = task;  // only that is looked for
+    cheaper.explore = false;
+    cheaper.path_search = nullptr;
+    best = PlanAnew(cheaper, last);
     if (!MuchCheaper(best, task, last)) best = *std::move(kept);
-  } else if (kept) {
-    Keep(task, *std::move(kept), best);
+  } else {
+    best = PlanAnew(task, last);
+    if (kept) Keep(task, *std::move(kept), best);
   }
   if (task.path_search != nullptr && best.check.clear() && best.reaches && best.level == 0) {
     task.path_search->Reset();
@@ -288,7 +293,10 @@ BandPlan BandPlanner::PlanAnew(const BandTask& task, const BandCurve* last) {
   const bool nothing_near = best.check.min_distance >= settings_.band.margin;
   const bool enough = nothing_near || (last == nullptr && best.check.wide());
   const bool stays = (at_rest && enough) || arrived;
-  if (stays) Certify(task, best);
+  if (stays) {
+    best.cost = band_.Cost(best.curve);
+    Certify(task, best);
+  }
   if (!stays || !best.check.clear()) best = Bend(task, best.check, last);
   return best;
 }

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -16,9 +17,8 @@
 
 namespace oca::planning {
 
-/// Which start won: the request itself, the last band, the last band or the request relaxed, a
-/// pause, a joint that goes out of the way, all of them at random, a path past what stands, or an
-/// escape.
+/// What a band was made of: the request, the last band, the request with a pause, a joint that goes
+/// out of the way, all of them at random, a path past what stands, or an escape.
 enum class BandStart { kRequest, kLast, kPause, kDetour, kRandom, kPath, kEscape };
 inline constexpr std::array kBandStartNames{"request", "last", "pause", "detour",
                                             "random",  "path", "escape"};
@@ -73,7 +73,7 @@ struct BandPlan {
   double cost{0.0};
   bool reaches{true};     ///< ends where it is to end
   bool certified{false};  ///< clear between the points of the grid too
-  int level{0};           ///< of kClearLevels that it keeps of what stands; their number: none
+  int level{0};           ///< 0: wide; from 1: the first of kClearShares that what stands is kept
   BandLack lack{BandLack::kNone};
   double goal_room{0.0};                  ///< m; that the end leaves, at most clear_distance
   models::Name goal_link{}, goal_body{};  ///< the pair
@@ -82,20 +82,14 @@ struct BandPlan {
   PlanWork work{};                        ///< that it took
 };
 
-/// Of wide bands there are several degrees, m: what stands is kept as far away as this all along,
-/// where start and goal leave it. The first is clear_distance, the last hard_distance.
-inline constexpr std::array kClearLevels{0.02, 0.01, 0.005};
-
-inline constexpr double kMarginWay = 10.0;   ///< rad/m
-inline constexpr int kFewestBandSteps = 5;   ///< on a start; less is no trial
-inline constexpr double kMuchCheaper = 0.7;  ///< of the cost of a band that is clear
-inline constexpr double kSameState = 1e-9;   ///< of a last band and a task's start or end
-inline constexpr double kStopWithin =
-    0.15;  ///< s; how long an arm that stops goes on as fast, about
+/// Bands that are clear but not wide are of several degrees: what stands is kept as far away as one
+/// of these shares of clear_distance all along, where start and goal leave it; else of the last.
+inline constexpr std::array kClearShares{4.0 / 9.0, 2.0 / 9.0, 1.0 / 9.0};
 
 /// Finds bands: keeps the last one where it can be made clear, else tries many starts.
 ///
-/// 1. The request, if nothing deviates and it is clear.
+/// 1. The request, if the arm rests on it and it keeps the margin, or is wide and nothing was
+///    planned before; or to stay where it is, if it has arrived.
 /// 2. The last band, relaxed; or the way straight back, if that is clear and much cheaper. While
 ///    something moves and the last band is not clear either: escapes, straight motions at once to
 ///    where the arm is out of reach, which are tested rather than relaxed: where everything closes
@@ -104,7 +98,7 @@ inline constexpr double kStopWithin =
 ///    pauses before what moves, detours of each joint around the time in question, random ones, and
 ///    if these are not clear, paths of RrtConnect past what stands; the cheapest few are relaxed,
 ///    and of those that are clear the one wins whose joints go the shortest way, a missing margin
-///    counted at kMarginWay. If none is clear: one that evades what moves (BandCheck::evades), then
+///    counted at 10 rad a metre. If none is clear: one that evades what moves (BandCheck::evades), then
 ///    what lacks least.
 ///
 /// A plan looks at about most_evaluations configurations, if that is above 0: it then tries some of
@@ -113,7 +107,7 @@ inline constexpr double kStopWithin =
 /// while something moves, where the last one cannot be made clear.
 ///
 /// Of bands that are clear one that ends where it is to end is better than one that does not (where
-/// something moves, after one that is wide), then one of a wider degree (kClearLevels), then one of
+/// something moves, after one that is wide), then one of a wider degree (kClearShares), then one of
 /// a shorter way. Where nothing moves the last band as it is counts as well; while that is wide,
 /// and no plan is fresh, only what costs much less replaces it. What stands and own links are
 /// proved to keep hard_distance between the points of the grid too (BandCertificate), else a band
@@ -153,6 +147,11 @@ class BandPlanner {
     double interval{0.4};       ///< s; the longest
     bool returns{false};        ///< the arm is to be back soon: short intervals first
   };
+  static constexpr double kMarginWay = 10.0;   ///< rad/m
+  static constexpr int kFewestSteps = 5;       ///< on a start; less is no trial
+  static constexpr double kMuchCheaper = 0.7;  ///< of the cost of a band that is clear
+  static constexpr double kSameState = 1e-9;   ///< of a last band and a task's start or end
+  static constexpr double kStopWithin = 0.15;  ///< s; an arm that stops goes on as fast, about
   double HorizonOf(const BandTask& task, bool moving) const;
   std::vector<double> TimesOf(const BandTask& task, const Grid& grid) const;
   static Grid GridOf(const BandTask& task, const BandCurve* last, bool moving);
@@ -180,7 +179,7 @@ class BandPlanner {
   void LookLessFarInNeed(const BandTask& task, const BandCurve* last);
   /// The last band, relaxed; as it is, if only that is clear; escapes, if neither is.
   BandPlan GoOnWith(const BandTask& task, const BandCurve* last);
-  /// Relaxed by so many steps, or what is left of them, but not less than kFewestBandSteps.
+  /// Relaxed by so many steps, or what is left of them, but not less than kFewestSteps.
   BandPlan Finish(Start start, int iterations);
   void Judge(BandEnd end, BandPlan& plan);
   /// Whether the arm stands where it is to end, the request rests and nothing moves.

@@ -83,7 +83,7 @@ SearchLevels BandPlanner::LevelsFor(const VectorXd& here, const VectorXd& goal) 
     if (levels.margins.empty() || margin < levels.margins.back()) levels.margins.push_back(margin);
   };
   add(kPathRoom * settings_.band.clear_distance);
-  for (const double margin : kClearLevels) add(margin);
+  for (const double share : kClearShares) add(share * settings_.band.clear_distance);
   add(kPathRoom * settings_.band.hard_distance);
   return levels;
 }
@@ -162,7 +162,7 @@ void BandPlanner::TryPath(const BandTask& task, PathSearch& search, BandPlan& be
     Keep(task, Unrelaxed(along), best);
     Keep(task, Finish(along, settings_.start_iterations), best);
     if (best.check.clear() || moving_) break;
-    if (StepsLeft(kFewestBandSteps) < kFewestBandSteps) return;  // the next plan goes on
+    if (StepsLeft(kFewestSteps) < kFewestSteps) return;  // the next plan goes on
   }
   search.Reset();
 }

@@ -56,7 +56,7 @@ void BandPlanner::Explore(const BandTask& task, const BandCheck& trouble, const 
                    [](const Start& a, const Start& b) { return a.cost < b.cost; });
   const auto count = std::min(starts.size(), static_cast<std::size_t>(settings_.relaxed_starts));
   for (std::size_t i = 0; i < count; ++i) {
-    if (i > 0 && StepsLeft(kFewestBandSteps) < kFewestBandSteps) break;
+    if (i > 0 && StepsLeft(kFewestSteps) < kFewestSteps) break;
     Keep(task, Finish(std::move(starts[i]), settings_.start_iterations), best);
   }
   if (!best.check.clear() && task.path_search == nullptr) TryPaths(task, end, best);

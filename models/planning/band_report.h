@@ -26,7 +26,7 @@ struct BandReport {
   BandStart start{BandStart::kRequest};
   bool clear{true};
   bool reaches{true};     ///< it ends at the goal
-  int level{0};           ///< of kClearLevels, see BandPlan
+  int level{0};           ///< see BandPlan
   double kept{0.0};       ///< m; least distance of what stands where less than is wanted is kept
   double goal_room{0.0};  ///< m; that the goal leaves, at most clear_distance
   BandLack lack{BandLack::kNone};  ///< what leaves less than the margin where it is nearest

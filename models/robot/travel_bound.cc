@@ -25,14 +25,13 @@ void TravelBound::Calc(std::span<const Eigen::Isometry3d> X_WL,
   assert(std::ssize(travel) == model_->num_links());
   assert(path.size() == model_->num_positions());
   std::fill(travel.begin(), travel.end(), 0.0);
-  for (const LinkBall& ball : balls_) {
+  for (const Ball& ball : balls_) {
     double& most = travel[static_cast<std::size_t>(ball.link)];
     most = std::max(most, TravelOf(ball, 0, X_WL, path));
   }
 }
 
-double TravelBound::TravelOf(const LinkBall& ball, int root,
-                             std::span<const Eigen::Isometry3d> X_WL,
+double TravelBound::TravelOf(const Ball& ball, int root, std::span<const Eigen::Isometry3d> X_WL,
                              const Eigen::Ref<const Eigen::VectorXd>& path) const {
   const Eigen::Vector3d centre = X_WL[static_cast<std::size_t>(ball.link)] * ball.centre;
   double sum = 0.0;
@@ -63,7 +62,7 @@ double TravelBound::Between(std::span<const Eigen::Isometry3d> X_WL,
     later = model_->steps()[static_cast<std::size_t>(later - 1)].parent_link;
   }
   double travel[2] = {0.0, 0.0};
-  for (const LinkBall& ball : balls_) {
+  for (const Ball& ball : balls_) {
     if (ball.link != link && ball.link != other) continue;
     double& most = travel[ball.link == link ? 0 : 1];
     most = std::max(most, TravelOf(ball, root, X_WL, path));

@@ -37,17 +37,17 @@ class TravelBound {
                  const Eigen::Ref<const Eigen::VectorXd>& path, int link, int other) const;
 
  private:
-  struct LinkBall {
+  struct Ball {
     int link;
     Eigen::Vector3d centre;  // in the link's frame
     double radius;
   };
   /// Of one solid, relative to the link `root` before it; 0: the robot's root.
-  double TravelOf(const LinkBall& ball, int root, std::span<const Eigen::Isometry3d> X_WL,
+  double TravelOf(const Ball& ball, int root, std::span<const Eigen::Isometry3d> X_WL,
                   const Eigen::Ref<const Eigen::VectorXd>& path) const;
 
   const RobotModel* model_;
-  std::vector<LinkBall> balls_;
+  std::vector<Ball> balls_;
 };
 
 /// Least distance that two bodies can have had between two instants at which it was `before` and

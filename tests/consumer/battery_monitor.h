@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <oca/framework/dataflow/error.h>
+#include <oca/framework/dataflow/json_object.h>
 #include <oca/framework/dataflow/params.h>
 #include <oca/framework/dataflow/system.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
@@ -35,18 +34,14 @@ struct oca::Signal<acme::Battery> {
     return {};
   }
   static void WriteJson(const acme::Battery& battery, std::string& out) {
-    out +=
-        nlohmann::ordered_json{
-            {"charge", battery.charge}, {"power", battery.power}, {"low", battery.low}}
-            .dump();
+    oca::JsonObject(out)
+        .Number("charge", battery.charge)
+        .Number("power", battery.power)
+        .Flag("low", battery.low);
   }
   static acme::Battery ReadJson(std::string_view text) {
-    try {
-      const auto json = nlohmann::json::parse(text);
-      return {json.at("charge"), json.at("power"), json.at("low")};
-    } catch (const nlohmann::json::exception&) {
-      throw ConfigError("got " + std::string(text) + "; expected {charge, power, low}");
-    }
+    const oca::JsonMembers json(text, {"charge", "power", "low"});
+    return {json.Number("charge"), json.Number("power"), json.Flag("low")};
   }
 };
 

@@ -254,6 +254,16 @@ check_an_anonymous_name_is_once_a_target() {
   [ "$(wc -l < "$work/names")" -ge 1500 ] || problem "anonymous names: $(wc -l < "$work/names") found; expected at least 1500"
 }
 
+check_the_counts_of_files_that_a_new_thing_touches() {
+  local regex count got rows=0
+  while IFS=$'\t' read -r regex count; do
+    rows=$((rows + 1))
+    got=$(bash tools/goals/knowing.sh "$regex" 2> /dev/null) || true
+    [ "$got" = "$count" ] || problem "docs/how-to/what_to_touch.md: $regex: $count files; knowing.sh finds $got"
+  done < <(sed -n 's/\\|/\x01/g; s/^| [^|]* | `\([^`]*\)` | \([0-9]*\) | .*/\1\t\2/p' docs/how-to/what_to_touch.md | tr '\001' '|')
+  [ $rows -ge 6 ] || problem "docs/how-to/what_to_touch.md: $rows rows with a regex; expected at least 6"
+}
+
 installed_headers() { # as oca_library has it: all but INTERNAL_HEADERS and those of a namespace `internal`
   local lists folder
   for lists in $(files CMakeLists.txt | grep -E '^(framework|models|systems|diagrams)/'); do

@@ -14,5 +14,8 @@ if [ ! -s "$results" ]; then  # all rows at once, for the rows to come
   "build/$build/tools/bench/oca_bench" --benchmark_filter="${OCA_BENCH_FILTER:-.}" --benchmark_repetitions=3 \
     --benchmark_min_time=0.05 --benchmark_format=json > "$results.part" 2>/dev/null
   mv "$results.part" "$results"
+  if [ "$build" = release ]; then  # for whoever builds all there
+    cmake --preset release -DOCA_BENCHMARKS=OFF > "$OCA_WORK/bench.log" 2>&1
+  fi
 fi
 exec node "$(dirname "$0")/bench_row.mjs" "$results" "$@"

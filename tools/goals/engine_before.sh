@@ -18,4 +18,5 @@ for turn in 1 2 3 4 5; do
       --benchmark_format=json 2>/dev/null > "$OCA_WORK/before.$([ "$source" = . ] && echo now || echo then).$turn.json"
   done
 done
+cmake --preset release -DOCA_BENCHMARKS=OFF > "$OCA_WORK/before.log"  # for whoever builds all there
 node "$(dirname "$0")/bench_ratios.mjs" "$OCA_WORK"

@@ -25,6 +25,17 @@ using nlohmann::ordered_json;
 
 constexpr double kArrived = 0.01;  // rad, m; of all joints
 
+foresight::Foresight SceneOf(const loading::LoadedDiagram& loaded, const std::string& model,
+                             double duration) {
+  try {
+    return {*loaded.diagram, loaded.models, model, duration};
+  } catch (const ConfigError& error) {
+    throw ConfigError(
+        fmt::format("{}: {}{}", loaded.file, error.what(),
+                    model.empty() && loaded.models.all().size() > 1 ? ", by --model NAME" : ""));
+  }
+}
+
 ordered_json Describe(const robot::RobotModel& model, const planning::ClairvoyantPlan& plan) {
   const planning::MotionVerdict& verdict = plan.verdict;
   const bool near = verdict.min_distance < planning::kClairvoyantReach;
@@ -67,7 +78,7 @@ ordered_json Plan(const PlanArguments& arguments, const files::Catalogue& catalo
     for (const std::string& warning : loaded.warnings) Tell("{}\n", warning);
   }
   const double duration = arguments.duration.value_or(loaded.simulator.duration);
-  const foresight::Foresight scene(*loaded.diagram, loaded.models, arguments.model, duration);
+  const foresight::Foresight scene = SceneOf(loaded, arguments.model, duration);
   planning::ClairvoyantTask task = scene.Task();
   task.seed = static_cast<std::uint64_t>(loaded.simulator.seed);
   task.starts = arguments.starts;

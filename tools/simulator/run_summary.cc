@@ -74,11 +74,12 @@ std::string NotSeenLine(const loading::LoadedDiagram& loaded) {
   return spots.empty() ? "" : Line("not seen", fmt::format("{}", fmt::join(spots, "; ")));
 }
 
-/// Of a joint of one of the robots.
+/// Of a joint of one of the robots, `joint` or `arm/joint`.
 const char* UnitOfJoint(const loading::LoadedDiagram& loaded, models::Name joint) {
   for (const auto& named : loaded.models.all()) {
     for (const robot::Joint& each : named.second->joints()) {
-      if (each.name == joint) return robot::PositionUnit(each);
+      const bool is_it = each.name == joint || joint.text().ends_with("/" + each.name.text());
+      if (is_it) return robot::PositionUnit(each);
     }
   }
   return "rad";
