@@ -98,8 +98,8 @@ inline constexpr std::array kClearShares{4.0 / 9.0, 2.0 / 9.0, 1.0 / 9.0};
 ///    pauses before what moves, detours of each joint around the time in question, random ones, and
 ///    if these are not clear, paths of RrtConnect past what stands; the cheapest few are relaxed,
 ///    and of those that are clear the one wins whose joints go the shortest way, a missing margin
-///    counted at 10 rad a metre. If none is clear: one that evades what moves (BandCheck::evades), then
-///    what lacks least.
+///    counted at 10 rad a metre. If none is clear: one that evades what moves (BandCheck::evades),
+///    then what lacks least.
 ///
 /// A plan looks at about most_evaluations configurations, if that is above 0: it then tries some of
 /// the starts, and the next one (BandTask::plans_before) goes on with others. Clear means within

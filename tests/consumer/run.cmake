@@ -80,7 +80,7 @@ set(INPUT "{\"velocity\": [1, -1]}\n{\"velocity\": [0, 0]}\n")
 run(0 "\"power\":.120.*\"charge\":0.9988.*\"power\":20" ${simulator} eval BatteryMonitor --params
     "{\"capacity\": 1000}")
 set(INPUT "{\"battery\": {\"charge\": 0.1, \"power\": 20, \"low\": true}}\n{\"battery\": 7}\n{\"battery\": {\"charge\": 2, \"power\": 20, \"low\": true}}\n")
-run(0 "\"out\":.1.*error.*expected {charge, power, low}.*expected 0 to 1" ${simulator} eval LowBattery)
+run(0 "\"out\":.1.*error.*expected an object with charge, power, low.*expected 0 to 1" ${simulator} eval LowBattery)
 set(INPUT "")
 
 # It is recorded, run again from its record, compared, exported, plotted, swept and shown.
