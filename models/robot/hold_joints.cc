@@ -198,6 +198,16 @@ class Holder {
 
   void HoldState(const std::string& group, const std::string& name) {
     const std::string where = "held." + group;
+    const auto& names = robot_.position_names();
+    const bool is_joint = std::any_of(names.begin(), names.end(), [&](const models::Name& joint) {
+      return joint.text() == group;
+    });
+    const bool is_group = std::any_of(srdf_.groups.begin(), srdf_.groups.end(),
+                                      [&](const SrdfGroup& one) { return one.name == group; });
+    if (is_joint && !is_group) {
+      throw models::ModelError(
+          fmt::format("{}: got '{}'; expected a finite number, rad or m", where, name));
+    }
     FindGroup(srdf_.groups, group, where);
     Names known;
     const NamedState* state = nullptr;

@@ -45,6 +45,18 @@ std::optional<std::vector<double>> NumbersOf(const TiXmlElement* element, const 
 
 constexpr const char* kNoColour =
     "materials whose colour is not four numbers from 0 to 1, left out";
+constexpr const char* kNoName = "materials without a name, left out";
+
+/// The attribute says numbers above 0.
+bool Sizes(const TiXmlElement& shape, const char* attribute, std::size_t count) {
+  const auto sizes = NumbersOf(&shape, attribute, count);
+  return sizes && std::all_of(sizes->begin(), sizes->end(), [](double size) { return size > 0.0; });
+}
+
+/// The attribute is left out, or says three numbers.
+bool NoneOrThree(const TiXmlElement& element, const char* attribute) {
+  return element.Attribute(attribute) == nullptr || NumbersOf(&element, attribute, 3);
+}
 
 class Repair {
  public:
@@ -64,10 +76,12 @@ class Repair {
       if (e->ValueStr() == "link") ReadLink(*e);
       if (e->ValueStr() == "joint") {
         HoldRoot(*e, children);
-        FillLimit(*e);
+        ReadJoint(*e);
       }
       if (e->ValueStr() == "material") {
-        if (!HasColour(*e)) {
+        if (!HasName(*e)) {
+          Drop(root, *e, kNoName, "of the robot");
+        } else if (!HasColour(*e)) {
           Drop(root, *e, kNoColour, NameOf(*e));
         } else if (!materials.insert(NameOf(*e)).second) {
           Drop(root, *e, "materials that are there already, left out", NameOf(*e));
@@ -116,6 +130,8 @@ class Repair {
       auto* const next = e->NextSiblingElement();
       if (e->ValueStr() == "visual" && !HasSize(*e)) {
         Drop(link, *e, "visuals of no size, not drawn", "of link " + name);
+      } else if (e->ValueStr() == "visual" && !SaysShape(*e)) {
+        Drop(link, *e, "visuals that say no place or no shape, not drawn", "of link " + name);
       } else if (e->ValueStr() == "visual" || e->ValueStr() == "collision") {
         DropMaterials(*e, name);
       } else if (e->ValueStr() == "inertial" && !SaysInertia(*e)) {
@@ -131,13 +147,20 @@ class Repair {
     bool found = false;
     for (auto* e = element.FirstChildElement("material"); e != nullptr;) {
       auto* const next = e->NextSiblingElement("material");
-      if (!HasColour(*e)) {
+      if (!HasName(*e)) {
+        Drop(element, *e, kNoName, "of link " + link);
+      } else if (!HasColour(*e)) {
         Drop(element, *e, kNoColour, "of link " + link);
       } else if (std::exchange(found, true)) {
         Drop(element, *e, "materials beside another one, left out", "of link " + link);
       }
       e = next;
     }
+  }
+
+  static bool HasName(const TiXmlElement& material) {
+    const char* const name = material.Attribute("name");
+    return name != nullptr && *name != '\0';
   }
 
   /// False if it says a colour that is none.
@@ -164,6 +187,23 @@ class Repair {
     if (kind == "cylinder") return above("radius", 1) && above("length", 1);
     if (kind == "box") return above("size", 3);
     return kind != "mesh" || above("scale", 3);
+  }
+
+  /// Where it is, and one shape that URDF has, with what that needs.
+  static bool SaysShape(const TiXmlElement& visual) {
+    const auto* const origin = visual.FirstChildElement("origin");
+    if (origin != nullptr && !(NoneOrThree(*origin, "xyz") && NoneOrThree(*origin, "rpy"))) {
+      return false;
+    }
+    const auto* const geometry = visual.FirstChildElement("geometry");
+    const auto* const shape = geometry == nullptr ? nullptr : geometry->FirstChildElement();
+    if (shape == nullptr || shape->NextSiblingElement() != nullptr) return false;
+    const std::string& kind = shape->ValueStr();
+    if (kind == "sphere") return Sizes(*shape, "radius", 1);
+    if (kind == "cylinder") return Sizes(*shape, "radius", 1) && Sizes(*shape, "length", 1);
+    if (kind == "box") return Sizes(*shape, "size", 3);
+    const char* const file = shape->Attribute("filename");
+    return kind == "mesh" && file != nullptr && *file != '\0' && NoneOrThree(*shape, "scale");
   }
 
   static bool SaysInertia(const TiXmlElement& inertial) {
@@ -194,10 +234,63 @@ class Repair {
     joint.SetAttribute("type", "fixed");
   }
 
-  /// No effort, and no velocity, which urdfdom wants, is one of 0: not given (LimitWarnings).
+  void ReadJoint(TiXmlElement& joint) {
+    const char* const type = joint.Attribute("type");
+    const bool fixed = type != nullptr && std::string(type) == "fixed";
+    for (auto* e = joint.FirstChildElement(); e != nullptr;) {
+      auto* const next = e->NextSiblingElement();
+      const std::string& kind = e->ValueStr();
+      if (kind == "dynamics" || kind == "calibration") {
+        if (!SaysNumbers(*e)) {
+          Drop(joint, *e, "dynamics and calibrations that are no numbers, left out",
+               fmt::format("<{}> of joint {}", kind, NameOf(joint)));
+        } else if (e != joint.FirstChildElement(kind)) {
+          Drop(joint, *e, "elements that are there already, left out",
+               fmt::format("<{}> of joint {}", kind, NameOf(joint)));
+        }
+      } else if (kind == "safety_controller") {
+        FillGains(*e, joint);
+      } else if (fixed && (kind == "limit" || kind == "axis")) {
+        joint.RemoveChild(e);  // they mean nothing there
+      }
+      e = next;
+    }
+    FillLimit(joint);
+  }
+
+  /// At least one, which urdfdom wants, and nothing that is none.
+  static bool SaysNumbers(const TiXmlElement& element) {
+    if (element.FirstAttribute() == nullptr) return false;
+    for (const auto* a = element.FirstAttribute(); a != nullptr; a = a->Next()) {
+      if (!NumbersOf(&element, a->Name(), 1)) return false;
+    }
+    return true;
+  }
+
+  /// urdfdom wants the gains, which nothing here reads; soft limits are told (UrdfReader).
+  void FillGains(TiXmlElement& controller, const TiXmlElement& joint) {
+    for (const char* const what :
+         {"k_velocity", "k_position", "soft_lower_limit", "soft_upper_limit"}) {
+      if (NumbersOf(&controller, what, 1)) continue;
+      if (controller.Attribute(what) == nullptr && std::string(what) != "k_velocity") continue;
+      Note("numbers of safety_controllers that are none, left out", controller,
+           fmt::format("{} of joint {}", what, NameOf(joint)));
+      controller.RemoveAttribute(what);
+      if (std::string(what) == "k_velocity") controller.SetAttribute(what, "0");
+    }
+  }
+
+  /// No effort, and no velocity, which urdfdom wants, is one of 0: not given (LimitWarnings). An
+  /// end of the range that is left out is 0, if the other is there.
   void FillLimit(TiXmlElement& joint) {
     auto* const limit = joint.FirstChildElement("limit");
     if (limit == nullptr) return;
+    for (const auto& [end, other] : {std::pair("lower", "upper"), std::pair("upper", "lower")}) {
+      if (limit->Attribute(end) != nullptr || limit->Attribute(other) == nullptr) continue;
+      Note("limits that say one end of the range, 0 at the other", *limit,
+           fmt::format("no {} of joint {}", end, NameOf(joint)));
+      limit->SetAttribute(end, "0");
+    }
     if (limit->Attribute("velocity") == nullptr) limit->SetAttribute("velocity", "0");
     const auto effort = NumbersOf(limit, "effort", 1);
     if (effort && effort->front() >= 0.0) return;

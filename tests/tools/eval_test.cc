@@ -39,6 +39,16 @@ TEST_F(EvalTest, ADiagramIsNoSystemToEvaluate) {
   EXPECT_EQ(ran.err.find("did you mean"), std::string::npos);
 }
 
+TEST_F(EvalTest, AnInputThatCannotBeReadIsNoEndOfIt) {
+  for (const char* from : {"< /", "<&-"}) {
+    const Ran ran =
+        run("$S eval RepulsiveField --params '{\"force_gain\":1,\"max_distance\":0.3}' " +
+            std::string(from));
+    EXPECT_EQ(ran.status, 2) << from;
+    EXPECT_THAT(ran.err, HasSubstr("standard input: cannot be read")) << from;
+  }
+}
+
 TEST_F(EvalTest, RepulsiveFieldGivesTheGoldenForces) {
   const auto answers =
       Eval("RepulsiveField --params '{\"force_gain\":1,\"max_distance\":0.3}'",

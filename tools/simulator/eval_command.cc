@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -77,6 +78,9 @@ int EvalCommand(const EvalArguments& arguments, const files::Catalogue& catalogu
     }
     out << answer << std::endl;
     if (!out) return kRunFailed;  // nobody reads any more
+  }
+  if (&in == &std::cin && std::ferror(stdin) != 0) {
+    throw ConfigError("standard input: cannot be read; expected lines of JSON");
   }
   return kFine;
 }

@@ -143,6 +143,8 @@ TEST(HoldJointsTest, WhatCannotBeHeldIsRefused) {
                         "nearest is 'open'"));
   EXPECT_THAT(RefusalOf({.states = {{"hnad", "open"}}}),
               HasSubstr("held.hnad: unknown group; got 'hnad'"));
+  EXPECT_THAT(RefusalOf({.states = {{"elbow", "x"}}}),
+              HasSubstr("held.elbow: got 'x'; expected a finite number, rad or m"));
 }
 
 TEST(HoldJointsTest, GroupsThatAreNoneAreRefused) {

@@ -188,5 +188,70 @@ TEST(UrdfRepairTest, AFreeRootIsHeldAndAnyOtherFreeJointIsRefused) {
   }
 }
 
+TEST(UrdfRepairTest, AVisualThatNobodyCanDrawIsNotDrawn) {
+  for (const char* visual :
+       {"<geometry/>", "", "<geometry><torus radius='1'/></geometry>",
+        "<geometry><sphere radius='nan'/></geometry>", "<geometry><box size='1 -1 1'/></geometry>",
+        "<geometry><cylinder radius='1'/></geometry>", "<geometry><mesh/></geometry>",
+        "<geometry><mesh filename=''/></geometry>",
+        "<geometry><sphere radius='1'/><sphere radius='2'/></geometry>",
+        "<origin xyz='a b'/><geometry><sphere radius='1'/></geometry>"}) {
+    const Loaded loaded = LoadLink("<visual>" + std::string(visual) + "</visual><visual>" + kShape +
+                                   "</visual><collision>" + kShape + "</collision>");
+    EXPECT_EQ(loaded.model.links()[0].visuals.size(), 1u) << visual;
+    EXPECT_EQ(loaded.model.links()[0].collisions.size(), 1u) << visual;
+    EXPECT_THAT(loaded.warnings,
+                ElementsAre("visuals that say no place or no shape, not drawn: of link 'arm' "
+                            "(line 2)"))
+        << visual;
+    // What the arm collides with is no picture.
+    EXPECT_THROW(LoadLink("<collision>" + std::string(visual) + "</collision>"),
+                 models::ModelError);
+  }
+}
+
+std::string Joint(const std::string& type, const std::string& inner) {
+  return "<link name='a'/><link name='b'/>\n<joint name='j' type='" + type +
+         "'><parent link='a'/><child link='b'/>" + inner + "</joint>";
+}
+
+TEST(UrdfRepairTest, WhatNothingReadsOfAJointIsLeftOut) {
+  const std::string limit = "<limit lower='-1' upper='2' effort='3' velocity='1'/>";
+  for (const char* inner :
+       {"<dynamics/>", "<dynamics damping='0,5'/>", "<dynamics friction='nan'/>",
+        "<calibration rising='x'/>", "<calibration/>", "<safety_controller/>",
+        "<safety_controller k_velocity='1' soft_lower_limit='x'/>",
+        "<dynamics damping='1'/><dynamics damping='2'/>"}) {
+    const Loaded loaded = Load(Joint("revolute", limit + inner));
+    EXPECT_EQ(loaded.model.num_positions(), 1) << inner;
+    EXPECT_EQ(loaded.model.upper_limits()[0], 2.0) << inner;
+    EXPECT_THAT(loaded.warnings, ElementsAre(AllOf(HasSubstr("left out: "), HasSubstr("'j'"),
+                                                   HasSubstr("(line 3)"))))
+        << inner;
+  }
+  EXPECT_THAT(Load(Joint("revolute", limit + "<dynamics damping='0.5' friction='0'/>")).warnings,
+              IsEmpty());
+  for (const char* inner : {"<limit lower='x'/>", "<axis xyz='0 0 0'/>", "<axis xyz='up'/>"}) {
+    EXPECT_THAT(Load(Joint("fixed", inner)).warnings, IsEmpty()) << inner;
+  }
+  EXPECT_THAT(Load(Joint("fixed", "") + "<material/>").warnings,
+              ElementsAre(HasSubstr("materials without a name, left out")));
+}
+
+TEST(UrdfRepairTest, AnEndOfARangeThatIsLeftOutIsZero) {
+  const Loaded upper = Load(Joint("revolute", "<limit upper='2' effort='1' velocity='1'/>"));
+  EXPECT_EQ(upper.model.lower_limits()[0], 0.0);
+  EXPECT_EQ(upper.model.upper_limits()[0], 2.0);
+  EXPECT_THAT(upper.warnings, ElementsAre("limits that say one end of the range, 0 at the other: "
+                                          "no lower of joint 'j' (line 3)"));
+  const Loaded lower = Load(Joint("prismatic", "<limit lower='-2' effort='1' velocity='1'/>"));
+  EXPECT_EQ(lower.model.lower_limits()[0], -2.0);
+  EXPECT_EQ(lower.model.upper_limits()[0], 0.0);
+  EXPECT_THAT([] { Load(Joint("revolute", "<limit effort='1' velocity='1'/>")); },
+              ThrowsMessage<models::ModelError>(HasSubstr("lower; got nothing")));
+  EXPECT_THAT([] { Load(Joint("revolute", "<limit lowr='-1' upper='2' velocity='1'/>")); },
+              ThrowsMessage<models::ModelError>(HasSubstr("unknown attribute; got 'lowr'")));
+}
+
 }  // namespace urdf_repair_test
 }  // namespace oca::robot::test
