@@ -124,7 +124,7 @@ class ArmSearch {
         return name.find(part) != std::string::npos;
       });
     };
-    return has(joint.name.text(), {"gripper", "finger", "jaw", "claw"}) ||
+    return has(joint.name.text(), {"grip", "finger", "jaw", "claw"}) ||
            has(model_.links()[joint.child_link].name.text(), {"finger", "jaw", "claw"});
   }
 

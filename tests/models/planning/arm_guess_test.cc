@@ -99,7 +99,8 @@ TEST(ArmGuessTest, EndsAtAJawThatOthersMimic) {
 }
 
 TEST(ArmGuessTest, EndsAtAJawThatItsNameTells) {
-  for (const char* name : {"gripper", "Gripper_joint", "left_finger", "moving_jaw", "claw"}) {
+  for (const char* name :
+       {"gripper", "Gripper_joint", "grip_drive", "left_finger", "moving_jaw", "claw"}) {
     const Guess guess = GuessOf(Tree().Chain("j", "base", 5).Add(name, "j5").Robot());
     EXPECT_EQ(guess.joints.size(), 5) << name;
     EXPECT_THAT(guess.others, ElementsAre(name));
