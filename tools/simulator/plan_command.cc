@@ -10,6 +10,7 @@
 #include "oca/diagrams/foresight/reference_length.h"
 #include "oca/diagrams/loading/loader.h"
 #include "oca/diagrams/runs/blind_spots.h"
+#include "oca/framework/dataflow/error.h"
 #include "oca/framework/dataflow/explain.h"
 #include "oca/framework/dataflow/json_text.h"
 #include "oca/models/planning/clairvoyant.h"
