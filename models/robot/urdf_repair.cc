@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "oca/models/nearest_name.h"
@@ -285,8 +286,15 @@ class Repair {
   void FillLimit(TiXmlElement& joint) {
     auto* const limit = joint.FirstChildElement("limit");
     if (limit == nullptr) return;
-    for (const auto& [end, other] : {std::pair("lower", "upper"), std::pair("upper", "lower")}) {
-      if (limit->Attribute(end) != nullptr || limit->Attribute(other) == nullptr) continue;
+    const char* const type = joint.Attribute("type");
+    const bool bounded = type != nullptr && std::string(type) != "continuous";
+    for (const auto& [end, other, sign] :
+         {std::tuple("lower", "upper", 1.0), std::tuple("upper", "lower", -1.0)}) {
+      const auto there = NumbersOf(limit, other, 1);
+      // A range that ends before it begins is no range: what is missing is told.
+      if (!bounded || limit->Attribute(end) != nullptr || !there || sign * there->front() < 0.0) {
+        continue;
+      }
       Note("limits that say one end of the range, 0 at the other", *limit,
            fmt::format("no {} of joint {}", end, NameOf(joint)));
       limit->SetAttribute(end, "0");

@@ -249,6 +249,11 @@ TEST(UrdfRepairTest, AnEndOfARangeThatIsLeftOutIsZero) {
   EXPECT_EQ(lower.model.upper_limits()[0], 0.0);
   EXPECT_THAT([] { Load(Joint("revolute", "<limit effort='1' velocity='1'/>")); },
               ThrowsMessage<models::ModelError>(HasSubstr("lower; got nothing")));
+  // Ends that would be no range are not made up, nor those that nothing reads.
+  EXPECT_THAT([] { Load(Joint("revolute", "<limit lower='0.5' velocity='1'/>")); },
+              ThrowsMessage<models::ModelError>(HasSubstr("upper; got nothing")));
+  EXPECT_THAT(Load(Joint("continuous", "<limit upper='2' effort='1' velocity='1'/>")).warnings,
+              IsEmpty());
   EXPECT_THAT([] { Load(Joint("revolute", "<limit lowr='-1' upper='2' velocity='1'/>")); },
               ThrowsMessage<models::ModelError>(HasSubstr("unknown attribute; got 'lowr'")));
 }
