@@ -18,8 +18,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The link at the end of an arm of which all other joints are held.
-int TipOf(const robot::RobotModel& model) { return planning::GuessArm(model).tip; }
+/// The link at the end of an arm of which all other joints are held: fingers that are, which move
+/// in the robot as a `whole`, are none.
+int TipOf(const robot::RobotModel& arm, const robot::RobotModel& whole) {
+  const auto name = [](const robot::RobotModel& model, int link) {
+    return model.links()[static_cast<std::size_t>(link)].name.text();
+  };
+  const auto last = static_cast<std::size_t>(planning::GuessArm(arm).joints.back());
+  const int hand = whole.FindLink(name(arm, arm.joints()[last].child_link));
+  return arm.FindLink(name(whole, planning::FarthestFixedTo(whole, hand)));
+}
 
 /// The joints that a task of `options` does not move, as numbers, and that have a position.
 std::vector<int> JointsBeside(const DraftOptions& options, const robot::RobotModel& whole) {
@@ -109,7 +117,7 @@ DraftRobot ReadDraftRobot(const DraftOptions& options) {
   how.held.positions = robot.held;
   robot.model = std::make_shared<const robot::RobotModel>(reader.Read(how, false));
   robot.packages = reader.packages();
-  robot.tip = TipOf(*robot.model);
+  robot.tip = TipOf(*robot.model, whole);
   robot.reach = planning::ReachOf(*robot.model, robot.tip);
   return robot;
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "oca/framework/dataflow/error.h"
+#include "oca/models/robot/joint_limits.h"
 #include "oca/models/robot/xacro.h"
 
 namespace oca::files {
@@ -46,11 +47,11 @@ void ModelParams::Describe(Fields<ModelParams>& fields) {
   fields
       .Add("acceleration_limits", &ModelParams::acceleration_limits, "rad/s^2",
            "which URDF lacks; a number or one a joint")
-      .Above(0.0);
+      .AtLeast(robot::kLeastAcceleration);
   fields
       .Add("jerk_limits", &ModelParams::jerk_limits, "rad/s^3",
            "which URDF lacks; a number or one a joint")
-      .Above(0.0);
+      .AtLeast(robot::kLeastJerk);
   fields.Add("joint_limits", &ModelParams::joint_limits, "",
              "YAML file of joint limits as MoveIt writes it, which narrow all others");
   fields.Add("attached", &ModelParams::attached, "",

@@ -41,13 +41,18 @@ Location PlaceOf(const Value::Entry& entry) {
   return entry.location;
 }
 
-/// The file that a line of an error speaks of first, other than the description; nullptr: none.
-const Value* FileSpokenOf(const Value& entry, const ModelParams& params, const std::string& line) {
-  const auto begins = [&](const std::string& file) {
-    return !file.empty() && line.compare(0, file.size() + 1, file + ":") == 0;
+/// What of an entry a line of an error speaks of: a file other than the description, or a value;
+/// nullptr: none.
+const Value* SpokenOf(const Value& entry, const ModelParams& params, std::string line) {
+  const auto begins = [&](const std::string& file, const char* end) {
+    return !file.empty() && line.starts_with(file + end);
   };
-  if (begins(params.srdf)) return entry.Find("srdf");
-  return begins(params.joint_limits) ? entry.Find("joint_limits") : nullptr;
+  if (begins(params.srdf, ":")) return entry.Find("srdf");
+  if (begins(params.joint_limits, ":")) return entry.Find("joint_limits");
+  for (const std::string* const file : {&params.urdf, &params.xacro}) {
+    if (begins(*file, ": ")) line.erase(0, file->size() + 2);
+  }
+  return FindSpokenOf(entry, line);
 }
 
 /// Of a list or map: whether something in it was made anew.
@@ -145,8 +150,7 @@ void ModelSection::ReadModel(const Value::Entry& entry, const std::string& full_
     for (std::size_t from = 0, end = 0; end != std::string::npos; from = end + 1) {
       end = text.find('\n', from);
       const std::string line = text.substr(from, end - from);
-      const Value* at = FileSpokenOf(entry.value, fresh.params, line);
-      if (at == nullptr) at = FindSpokenOf(entry.value, line);
+      const Value* const at = SpokenOf(entry.value, fresh.params, line);
       const Location place = read == nullptr ? PlaceOf(entry) : entry.location;
       thrown.Add(at == nullptr ? place : at->location(), fmt::format("{}: {}", where, line));
     }
@@ -182,8 +186,12 @@ void ModelSection::Take(const Value::Entry& given, const Value* own, const Model
     sources_[given.key] = std::move(taken);
   } catch (const std::exception& error) {
     failed_ = true;
-    problems_.Add(own == nullptr ? given.location : own->location(),
-                  fmt::format("models.{}: {}", given.key, oca::internal::Explain(error)));
+    const std::string text = oca::internal::Explain(error);
+    const Value* const at = own == nullptr ? nullptr : SpokenOf(*own, taken.params, text);
+    problems_.Add(at != nullptr    ? at->location()
+                  : own != nullptr ? own->location()
+                                   : given.location,
+                  fmt::format("models.{}: {}", given.key, text));
   }
 }
 

@@ -31,12 +31,15 @@ const OutputHandle* FindByName(const NamedOutputs& outputs, const std::string& n
   return found == outputs.end() ? nullptr : &found->second;
 }
 
+constexpr double kHighestRate = 1e6;  // Hz; a run that samples more often would hardly get on
+
 std::optional<Period> ReadRate(const Value& value, const std::string& where, Problems& problems) {
   double hertz = 0.0;
-  if (!value.number(hertz) || !(hertz > 0.0)) {
+  if (!value.number(hertz) || !(hertz > 0.0 && hertz <= kHighestRate)) {
     if (!value.null()) {
       problems.Add(value.location(),
-                   fmt::format("{}: got {}; expected a rate > 0 Hz", where, value.Show()));
+                   fmt::format("{}: got {}; expected a rate above 0, at most {} Hz", where,
+                               value.Show(), kHighestRate));
     }
     return std::nullopt;
   }

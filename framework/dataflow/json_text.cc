@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <set>
 #include <string>
@@ -51,34 +52,81 @@ void CheckLevels(std::string_view text) {
   }
 }
 
-/// nlohmann keeps one of two equal keys without a word.
-Json ParseStrictly(std::string_view text) {
-  std::vector<std::set<std::string>> open;
-  const auto check = [&open](int /*depth*/, Json::parse_event_t event, Json& parsed) {
-    if (event == Json::parse_event_t::object_start) open.emplace_back();
-    if (event == Json::parse_event_t::object_end) open.pop_back();
-    if (event == Json::parse_event_t::key &&
-        !open.back().insert(parsed.get<std::string>()).second) {
-      throw ConfigError(fmt::format("JSON: {}: duplicate key", parsed.get<std::string>()));
+/// Of a text, for nlohmann's parser, which does not tell how far it has read.
+class Cursor {
+ public:
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
+
+  Cursor(const char* at, const char** furthest) : at_(at), furthest_(furthest) {}
+  const char& operator*() const { return *at_; }
+  Cursor& operator++() {
+    *furthest_ = ++at_;
+    return *this;
+  }
+  friend bool operator==(const Cursor& a, const Cursor& b) { return a.at_ == b.at_; }
+  friend bool operator!=(const Cursor& a, const Cursor& b) { return a.at_ != b.at_; }
+
+ private:
+  const char* at_;
+  const char** furthest_;
+};
+
+class StrictParser {
+ public:
+  explicit StrictParser(std::string_view text) : text_(text), furthest_(text.data()) {}
+
+  Json Parse() {
+    try {
+      return Json::parse(
+          Cursor(text_.data(), &furthest_), Cursor(text_.data() + text_.size(), &furthest_),
+          [this](int, Json::parse_event_t event, Json& parsed) { return Check(event, parsed); });
+    } catch (const Json::parse_error& error) {
+      const std::size_t at = error.byte == 0 ? 0 : error.byte - 1;
+      Fail(at, "syntax", ShownFrom(text_, at), "valid JSON");
+    } catch (const Json::out_of_range&) {
+      constexpr std::string_view kDigits = "+-.0123456789eE";
+      const std::size_t last = text_.find_last_of(kDigits, Read());
+      const std::size_t first = text_.find_last_not_of(kDigits, last) + 1;
+      Fail(first, "number", text_.substr(first, std::min<std::size_t>(last - first + 1, 40)),
+           "finite numbers, up to 1.8e308");
     }
-    return true;
-  };
-  return Json::parse(text, check);
-}
+  }
+
+ private:
+  std::size_t Read() const { return static_cast<std::size_t>(furthest_ - text_.data()); }
+
+  [[noreturn]] static void Fail(std::size_t at, std::string_view what, std::string_view got,
+                                std::string_view expected) {
+    throw ConfigError(
+        fmt::format("JSON: byte {}: {}; got {}; expected {}", at + 1, what, got, expected));
+  }
+
+  /// nlohmann keeps one of two equal keys without a word.
+  bool Check(Json::parse_event_t event, const Json& parsed) {
+    if (event == Json::parse_event_t::object_start) open_.emplace_back();
+    if (event == Json::parse_event_t::object_end) open_.pop_back();
+    if (event != Json::parse_event_t::key) return true;
+    const auto key = parsed.get<std::string>();
+    if (open_.back().insert(key).second) return true;
+    const std::size_t first = text_.rfind(JsonText(parsed), Read());
+    Fail(first == text_.npos ? Read() - 1 : first, "duplicate key", fmt::format("'{}'", key),
+         "each key once");
+  }
+
+  std::string_view text_;
+  const char* furthest_;
+  std::vector<std::set<std::string>> open_;
+};
 
 }  // namespace
 
 Json ReadJsonTree(std::string_view text) {
   CheckLevels(text);
-  try {
-    return ParseStrictly(text);
-  } catch (const Json::parse_error& error) {
-    const std::size_t at = error.byte == 0 ? 0 : error.byte - 1;
-    throw ConfigError(fmt::format("JSON: byte {}: syntax; got {}; expected valid JSON", at + 1,
-                                  ShownFrom(text, at)));
-  } catch (const Json::out_of_range&) {
-    throw ConfigError("JSON: number; got one beyond 1.8e308; expected finite numbers");
-  }
+  return StrictParser(text).Parse();
 }
 
 std::int64_t WholeNumber(const nlohmann::ordered_json& json, std::int64_t least,

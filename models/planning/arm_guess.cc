@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <initializer_list>
+#include <optional>
 #include <string>
 
 #include "oca/models/error.h"
@@ -61,7 +62,7 @@ class ArmSearch {
       if (!HasPosition(model_.joints()[j])) continue;
       if (std::count(guess.joints.begin(), guess.joints.end(), j) == 0) guess.others.push_back(j);
     }
-    guess.tip = TipOf(at);
+    guess.tip = FarthestFixedTo(model_, at);
     return guess;
   }
 
@@ -168,33 +169,30 @@ class ArmSearch {
     return false;
   }
 
-  /// Of what is fixed to a link.
-  int TipOf(int link) const {
-    int tip = link;
-    double farthest = 0.0;
-    std::vector<std::pair<int, Eigen::Isometry3d>> pending{{link, Eigen::Isometry3d::Identity()}};
-    while (!pending.empty()) {
-      const auto [at, X_LA] = pending.back();
-      pending.pop_back();
-      for (const int j : below_[at]) {
-        const Joint& joint = model_.joints()[j];
-        if (joint.movable()) continue;
-        const Eigen::Isometry3d X_LC = X_LA * joint.X_PJ;
-        pending.emplace_back(joint.child_link, X_LC);
-        if (X_LC.translation().norm() <= farthest) continue;
-        farthest = X_LC.translation().norm();
-        tip = joint.child_link;
-      }
-    }
-    return tip;
-  }
-
   const RobotModel& model_;
   std::vector<std::vector<int>> below_;  // joints below each link
   std::vector<int> length_;              // of the longest chain below each link
 };
 
 }  // namespace
+
+int FarthestFixedTo(const RobotModel& model, int link) {
+  const auto links = static_cast<std::size_t>(model.num_links());
+  std::vector<std::optional<Eigen::Isometry3d>> X_LA(links);  // of those that are fixed to it
+  X_LA[static_cast<std::size_t>(link)] = Eigen::Isometry3d::Identity();
+  int farthest = link;
+  double away = 0.0;
+  for (const Joint& joint : model.joints()) {  // parents first
+    const auto& X_LP = X_LA[static_cast<std::size_t>(joint.parent_link)];
+    if (joint.movable() || !X_LP) continue;
+    const Eigen::Isometry3d X_LC = *X_LP * joint.X_PJ;
+    X_LA[static_cast<std::size_t>(joint.child_link)] = X_LC;
+    if (X_LC.translation().norm() <= away) continue;
+    away = X_LC.translation().norm();
+    farthest = joint.child_link;
+  }
+  return farthest;
+}
 
 ArmGuess GuessArm(const RobotModel& model) { return ArmSearch(model).Run(); }
 

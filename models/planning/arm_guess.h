@@ -27,6 +27,10 @@ inline constexpr int kMostArmJoints = 7;
 /// throws ModelError if fewer than two joints of a chain move
 ArmGuess GuessArm(const robot::RobotModel& model);
 
+/// Of `link` and the links that fixed joints carry beyond it the one whose frame is farthest from
+/// its own.
+int FarthestFixedTo(const robot::RobotModel& model, int link);
+
 /// The joints that have a position of their own and are surely none of the arm, whatever their
 /// number: GuessArm's `others`; and the last joint of its chain, however short that is, if its name
 /// says so as above, or a joint mimics it that it does not carry, as the other finger does. None of

@@ -248,10 +248,12 @@ class Holder {
       if (joint.position_index >= 0 && !At(step.column)) moving.insert(step.column);
     }
     if (moving.empty()) {
-      throw models::ModelError(
-          fmt::format("group: got '{}', of which no joint moves; expected a group of joints to "
-                      "move, of {}",
-                      held_.group, fmt::join(NamesOf(srdf_.groups), ", ")));
+      Names others = NamesOf(srdf_.groups);
+      std::erase(others, held_.group);
+      throw models::ModelError(fmt::format(
+          "group: got '{}', of which no joint moves; expected a group of joints to move{}",
+          held_.group,
+          others.empty() ? "" : fmt::format(", perhaps of {}", fmt::join(others, ", "))));
     }
     for (int column = 0; column < robot_.num_positions(); ++column) {
       if (moving.contains(column) || At(column)) continue;

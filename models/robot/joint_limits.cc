@@ -182,7 +182,7 @@ std::vector<PositionLimits> LimitsOfPositions(models::Name robot, const std::vec
 }
 
 void GiveLimits(std::vector<Joint>& joints, const Eigen::VectorXd& limits, const std::string& what,
-                double Joint::*field) {
+                double least, double Joint::*field) {
   if (limits.size() == 0) return;
   std::vector<Joint*> moving;
   for (Joint& joint : joints) {
@@ -190,13 +190,13 @@ void GiveLimits(std::vector<Joint>& joints, const Eigen::VectorXd& limits, const
   }
   if (limits.size() != 1 && limits.size() != std::ssize(moving)) {
     throw models::ModelError(
-        fmt::format("{}; got {} numbers; expected 1 or {}", what, limits.size(), moving.size()));
+        fmt::format("{}: got {} numbers; expected 1 or {}", what, limits.size(), moving.size()));
   }
   for (std::size_t i = 0; i < moving.size(); ++i) {
     const double limit = limits[limits.size() == 1 ? 0 : static_cast<Eigen::Index>(i)];
-    if (!(limit > 0.0)) {
-      throw models::ModelError(fmt::format("{} of joint '{}'; got {}; expected more than 0", what,
-                                           moving[i]->name.text(), limit));
+    if (!(limit >= least)) {
+      throw models::ModelError(fmt::format("{}: joint '{}'; got {}; expected {:g} or more", what,
+                                           moving[i]->name.text(), limit, least));
     }
     moving[i]->*field = limit;
   }

@@ -19,6 +19,12 @@ namespace oca::robot {
 inline constexpr double kWidestTurn = 628.3185307179587;  // rad
 inline constexpr double kWidestSlide = 100.0;             // m
 
+/// Limits that are given and smaller than these are refused: below them a motion can hardly be told
+/// from standing still.
+inline constexpr double kLeastVelocity = 1e-6;      // rad/s, m/s; a radian in ten days
+inline constexpr double kLeastAcceleration = 1e-6;  // rad/s^2, m/s^2
+inline constexpr double kLeastJerk = 1e-6;          // rad/s^3, m/s^3
+
 /// A robot's state farther beyond a limit than this is none of that robot's.
 inline constexpr double kFarthestTurnBeyond = 6.283185307179586;  // rad
 inline constexpr double kFarthestSlideBeyond = 10.0;              // m
@@ -51,11 +57,11 @@ struct PositionLimits {
 std::vector<PositionLimits> LimitsOfPositions(models::Name robot, const std::vector<Joint>& joints,
                                               const std::vector<KinematicStep>& steps);
 
-/// Gives the joints that move by themselves, in their order, a limit of one kind each, above 0: one
-/// for all, one a joint, or none, which changes nothing. `what` begins the message.
-/// throws ModelError for another number of limits, or one that is not above 0
+/// Gives the joints that move by themselves, in their order, a limit of one kind each, at least
+/// `least`: one for all, one a joint, or none, which changes nothing. `what` begins the message.
+/// throws ModelError for another number of limits, or one below
 void GiveLimits(std::vector<Joint>& joints, const Eigen::VectorXd& limits, const std::string& what,
-                double Joint::*field);
+                double least, double Joint::*field);
 
 /// A line for all that these rules make of a description and its author may not have meant:
 /// velocity and effort limits of 0, no velocity limit, ranges too wide to be drawn from, leaders

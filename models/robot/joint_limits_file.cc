@@ -8,6 +8,7 @@
 
 #include "oca/models/error.h"
 #include "oca/models/nearest_name.h"
+#include "oca/models/robot/joint_limits.h"
 #include "oca/models/robot/xml_file.h"
 #include "oca/models/robot/xml_numbers.h"
 #include "oca/models/yaml_events.h"
@@ -19,6 +20,7 @@ using models::internal::YamlError;
 using models::internal::YamlMark;
 
 constexpr const char* kSection = "joint_limits";
+constexpr double kLeastEffort = 1e-6;  // N m, N; as little as nothing
 
 struct Scalar {
   std::string text;
@@ -148,25 +150,31 @@ class Limits {
     }
   }
 
-  /// The number of `key`, if `has` is not false; then one is required if `has` is true.
-  std::optional<double> Get(const char* has, const char* key, bool positive) {
+  /// The number of `key`, `least` or more, if `has` is not false; then it is required if `has` is
+  /// true, unless there is one of the key `or_else`.
+  std::optional<double> Get(const char* has, const char* key, double least,
+                            const char* or_else = "") {
     const auto said = of_.said.find(has);
     const std::optional<bool> wanted =
         said == of_.said.end() ? std::nullopt : Truth(has, said->second);
     if (wanted == false) return std::nullopt;
     const auto found = of_.said.find(key);
     if (found == of_.said.end()) {
-      if (wanted) Add(said->second.line, key, "none", fmt::format("a number, as {} is true", has));
+      if (wanted && !of_.said.contains(or_else)) {
+        Add(said->second.line, key, "none", fmt::format("a number, as {} is true", has));
+      }
       return std::nullopt;
     }
     const auto numbers = ParseFiniteNumbers(found->second.text);
-    if (!numbers || numbers->size() != 1 || (positive && !(numbers->front() > 0.0))) {
+    if (!numbers || numbers->size() != 1 || !(numbers->front() >= least)) {
       Add(found->second.line, key, "'" + found->second.text + "'",
-          positive ? "a number above 0" : "a finite number");
+          least > kAny ? fmt::format("a number of {:g} or more", least) : "a finite number");
       return std::nullopt;
     }
     return numbers->front();
   }
+
+  static constexpr double kAny = -kUnlimited;
 
  private:
   void Add(int line, const std::string& what, const std::string& got, const std::string& expected) {
@@ -223,13 +231,14 @@ JointLimitsFile::JointLimitsFile(const std::filesystem::path& file) : where_(fil
     Limits limits(where_, joint.first, joint.second, errors);
     Entry& entry = entries_[joint.first];
     entry.line = joint.second.line;
-    entry.lower = limits.Get("has_position_limits", "min_position", false);
-    entry.upper = limits.Get("has_position_limits", "max_position", false);
-    entry.velocity = limits.Get("has_velocity_limits", "max_velocity", true);
-    entry.effort = limits.Get("has_effort_limits", "max_effort", true);
-    entry.acceleration = Lesser(limits.Get("has_acceleration_limits", "max_acceleration", true),
-                                limits.Get("has_deceleration_limits", "max_deceleration", true));
-    entry.jerk = limits.Get("has_jerk_limits", "max_jerk", true);
+    entry.lower = limits.Get("has_position_limits", "min_position", Limits::kAny, "max_position");
+    entry.upper = limits.Get("has_position_limits", "max_position", Limits::kAny, "min_position");
+    entry.velocity = limits.Get("has_velocity_limits", "max_velocity", kLeastVelocity);
+    entry.effort = limits.Get("has_effort_limits", "max_effort", kLeastEffort);
+    entry.acceleration =
+        Lesser(limits.Get("has_acceleration_limits", "max_acceleration", kLeastAcceleration),
+               limits.Get("has_deceleration_limits", "max_deceleration", kLeastAcceleration));
+    entry.jerk = limits.Get("has_jerk_limits", "max_jerk", kLeastJerk);
   }
   errors.Throw();
 }

@@ -18,7 +18,7 @@ namespace oca::robot {
 ///                 has_acceleration_limits: true, max_acceleration: 3.75}
 ///
 /// They narrow those of the description, and never widen them: has_position_limits with
-/// min_position and max_position, has_velocity_limits, has_acceleration_limits,
+/// min_position and max_position or one of the two, has_velocity_limits, has_acceleration_limits,
 /// has_deceleration_limits (as our limit is one for both, the lesser counts), has_jerk_limits,
 /// has_effort_limits. A number counts if its has_... is not false. `joint_limits` may stand below
 /// other keys; what else is there, as scaling factors of requests, is not read.
@@ -28,7 +28,8 @@ class JointLimitsFile {
   /// Narrows nothing.
   JointLimitsFile() = default;
   /// throws ModelError `file:line: ...` for what is no YAML or has no joint_limits, for numbers
-  ///        that are missing, not finite or not above 0, and for keys that look misspelt
+  ///        that are missing, not finite or smaller than any limit (kLeastVelocity ...), and for
+  ///        keys that look misspelt
   explicit JointLimitsFile(const std::filesystem::path& file);
 
   /// Narrows the ranges of joints.

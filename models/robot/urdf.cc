@@ -5,9 +5,8 @@
 #include <fmt/ranges.h>
 #include <tinyxml.h>
 
-#include <algorithm>
-
 #include "oca/models/error.h"
+#include "oca/models/geometry/collider.h"
 #include "oca/models/geometry/decomposition.h"
 #include "oca/models/geometry/mesh_surface.h"
 #include "oca/models/robot/fuse_capsules.h"
@@ -15,6 +14,7 @@
 #include "oca/models/robot/joint_limits.h"
 #include "oca/models/robot/joint_limits_file.h"
 #include "oca/models/robot/mesh_path.h"
+#include "oca/models/robot/scale_warnings.h"
 #include "oca/models/robot/srdf.h"
 #include "oca/models/robot/urdf_newer.h"
 #include "oca/models/robot/urdf_outline.h"
@@ -59,8 +59,9 @@ class UrdfReader {
       joints_ = HoldJoints(MakeModel(links_, joints_, {}), srdf, options_.held);
     }
     GiveLimits(joints_, options_.acceleration_limits, where_ + ": acceleration_limits",
-               &Joint::acceleration_limit);
-    GiveLimits(joints_, options_.jerk_limits, where_ + ": jerk_limits", &Joint::jerk_limit);
+               kLeastAcceleration, &Joint::acceleration_limit);
+    GiveLimits(joints_, options_.jerk_limits, where_ + ": jerk_limits", kLeastJerk,
+               &Joint::jerk_limit);
     limits.TightenRates(joints_);
     RobotModel model = MakeModel(std::move(links_), std::move(joints_), srdf);
     Warn(model);
@@ -115,6 +116,7 @@ class UrdfReader {
           softened_.size() > 1 ? "s" : "", fmt::join(softened_, "', '")));
     }
     for (const std::string& line : LimitWarnings(model)) Tell(line);
+    for (const std::string& line : ScaleWarnings(model)) Tell(line);
   }
 
   /// Two soft limits that are equal are none, as they are 0 where they are left out.
@@ -191,11 +193,10 @@ class UrdfReader {
 
   std::string WhereIs(const UrdfOutline::Link& link, const UrdfOutline::Element& element,
                       const char* kind) const {
-    return fmt::format("{}: link '{}' {}", Source(element), link.name, kind);
-  }
-  std::string Source(const UrdfOutline::Element& element) const {
     const std::string line = fmt::format("{}:{}", where_, element.line);
-    return expanded_ == nullptr ? line : expanded_->WithPlaces(line, where_);
+    return fmt::format("{}: link '{}' {}",
+                       expanded_ == nullptr ? line : expanded_->WithPlaces(line, where_), link.name,
+                       kind);
   }
 
   std::vector<NeededMesh> NeededMeshes() const {
@@ -223,10 +224,11 @@ class UrdfReader {
     std::vector<CollisionElement> solids;
     for (std::size_t i = 0; i < elements.size(); ++i) {
       errors_.Try([&] {
-        geometry::Shape shape =
-            ReadShape(*elements[i]->geometry, link.name, kind, WhereIs(link, outlines[i], kind));
+        const std::string where = WhereIs(link, outlines[i], kind);
+        geometry::Shape shape = ReadShape(*elements[i]->geometry, link.name, kind, where);
         if (newer_.IsCapsule(*root_, kind, link.name, i)) shape = CapsuleOf(shape);
-        solids.push_back({ToPose(elements[i]->origin), std::move(shape), Source(outlines[i])});
+        if (outlines[i].mesh.empty()) geometry::Collider(shape, where);  // refuses what is too flat
+        solids.push_back({ToPose(elements[i]->origin), std::move(shape), where});
       });
     }
     return solids;

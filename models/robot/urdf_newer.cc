@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "oca/models/error.h"
-#include "oca/models/geometry/rotation.h"
+#include "oca/models/robot/urdf_shape.h"
 #include "oca/models/robot/xml_reader.h"
 
 namespace oca::robot {
@@ -27,8 +27,7 @@ Eigen::Vector3d ToRollPitchYaw(const Eigen::Matrix3d& R) {
 
 class Rewriter {
  public:
-  Rewriter(const std::string& where, models::ModelErrors& errors)
-      : where_(where), errors_(errors), xml_(where) {}
+  Rewriter(const std::string& where, models::ModelErrors& errors) : errors_(errors), xml_(where) {}
 
   NewerUrdf Run(TiXmlElement& root) {
     const char* const version = root.Attribute("version");
@@ -40,7 +39,7 @@ class Rewriter {
     }
     for (auto* e = root.FirstChildElement("joint"); e != nullptr;
          e = e->NextSiblingElement("joint")) {
-      errors_.Try([&] { RewriteOrigin(*e); });
+      RewriteOrigin(*e);
     }
     for (auto* e = root.FirstChildElement("link"); e != nullptr;
          e = e->NextSiblingElement("link")) {
@@ -52,46 +51,45 @@ class Rewriter {
  private:
   void RewriteLink(TiXmlElement& link) {
     for (auto* e = link.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
-      errors_.Try([&] { RewriteOrigin(*e); });
+      RewriteOrigin(*e);
       const std::string& kind = e->ValueStr();
-      if (kind != "collision" && kind != "visual") continue;
-      errors_.Try([&] {
-        if (RewriteCapsule(*e)) newer_.capsules.insert(e);
-      });
+      if (kind == "collision" || kind == "visual") RewriteCapsule(*e);
     }
+  }
+
+  /// What throws is refused where it is read (CheckUrdfOrigin, CheckUrdfGeometry).
+  template <class Check>
+  static bool Right(const Check& check) {
+    models::ModelErrors errors;
+    errors.Try(check);
+    return errors.empty();
   }
 
   void RewriteOrigin(TiXmlElement& parent) {
     auto* const origin = parent.FirstChildElement("origin");
     if (origin == nullptr || origin->Attribute(kQuaternion) == nullptr) return;
-    if (origin->Attribute("rpy") != nullptr) {
-      xml_.Fail(*origin, kQuaternion, "rpy beside it", "one of the two");
-    }
-    const auto numbers = xml_.Numbers(*origin, kQuaternion, 4);
-    const std::string where =
-        fmt::format("{}:{}: <origin>: {}", where_, origin->Row(), kQuaternion);
-    const Eigen::Quaterniond q = geometry::FromQuaternion(Eigen::Vector4d(numbers.data()), where);
-    const Eigen::Vector3d rpy = ToRollPitchYaw(q.normalized().toRotationMatrix());
+    Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
+    if (!Right([&] { q = UrdfQuaternion(xml_, *origin); })) return;
+    const Eigen::Vector3d rpy = ToRollPitchYaw(q.toRotationMatrix());
     origin->SetAttribute("rpy", fmt::format("{} {} {}", rpy.x(), rpy.y(), rpy.z()));
     origin->RemoveAttribute(kQuaternion);
     newer_.changed = true;
   }
 
-  bool RewriteCapsule(TiXmlElement& solid) {
+  void RewriteCapsule(TiXmlElement& solid) {
     auto* const geometry = solid.FirstChildElement("geometry");
     auto* const shape = geometry == nullptr ? nullptr : geometry->FirstChildElement("capsule");
-    if (shape == nullptr) return false;
-    xml_.Positive(*shape, "radius", 1);
-    const double length = xml_.Numbers(*shape, "length", 1, true).front();
-    if (length < 0.0) xml_.Fail(*shape, "length", fmt::format("{}", length), "0 or more");
+    if (shape == nullptr || !Right([&] { CheckUrdfGeometry(xml_, solid); })) return;
     newer_.changed = true;
-    const bool none = length == 0.0;
-    shape->SetValue(none ? "sphere" : "cylinder");
-    if (none) shape->RemoveAttribute("length");
-    return !none;
+    if (xml_.Numbers(*shape, "length", 1, true).front() > 0.0) {
+      shape->SetValue("cylinder");
+      newer_.capsules.insert(&solid);
+    } else {
+      shape->SetValue("sphere");
+      shape->RemoveAttribute("length");
+    }
   }
 
-  const std::string& where_;
   models::ModelErrors& errors_;
   const XmlReader xml_;
   NewerUrdf newer_;

@@ -24,8 +24,9 @@ struct NewerUrdf {
 /// Says a URDF document, below `root`, in the words of URDF 1.0: `quat_xyzw` of <origin> becomes
 /// rpy, <capsule radius length> a cylinder of these (a sphere, if it has no length), and version
 /// 1.1 version 1.0.
-/// Into `errors` go, with file, `where`, and line, another version, a quaternion beside rpy, or
-/// that is none, and sizes of a capsule that are none; what is wrong stays as it is.
+/// Into `errors` goes, with file, `where`, and line, another version. Quaternions and capsules that
+/// are none stay, for RepairUrdf to take out where they are only drawn, else for ReadUrdfOutline to
+/// refuse.
 /// source ros/urdfdom, pull requests 235 (quaternions) and 238 (capsules): `length` is that of the
 ///        part between the half spheres
 NewerUrdf RewriteNewerUrdf(TiXmlElement& root, const std::string& where,

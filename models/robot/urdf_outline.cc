@@ -4,11 +4,12 @@
 #include <fmt/format.h>
 #include <tinyxml.h>
 
-#include <algorithm>
 #include <cmath>
 #include <set>
 #include <string_view>
 
+#include "oca/models/robot/joint_limits.h"
+#include "oca/models/robot/urdf_shape.h"
 #include "oca/models/robot/xml_reader.h"
 
 namespace oca::robot {
@@ -67,26 +68,19 @@ class OutlineReader {
         xml_.CheckChildren(*e, {"origin", "geometry", "material"},
                            {"contact_coefficients", "verbose"});
       });
-      Try([&] { CheckOrigin(*e); });
+      Try([&] { CheckUrdfOrigin(xml_, *e); });
       UrdfOutline::Element body{e->Row()};
-      Try([&] { body.mesh = CheckGeometry(*e); });
+      Try([&] { body.mesh = CheckUrdfGeometry(xml_, *e); });
       (collision ? link.collisions : link.visuals).push_back(std::move(body));
     }
     return link;
   }
 
-  void CheckOrigin(const TiXmlElement& parent) const {
-    const auto* origin = parent.FirstChildElement("origin");
-    if (origin == nullptr) return;
-    xml_.CheckAttributes(*origin, {"xyz", "rpy"});
-    const auto xyz = xml_.Numbers(*origin, "xyz", 3);
-    xml_.Numbers(*origin, "rpy", 3);
-    if (parent.ValueStr() == "visual") return;  // only drawn
-    for (const double part : xyz) {
-      if (std::fabs(part) <= kFarthest) continue;
-      xml_.Fail(*origin, "xyz", fmt::format("'{}'", origin->Attribute("xyz")),
-                fmt::format("at most {:g} m", kFarthest));
-    }
+  std::optional<double> ReadRate(const TiXmlElement& limit, const char* what, double least) const {
+    if (limit.Attribute(what) == nullptr) return std::nullopt;
+    const double rate = xml_.Positive(limit, what, 1).front();
+    if (rate >= least) return rate;
+    xml_.Fail(limit, what, fmt::format("{}", rate), fmt::format("{:g} or more", least));
   }
 
   /// 0 counts as not given.
@@ -95,43 +89,6 @@ class OutlineReader {
     if (number.empty() || number[0] == 0.0 || number[0] >= kLeastVelocity) return;
     xml_.Fail(limit, "velocity", fmt::format("{}", number[0]),
               fmt::format("0 or more, and at least {:g} rad/s or m/s if not 0", kLeastVelocity));
-  }
-
-  /// Returns the file of a mesh.
-  std::string CheckGeometry(const TiXmlElement& element) const {
-    const auto* geometry = element.FirstChildElement("geometry");
-    if (geometry == nullptr) xml_.Fail(element, "geometry", "none", "a <geometry>");
-    const auto* shape = geometry->FirstChildElement();
-    if (shape == nullptr || shape->NextSiblingElement() != nullptr) {
-      xml_.Fail(*geometry, "shapes", shape == nullptr ? "none" : "several", "one shape");
-    }
-    const std::string& kind = shape->ValueStr();
-    if (kind == "sphere") {
-      xml_.CheckAttributes(*shape, {"radius"});
-      xml_.Positive(*shape, "radius", 1);
-    } else if (kind == "cylinder") {
-      xml_.CheckAttributes(*shape, {"radius", "length"});
-      xml_.Positive(*shape, "radius", 1);
-      xml_.Positive(*shape, "length", 1);
-    } else if (kind == "box") {
-      xml_.CheckAttributes(*shape, {"size"});
-      xml_.Positive(*shape, "size", 3);
-    } else if (kind == "mesh") {
-      return CheckMesh(*shape);
-    } else {
-      xml_.Fail(*shape, "unknown geometry", kind, "sphere, box, cylinder, capsule or mesh");
-    }
-    return {};
-  }
-
-  std::string CheckMesh(const TiXmlElement& mesh) const {
-    xml_.CheckAttributes(mesh, {"filename", "scale"});
-    std::string file = xml_.Text(mesh, "filename");
-    const auto scale = xml_.Numbers(mesh, "scale", 3);
-    if (std::find(scale.begin(), scale.end(), 0.0) != scale.end()) {
-      xml_.Fail(mesh, "scale", fmt::format("'{}'", mesh.Attribute("scale")), "no zero");
-    }
-    return file;
   }
 
   UrdfOutline::Joint ReadJoint(const TiXmlElement& element) {
@@ -146,7 +103,7 @@ class OutlineReader {
     });
     Try([&] { joint.parent = ReadReference(element, "parent", "link"); });
     Try([&] { joint.child = ReadReference(element, "child", "link"); });
-    Try([&] { CheckOrigin(element); });
+    Try([&] { CheckUrdfOrigin(xml_, element); });
     Try([&] { ReadMotion(element, joint); });
     if (const auto* mimic = element.FirstChildElement("mimic"); mimic != nullptr) {
       Try([&] { joint.mimic = ReadMimic(*mimic); });
@@ -210,15 +167,11 @@ class OutlineReader {
                 "lower <= upper");
     }
     CheckVelocity(*limit);
-    if (limit->Attribute("acceleration") != nullptr) {
-      joint.acceleration = xml_.Positive(*limit, "acceleration", 1).front();
-    }
-    if (limit->Attribute("jerk") != nullptr) joint.jerk = xml_.Positive(*limit, "jerk", 1).front();
+    joint.acceleration = ReadRate(*limit, "acceleration", kLeastAcceleration);
+    joint.jerk = ReadRate(*limit, "jerk", kLeastJerk);
   }
 
   static constexpr double kLeastAxis = 1e-6, kMostAxis = 1e6;
-  static constexpr double kFarthest = 1e6;  // m; from there on a double no longer tells 1e-10 apart
-  static constexpr double kLeastVelocity = 1e-6;  // rad/s, m/s; a radian in ten days
 
   XmlReader xml_;
   models::ModelErrors& errors_;

@@ -8,9 +8,9 @@ class TiXmlElement;
 namespace oca::robot {
 
 /// Takes out of a URDF document, below `root`, what is wrong in it and that nothing here reads, so
-/// that a robot is not refused for it: attributes that URDF does not have, visuals that say no
-/// size, no place or no shape, materials that are said twice, without a name or whose colour is
-/// none, inertias that are incomplete, no numbers or of negative mass, dynamics, calibrations and
+/// that a robot is not refused for it: attributes that URDF does not have, visuals without a
+/// place, a shape or its size, materials that are said twice, without a name or a colour that is
+/// one, inertias that are incomplete, no numbers or of negative mass, dynamics, calibrations and
 /// gains of safety controllers that are no numbers, limits and axes of fixed joints. A floating or
 /// planar joint below the root link becomes a fixed one: where the robot stands is said elsewhere.
 /// A limit of the effort that is missing, no number or below 0 becomes 0, which means none

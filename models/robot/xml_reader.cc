@@ -46,10 +46,14 @@ std::string HolderOf(const TiXmlElement& element) {
 
 }  // namespace
 
+std::string XmlReader::Place(const TiXmlElement& element, std::string_view what) const {
+  return fmt::format("{}:{}: {}<{}>: {}", where_, element.Row(), HolderOf(element),
+                     element.ValueStr(), what);
+}
+
 std::string XmlReader::Describe(const TiXmlElement& element, std::string_view what,
                                 std::string_view got, std::string_view expected) const {
-  return fmt::format("{}:{}: {}<{}>: {}; got {}; expected {}", where_, element.Row(),
-                     HolderOf(element), element.ValueStr(), what, got, expected);
+  return fmt::format("{}; got {}; expected {}", Place(element, what), got, expected);
 }
 
 void XmlReader::Fail(const TiXmlElement& element, std::string_view what, std::string_view got,

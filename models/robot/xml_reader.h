@@ -19,7 +19,9 @@ class XmlReader {
   /// `where` names the file.
   explicit XmlReader(std::string where) : where_(std::move(where)) {}
 
-  /// That text.
+  /// `file:line: link 'NAME' <element>: what`
+  std::string Place(const TiXmlElement& element, std::string_view what) const;
+  /// The whole text.
   std::string Describe(const TiXmlElement& element, std::string_view what, std::string_view got,
                        std::string_view expected) const;
   [[noreturn]] void Fail(const TiXmlElement& element, std::string_view what, std::string_view got,

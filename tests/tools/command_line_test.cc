@@ -37,6 +37,14 @@ TEST_F(CommandLineTest, AMethodIsJudgedByWhatItKeeps) {
   EXPECT_THAT(wider.out, HasSubstr("met min_distance >= 0.0946 "));
 }
 
+TEST_F(CommandLineTest, ARunSaysWhetherTheArmKeptItsLimits) {
+  const std::string command =
+      "$S run diagrams/static_test.yaml -t 6 -s parameters.avoidance=report "
+      "-s models.arm.acceleration_limits=";
+  EXPECT_THAT(run(command + "0.5").out, HasSubstr("limits       NOT KEPT"));
+  EXPECT_THAT(run(command + "1000").out, testing::Not(HasSubstr("NOT KEPT")));
+}
+
 TEST_F(CommandLineTest, ARateOfZeroIsOneError) {
   const Ran ran = run("$S run diagrams/static_test.yaml -s parameters.rate=0");
   EXPECT_EQ(ran.status, 2);

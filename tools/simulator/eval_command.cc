@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,8 +39,24 @@ files::ModelParams ModelFrom(const std::string& name, const std::string& text,
   return params;
 }
 
+/// What `load` throws says first, in each line, that --model names `name`.
+template <class Load>
+auto OfModel(const std::string& name, const Load& load) {
+  try {
+    return load();
+  } catch (const Error& error) {
+    std::istringstream lines(error.what());
+    std::string text;
+    for (std::string line; std::getline(lines, line);) {
+      text += fmt::format("{}--model {}: {}", text.empty() ? "" : "\n", name, line);
+    }
+    throw ConfigError(text);
+  }
+}
+
 systems::ModelSet LoadModels(const EvalArguments& arguments) {
-  std::vector<std::pair<std::string, files::ModelParams>> models;
+  systems::ModelSet models;
+  const auto tell = [](const std::string& line) { Tell("warning: {}\n", line); };
   auto given = ParseArgumentsOfModels(arguments.arguments);
   for (const std::string& argument : arguments.models) {
     const std::size_t equals = argument.find('=');
@@ -47,15 +64,17 @@ systems::ModelSet LoadModels(const EvalArguments& arguments) {
       throw ConfigError(fmt::format("--model: got '{}'; expected NAME=URDF", argument));
     }
     const std::string name = argument.substr(0, equals);
-    models.emplace_back(
-        name, ModelFrom(name, argument.substr(equals + 1), std::exchange(given[name], {})));
+    const files::ModelParams params =
+        ModelFrom(name, argument.substr(equals + 1), std::exchange(given[name], {}));
+    const auto loaded = OfModel(name, [&] { return files::LoadModels({{name, params}}, tell); });
+    models.Add(name, loaded.Get(name));
   }
   for (const auto& [name, unused] : given) {
     if (unused.empty()) continue;
     throw ConfigError(fmt::format("--argument: got '{}.{}'; expected a model that --model names",
                                   name, unused.begin()->first));
   }
-  return files::LoadModels(models, [](const std::string& line) { Tell("warning: {}\n", line); });
+  return models;
 }
 
 }  // namespace

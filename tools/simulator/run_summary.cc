@@ -140,6 +140,15 @@ std::string MotionLine(const MotionMetricsValue& metrics, const std::string& uni
   return lines + (text.empty() ? "" : Line("motion", text));
 }
 
+std::string LimitsLine(const MotionMetricsValue& metrics, bool colour) {
+  const double beyond = metrics.limit_violations.value_or(0.0);
+  if (beyond == 0.0) return "";
+  return Line("limits", Bad("NOT KEPT", colour) +
+                            fmt::format(": {} times a joint was beyond its position, speed or "
+                                        "acceleration limit at a sample",
+                                        beyond));
+}
+
 std::string ExpectationLines(const runs::RunResult& result, bool colour) {
   std::string lines;
   for (const runs::ExpectationResult& expectation : result.expectations) {
@@ -172,7 +181,8 @@ std::string RunSummary(const loading::LoadedDiagram& loaded, const runs::RunResu
   const MotionMetricsValue metrics = result.metrics.value_or(MotionMetricsValue());
   text += ClearanceLine(metrics, result.duration, judged, colour) + NotSeenLine(loaded) +
           GoalLine(metrics, loaded, colour) + BlockedLines(result) +
-          MotionLine(metrics, runs::PositionUnit(loaded)) + ExpectationLines(result, colour);
+          MotionLine(metrics, runs::PositionUnit(loaded)) + LimitsLine(metrics, colour) +
+          ExpectationLines(result, colour);
   text += Line("time", fmt::format("{:g} s in {:.3g} s, {:.0f} times real time; {} steps",
                                    result.duration, result.wall_seconds,
                                    result.duration / result.wall_seconds, result.statistics.steps));

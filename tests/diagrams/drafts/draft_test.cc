@@ -121,7 +121,7 @@ TEST_F(DraftTest, OfASmallArmHasSmallDistances) {
   const Draft draft = Make(ArmWithGripper(0.3));
   EXPECT_TRUE(draft.attempt.contact());
   EXPECT_TRUE(draft.attempt.evaded());
-  EXPECT_THAT(Content(draft.diagram), HasSubstr("  scale: 0.4"));
+  EXPECT_THAT(Content(draft.diagram), HasSubstr("  scale: 0.38"));
 }
 
 /// A rail along x, a lift, and a boom of two segments along y with a tool at its end.

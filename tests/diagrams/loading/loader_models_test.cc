@@ -88,6 +88,16 @@ TEST_F(PackageTest, FoldersThatAreNoTextAreRefused) {
               HasSubstr("packages.lwr4: got 3; expected a folder"));
 }
 
+TEST_F(LoaderModelsTest, WhatTheRobotMakesWrongIsToldWhereItIsSaid) {
+  EXPECT_THAT(
+      Refusal("models: {arm: {urdf: package://planar2/planar2.urdf, acceleration_limits: [1, 2, "
+              "3]}}\n" +
+              Chain()),
+      testing::AllOf(HasSubstr("d.yaml:1:75: error: models.arm: "),
+                     HasSubstr("planar2.urdf: acceleration_limits: got 3 numbers; expected 1 or "
+                               "2")));
+}
+
 TEST_F(LoaderModelsTest, FilesAreFoundBesideTheFileThatNamesThem) {
   folder.Write("parts/box.obj",
                "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");

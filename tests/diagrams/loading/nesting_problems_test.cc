@@ -241,7 +241,7 @@ TEST_F(NestingProblemsTest, ChecksWhatAUsedFileSaysOfARun) {
       AllOf(HasSubstr("stage.yaml:10:14: error: in first and second: description: got 3"),
             HasSubstr("stage.yaml:11:23: error: in first and second: simulator.duration: got -1"),
             HasSubstr("simulator.intgrator: unknown key"),
-            HasSubstr("record.scene: got -5; expected a rate > 0 Hz")));
+            HasSubstr("record.scene: got -5; expected a rate above 0, at most 1000000 Hz")));
   folder.Write("stage.yaml", std::string(kStage) + "simulator: {duration: 99}\n");
   EXPECT_EQ(Load(TwoStages()).simulator.duration, 1.0);
 }

@@ -40,6 +40,12 @@ std::string Nested(int levels) { return std::string(levels, '[') + std::string(l
 TEST(JsonTextTest, SaysWhereATextIsNoJson) {
   EXPECT_EQ(RefusalOf(R"({"a": 1})"), "accepted");
   EXPECT_EQ(RefusalOf(R"({"a": 1,})"), "JSON: byte 9: syntax; got '}'; expected valid JSON");
+  EXPECT_EQ(RefusalOf(R"({"a": [1, -2.5e400]})"),
+            "JSON: byte 11: number; got -2.5e400; expected finite numbers, up to 1.8e308");
+  EXPECT_EQ(RefusalOf("1e999"),
+            "JSON: byte 1: number; got 1e999; expected finite numbers, up to 1.8e308");
+  EXPECT_EQ(RefusalOf(R"({"a": 1, "b": {"a": 2, "b": 3}, "a": 4})"),
+            "JSON: byte 33: duplicate key; got 'a'; expected each key once");
   EXPECT_EQ(RefusalOf("[1"), "JSON: byte 3: syntax; got its end; expected valid JSON");
   EXPECT_THAT(RefusalOf(""), HasSubstr("got its end"));
   EXPECT_THAT(RefusalOf("\x1b[2J"), HasSubstr("got '?[2J'"));

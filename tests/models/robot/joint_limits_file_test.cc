@@ -93,7 +93,11 @@ TEST(JointLimitsFileTest, WhatIsWrongIsRefusedWithItsLine) {
   };
   EXPECT_THAT(of_elbow("max_velocity: -1"),
               AllOf(HasSubstr("joint_limits.yaml:3: joint 'elbow': max_velocity; got '-1'"),
-                    HasSubstr("a number above 0")));
+                    HasSubstr("a number of 1e-06 or more")));
+  EXPECT_THAT(of_elbow("max_acceleration: 1.0e-300"), HasSubstr("a number of 1e-06 or more"));
+  EXPECT_EQ(of_elbow("has_position_limits: true\n    max_position: 2"), "accepted");
+  EXPECT_THAT(of_elbow("has_position_limits: true"),
+              AllOf(HasSubstr("min_position; got none"), HasSubstr("max_position; got none")));
   EXPECT_THAT(of_elbow("max_velocity: .inf"), HasSubstr("got '.inf'"));
   EXPECT_THAT(of_elbow("max_velocity: nan"), HasSubstr("got 'nan'"));
   EXPECT_THAT(of_elbow("has_velocity_limits: true"),

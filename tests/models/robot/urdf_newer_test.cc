@@ -64,11 +64,11 @@ TEST(UrdfNewerTest, CapsulesOfNoSizeAreRefused) {
 TEST(UrdfNewerTest, AllThatIsWrongIsToldAtOnce) {
   const std::string refusal = RefusalOf(
       "<link name='a'>\n" + Solid("collision", "<capsule radius='0' length='1'/>") + "\n" +
-      Solid("visual", "<capsule radius='1'/>", "<origin quat_xyzw='0 0 0 0'/>") + "\n</link>" +
+      Solid("collision", "<capsule radius='1'/>", "<origin quat_xyzw='0 0 0 0'/>") + "\n</link>" +
       "<link name='b'><collision><geometry><sphere radius='none'/></geometry></collision></link>");
   EXPECT_THAT(refusal, testing::AllOf(HasSubstr("r.urdf:3: link 'a' <capsule>: radius"),
                                       HasSubstr("r.urdf:4: link 'a' <capsule>: length"),
-                                      HasSubstr("r.urdf:4: <origin>: quat_xyzw"),
+                                      HasSubstr("r.urdf:4: link 'a' <origin>: quat_xyzw"),
                                       HasSubstr("link 'b' <sphere>: radius")));
 }
 
@@ -103,7 +103,8 @@ TEST(UrdfNewerTest, QuaternionsThatAreNoneAreRefused) {
   };
   EXPECT_THAT(refusal("quat_xyzw='0 0 0 1' rpy='0 0 0'"),
               HasSubstr("r.urdf:3: link 'a' <origin>: quat_xyzw; got rpy beside it"));
-  EXPECT_THAT(refusal("quat_xyzw='0 0 0 0'"), HasSubstr("r.urdf:3: <origin>: quat_xyzw: length"));
+  EXPECT_THAT(refusal("quat_xyzw='0 0 0 0'"),
+              HasSubstr("r.urdf:3: link 'a' <origin>: quat_xyzw: length"));
   EXPECT_THAT(refusal("quat_xyzw='0 0 1'"), HasSubstr("quat_xyzw; got '0 0 1'; expected 4"));
   EXPECT_THAT(refusal("quat_xyzw='0 0 nan 1'"), HasSubstr("expected 4 finite numbers"));
 }

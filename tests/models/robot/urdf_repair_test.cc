@@ -54,7 +54,8 @@ TEST(UrdfRepairTest, KindsAreSummedUpOrToldEach) {
   ParseUrdf("<robot name='r'>\n" + links + "</robot>", "r.urdf", options);
   EXPECT_THAT(sums, ElementsAre(AllOf(HasSubstr("link 'c'"), HasSubstr("and 2 more"))));
   ASSERT_EQ(each.size(), 5u);
-  EXPECT_THAT(each[4], HasSubstr("visuals of no size, not drawn: of link 'e'"));
+  EXPECT_THAT(each[4],
+              HasSubstr("visuals without a place, a shape or its size, not drawn: of link 'e'"));
 }
 
 TEST(UrdfRepairTest, NothingIsSaidOfWhatIsRight) {
@@ -135,13 +136,40 @@ TEST(UrdfRepairTest, TheFirstMaterialCountsAndColoursAreFourNumbers) {
                           HasSubstr("four numbers from 0 to 1, left out: 'loud' (line 4)")));
 }
 
+TEST(UrdfRepairTest, AMaterialOfTheRobotThatIsNoColourIsLeftOut) {
+  for (const char* colour : {"", "<color/>", "<texture/>", "<color rgba='1 0 0'/>"}) {
+    const Loaded loaded = Load("<material name='red'>" + std::string(colour) +
+                               "</material><link name='arm'><visual>" + kShape +
+                               "<material name='red'/></visual></link>");
+    EXPECT_EQ(loaded.model.links()[0].visuals.size(), 1u) << colour;
+    EXPECT_THAT(loaded.warnings,
+                ElementsAre(HasSubstr("four numbers from 0 to 1, left out: 'red' (line 2)")))
+        << colour;
+  }
+  EXPECT_THAT(Load("<material name='wood'><texture filename='wood.png'/></material>"
+                   "<link name='arm'/>")
+                  .warnings,
+              IsEmpty());
+}
+
+TEST(UrdfRepairTest, NumbersMayStandInSeveralLines) {
+  const Loaded loaded = LoadLink(
+      "<inertial><mass value=' 2\n'/><inertia ixx='1 ' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/>"
+      "</inertial><collision><origin xyz='1\t2\r\n   3 '/><geometry><box size='\n1 2\n3'/>"
+      "</geometry></collision>");
+  EXPECT_EQ(loaded.model.links()[0].collisions[0].X_LC.translation(), Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(loaded.model.links()[0].inertia.mass, 2.0);
+  EXPECT_THAT(loaded.warnings, IsEmpty());
+}
+
 TEST(UrdfRepairTest, VisualsOfNoSizeAreNotDrawn) {
   const Loaded loaded = LoadLink(
       "<visual><geometry><box size='0 1 1'/></geometry></visual>"
       "<visual>" +
       kShape + "</visual>");
   EXPECT_EQ(loaded.model.links()[0].visuals.size(), 1u);
-  EXPECT_THAT(loaded.warnings, ElementsAre(HasSubstr("visuals of no size, not drawn")));
+  EXPECT_THAT(loaded.warnings,
+              ElementsAre(HasSubstr("visuals without a place, a shape or its size, not drawn")));
   EXPECT_THROW(LoadLink("<collision><geometry><box size='0 1 1'/></geometry></collision>"),
                models::ModelError);
 }
@@ -195,14 +223,16 @@ TEST(UrdfRepairTest, AVisualThatNobodyCanDrawIsNotDrawn) {
         "<geometry><cylinder radius='1'/></geometry>", "<geometry><mesh/></geometry>",
         "<geometry><mesh filename=''/></geometry>",
         "<geometry><sphere radius='1'/><sphere radius='2'/></geometry>",
-        "<origin xyz='a b'/><geometry><sphere radius='1'/></geometry>"}) {
+        "<origin xyz='a b'/><geometry><sphere radius='1'/></geometry>",
+        "<origin quat_xyzw='0 0 0 0'/><geometry><sphere radius='1'/></geometry>",
+        "<geometry><capsule radius='1' length='-1'/></geometry>"}) {
     const Loaded loaded = LoadLink("<visual>" + std::string(visual) + "</visual><visual>" + kShape +
                                    "</visual><collision>" + kShape + "</collision>");
     EXPECT_EQ(loaded.model.links()[0].visuals.size(), 1u) << visual;
     EXPECT_EQ(loaded.model.links()[0].collisions.size(), 1u) << visual;
     EXPECT_THAT(loaded.warnings,
-                ElementsAre("visuals that say no place or no shape, not drawn: of link 'arm' "
-                            "(line 2)"))
+                ElementsAre("visuals without a place, a shape or its size, not drawn: of link "
+                            "'arm' (line 2)"))
         << visual;
     // What the arm collides with is no picture.
     EXPECT_THROW(LoadLink("<collision>" + std::string(visual) + "</collision>"),

@@ -84,7 +84,7 @@ TEST(UrdfTest, ReadsCollisionShapesWithPoseAndPlace) {
   EXPECT_EQ(std::get<geometry::Box>(collisions[0].shape).size, Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(std::get<geometry::Sphere>(collisions[1].shape).radius, 0.5);
   EXPECT_EQ(std::get<geometry::Cylinder>(collisions[2].shape).length, 4.0);
-  EXPECT_EQ(collisions[1].source, "arm.urdf:10");
+  EXPECT_EQ(collisions[1].source, "arm.urdf:10: link 'upper' collision");
   // Fixed axes: roll first, yaw last.
   const Eigen::Matrix3d R = (Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()) *
                              Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitY()) *
