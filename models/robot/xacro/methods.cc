@@ -144,7 +144,14 @@ PythonValue Found(const std::string& text, const std::string& name, const Argume
   return Size(CharacterOffsets(text.substr(0, at)).size() - 1);
 }
 
+/// What letters beyond ASCII are, in which case, is not known here.
+void RequireAscii(const std::string& what, const std::string& text) {
+  if (std::all_of(text.begin(), text.end(), [](char c) { return (c & 0x80) == 0; })) return;
+  throw Mistake(what, Shown(PythonValue(text)), "characters of ASCII");
+}
+
 std::string Cased(std::string text, const std::string& name) {
+  RequireAscii(name + "()", text);
   bool first = true;
   for (char& c : text) {
     const bool letter = std::isalpha(static_cast<unsigned char>(c)) != 0;
@@ -163,10 +170,10 @@ PythonValue ZeroFilled(const std::string& text, const Arguments& arguments) {
     throw Mistake("zfill()", Shown(width), "a whole number up to 1000");
   }
   const auto least = static_cast<std::size_t>(std::max<std::int64_t>(width.whole(), 0));
-  if (text.size() >= least) return PythonValue(text);
+  const std::size_t size = CharacterOffsets(text).size() - 1;
+  if (size >= least) return PythonValue(text);
   const std::size_t sign = text.starts_with('-') || text.starts_with('+') ? 1 : 0;
-  return PythonValue(text.substr(0, sign) + std::string(least - text.size(), '0') +
-                     text.substr(sign));
+  return PythonValue(text.substr(0, sign) + std::string(least - size, '0') + text.substr(sign));
 }
 
 PythonValue CallOfText(const std::string& text, const std::string& name,
@@ -183,6 +190,7 @@ PythonValue CallOfText(const std::string& text, const std::string& name,
     CheckCount(what, arguments, 0, 1);
     const std::string of =
         arguments.values.empty() ? std::string(kBlank) : TextArgument(what, arguments, 0);
+    RequireAscii(what, of);
     return PythonValue(Stripped(text, of, name != "rstrip", name != "lstrip"));
   }
   if (name == "startswith" || name == "endswith") {
@@ -198,6 +206,7 @@ PythonValue CallOfText(const std::string& text, const std::string& name,
     return PythonValue::ListOf(std::move(lines));
   }
   if (name.starts_with("is")) {
+    RequireAscii(what, text);
     const auto fits = [&](char c) {
       const auto byte = static_cast<unsigned char>(c);
       return name == "isalpha" ? std::isalpha(byte) != 0 : std::isdigit(byte) != 0;

@@ -106,6 +106,9 @@ TEST(XacroExpressionTest, RefusesWithWhatItKnows) {
   ExpectRefused("'%s' % (1, 2)", "too many values");
   ExpectRefused("'%s %s' % (1,)", "too few values");
   ExpectRefused("'%n' % 1", "'%'");
+  ExpectRefused("'\u00e9'.upper()", "upper()");  // not known here, so not left as it is
+  ExpectRefused("'\u00e9'.isalpha()", "expected characters of ASCII");
+  ExpectRefused("'a\u00a0'.strip('\u00a0')", "strip()");
 }
 
 TEST(XacroExpressionTest, BoundsWhatAStrangerMayAskFor) {

@@ -160,6 +160,7 @@ constexpr std::pair<const char*, const char*> kCases[] = {
     {"'12'.isdigit()", "True"},
     {"'7'.zfill(3)", "007"},
     {"'-7'.zfill(4)", "-007"},
+    {"'\\u00e9'.zfill(3)", "00\u00e9"},
     {"'abc'.__len__()", "3"},
     {"[1, 2, 1].count(1)", "2"},
     {"['a', 'b'].index('b')", "1"},
