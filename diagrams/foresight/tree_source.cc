@@ -96,9 +96,9 @@ std::unique_ptr<Diagram> MakeTreeSource(const Value& root, const std::string& na
     return nullptr;
   }
   try {
-    Value params(Without(*entry, {"type", "period", "frequency"}), entry->location());
-    auto system = catalogue.Find(*type)->Make(Resolved(root, std::move(params), problems), where,
-                                              models, problems);
+    const Value params(Without(*entry, {"type", "period", "frequency"}), entry->location());
+    auto system =
+        catalogue.Find(*type)->Make(Resolved(root, params, problems), where, models, problems);
     if (!system) return nullptr;
     DiagramBuilder builder;
     builder.AddSystem(name, std::move(system));
