@@ -89,7 +89,8 @@ class StrictParser {
       Fail(at, "syntax", ShownFrom(text_, at), "valid JSON");
     } catch (const Json::out_of_range&) {
       constexpr std::string_view kDigits = "+-.0123456789eE";
-      const std::size_t last = text_.find_last_of(kDigits, Read());
+      // The parser has looked at the character behind the number, if there is one.
+      const std::size_t last = text_.find_last_of(kDigits, Read() - 1);
       const std::size_t first = text_.find_last_not_of(kDigits, last) + 1;
       Fail(first, "number", text_.substr(first, std::min<std::size_t>(last - first + 1, 40)),
            "finite numbers, up to 1.8e308");
@@ -112,9 +113,18 @@ class StrictParser {
     if (event != Json::parse_event_t::key) return true;
     const auto key = parsed.get<std::string>();
     if (open_.back().insert(key).second) return true;
-    const std::size_t first = text_.rfind(JsonText(parsed), Read());
-    Fail(first == text_.npos ? Read() - 1 : first, "duplicate key", fmt::format("'{}'", key),
-         "each key once");
+    Fail(BeginOfText(), "duplicate key", fmt::format("'{:.100}'", key), "each key once");
+  }
+
+  /// The opening quote of the text that has been read last.
+  std::size_t BeginOfText() const {
+    std::size_t at = Read() - 1;  // its closing quote
+    while (at > 0) {
+      at = text_.rfind('"', at - 1);
+      const std::size_t before = text_.find_last_not_of('\\', at - 1);
+      if (at == 0 || (at - 1 - before) % 2 == 0) break;
+    }
+    return at;
   }
 
   std::string_view text_;

@@ -15,7 +15,7 @@ namespace {
 constexpr double kManyRobots = 10.0;  // a shape so many times as long as the robot is none of it
 constexpr double kLargeShape = 10.0;  // m; what is smaller than that may be a tool
 
-/// The farthest that a point of the shape lies from the frame `X_FS` is given in, m.
+/// No point of the shape lies farther from the frame that `X_FS` is given in, m.
 double FarthestOf(const geometry::Shape& shape, const Eigen::Isometry3d& X_FS) {
   double farthest = 0.0;
   if (const auto* const mesh = std::get_if<geometry::ConvexMesh>(&shape)) {
@@ -41,7 +41,8 @@ std::vector<std::string> ScaleWarnings(const RobotModel& model) {
   for (const Joint& joint : model.joints()) {  // parents first
     const auto parent = static_cast<std::size_t>(joint.parent_link);
     const auto child = static_cast<std::size_t>(joint.child_link);
-    away[child] = away[parent] + joint.X_PJ.translation().norm();
+    // What stands, and where the arm stands on it, is the place and not the arm.
+    away[child] = moves[parent] ? away[parent] + joint.X_PJ.translation().norm() : 0.0;
     moves[child] = moves[parent] || joint.movable();
   }
   if (std::count(moves.begin(), moves.end(), true) == 0) return {};
@@ -50,6 +51,7 @@ std::vector<std::string> ScaleWarnings(const RobotModel& model) {
     return {fmt::format("the robot is {:.0f} m long; URDF has metres, are these millimetres?",
                         longest)};
   }
+  if (longest == 0.0) return {};  // a turntable has the size that it has
   for (std::size_t i = 0; i < moves.size(); ++i) {
     const Link& link = model.links()[i];
     for (const CollisionElement& element : link.collisions) {
@@ -57,8 +59,8 @@ std::vector<std::string> ScaleWarnings(const RobotModel& model) {
       const double size = FarthestOf(element.shape, element.X_LC);
       if (size < std::max(kLargeShape, kManyRobots * longest)) continue;
       return {fmt::format(
-          "{} reaches {:.0f} m from its link, and the robot is {:.2g} m long; URDF has metres, a "
-          "mesh in millimetres needs scale=\"0.001 0.001 0.001\"",
+          "{} reaches {:.0f} m from its link, and the robot is {:.2g} m long; URDF has metres, is "
+          "this in millimetres (a mesh: scale=\"0.001 0.001 0.001\")?",
           element.source, size, longest)};
     }
   }

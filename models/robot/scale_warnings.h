@@ -8,9 +8,9 @@
 
 namespace oca::robot {
 
-/// A line if the robot is as large as one whose lengths were meant as millimetres: if it moves and
-/// its frames lie more than kLongestArm m apart along the joints, or else one for a moving link
-/// whose shape is much larger than the whole robot, as of a mesh without its scale.
+/// A line if the robot is as large as one whose lengths were meant as millimetres: if its frames
+/// lie more than kLongestArm m beyond its first joint, along the joints, or else one for the first
+/// moving link whose shape is much larger than that, as of a mesh without its scale.
 std::vector<std::string> ScaleWarnings(const RobotModel& model);
 
 inline constexpr double kLongestArm = 100.0;  // m

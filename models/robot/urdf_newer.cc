@@ -79,7 +79,7 @@ class Rewriter {
   void RewriteCapsule(TiXmlElement& solid) {
     auto* const geometry = solid.FirstChildElement("geometry");
     auto* const shape = geometry == nullptr ? nullptr : geometry->FirstChildElement("capsule");
-    if (shape == nullptr || !Right([&] { CheckUrdfGeometry(xml_, solid); })) return;
+    if (shape == nullptr || !Right([&] { CheckUrdfCapsule(xml_, *shape); })) return;
     newer_.changed = true;
     if (xml_.Numbers(*shape, "length", 1, true).front() > 0.0) {
       shape->SetValue("cylinder");

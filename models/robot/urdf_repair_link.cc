@@ -57,6 +57,7 @@ bool CanBeDrawn(const XmlReader& xml, const TiXmlElement& visual) {
 
 bool SaysInertia(const XmlReader& xml, const TiXmlElement& inertial) {
   if (const auto* const origin = inertial.FirstChildElement("origin")) {
+    if (origin->Attribute("quat_xyzw") != nullptr) return false;  // a wrong one
     for (const char* part : {"xyz", "rpy"}) {
       const bool said = origin->Attribute(part) != nullptr;
       if (said && NumbersOrNone(xml, origin, part, 3).empty()) return false;

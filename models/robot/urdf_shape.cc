@@ -49,6 +49,12 @@ Eigen::Quaterniond UrdfQuaternion(const XmlReader& xml, const TiXmlElement& orig
   return geometry::FromQuaternion(Eigen::Vector4d(numbers.data()), xml.Place(origin, "quat_xyzw"));
 }
 
+void CheckUrdfCapsule(const XmlReader& xml, const TiXmlElement& capsule) {
+  xml.Positive(capsule, "radius", 1);
+  const double length = xml.Numbers(capsule, "length", 1, true).front();
+  if (length < 0.0) xml.Fail(capsule, "length", fmt::format("{}", length), "0 or more");
+}
+
 std::string CheckUrdfGeometry(const XmlReader& xml, const TiXmlElement& solid) {
   const auto* const geometry = solid.FirstChildElement("geometry");
   if (geometry == nullptr) xml.Fail(solid, "geometry", "none", "a <geometry>");
@@ -66,9 +72,7 @@ std::string CheckUrdfGeometry(const XmlReader& xml, const TiXmlElement& solid) {
     xml.Positive(*shape, "length", 1);
   } else if (kind == "capsule") {
     xml.CheckAttributes(*shape, {"radius", "length"});
-    xml.Positive(*shape, "radius", 1);
-    const double length = xml.Numbers(*shape, "length", 1, true).front();
-    if (length < 0.0) xml.Fail(*shape, "length", fmt::format("{}", length), "0 or more");
+    CheckUrdfCapsule(xml, *shape);
   } else if (kind == "box") {
     xml.CheckAttributes(*shape, {"size"});
     xml.Positive(*shape, "size", 3);

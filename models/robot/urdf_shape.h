@@ -17,6 +17,9 @@ void CheckUrdfOrigin(const XmlReader& xml, const TiXmlElement& parent);
 /// The unit quaternion of an <origin> that says `quat_xyzw`. throws ModelError
 Eigen::Quaterniond UrdfQuaternion(const XmlReader& xml, const TiXmlElement& origin);
 
+/// Refuses sizes of a <capsule> that are none. throws ModelError
+void CheckUrdfCapsule(const XmlReader& xml, const TiXmlElement& capsule);
+
 /// Refuses a <collision> or <visual> without one shape that URDF 1.0 or 1.1 (<capsule>) has and
 /// what that needs.
 /// Returns the file of a mesh, "" for other shapes.

@@ -42,6 +42,14 @@ TEST(JsonTextTest, SaysWhereATextIsNoJson) {
   EXPECT_EQ(RefusalOf(R"({"a": 1,})"), "JSON: byte 9: syntax; got '}'; expected valid JSON");
   EXPECT_EQ(RefusalOf(R"({"a": [1, -2.5e400]})"),
             "JSON: byte 11: number; got -2.5e400; expected finite numbers, up to 1.8e308");
+  EXPECT_EQ(RefusalOf("[1e999,-2]"),
+            "JSON: byte 2: number; got 1e999; expected finite numbers, up to 1.8e308");
+  EXPECT_EQ(RefusalOf("[[3,1e999,2]]"),
+            "JSON: byte 5: number; got 1e999; expected finite numbers, up to 1.8e308");
+  EXPECT_EQ(RefusalOf(R"({"a":1,"\u0061":2})"),
+            "JSON: byte 8: duplicate key; got 'a'; expected each key once");
+  EXPECT_EQ(RefusalOf(R"({"a\"\\":1,"b":"a\"\\","a\"\\":2})"),
+            R"(JSON: byte 24: duplicate key; got 'a"\'; expected each key once)");
   EXPECT_EQ(RefusalOf("1e999"),
             "JSON: byte 1: number; got 1e999; expected finite numbers, up to 1.8e308");
   EXPECT_EQ(RefusalOf(R"({"a": 1, "b": {"a": 2, "b": 3}, "a": 4})"),

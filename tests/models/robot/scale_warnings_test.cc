@@ -29,7 +29,7 @@ std::vector<std::string> WarningsOf(double length, double size, const char* type
 }
 
 TEST(ScaleWarningsTest, ARobotInMillimetresIsTold) {
-  EXPECT_THAT(WarningsOf(400.0, 80.0), ElementsAre(HasSubstr("the robot is 800 m long")));
+  EXPECT_THAT(WarningsOf(400.0, 80.0), ElementsAre(HasSubstr("the robot is 400 m long")));
   EXPECT_THAT(WarningsOf(1.75, 0.1), IsEmpty());             // the longest of arms
   EXPECT_THAT(WarningsOf(20.0, 1.0), IsEmpty());             // a crane
   EXPECT_THAT(WarningsOf(400.0, 80.0, "fixed"), IsEmpty());  // a world
@@ -38,7 +38,7 @@ TEST(ScaleWarningsTest, ARobotInMillimetresIsTold) {
 TEST(ScaleWarningsTest, AShapeInMillimetresIsTold) {
   EXPECT_THAT(WarningsOf(0.4, 80.0),
               ElementsAre(testing::AllOf(HasSubstr("r.urdf:1: link 'c' collision reaches 69 m"),
-                                         HasSubstr("0.8 m long"))));
+                                         HasSubstr("0.4 m long"))));
   EXPECT_THAT(WarningsOf(0.4, 2.0), IsEmpty());  // a gripper that holds a wardrobe
   EXPECT_THAT(WarningsOf(0.4, 500.0, "fixed"), IsEmpty());
 }

@@ -98,7 +98,8 @@ TEST(UrdfRepairTest, InertiasThatAreNoneAreLeftOut) {
   for (const std::string& content :
        {"<mass value='-1'/>" + inertia, "<mass value='nan'/>" + inertia, inertia,
         std::string("<mass value='1'/>"), std::string("<mass value='1'/><inertia ixx='1'/>"),
-        "<mass value='1'/><origin xyz='a b c'/>" + inertia}) {
+        "<mass value='1'/><origin xyz='a b c'/>" + inertia,
+        "<mass value='1'/><origin quat_xyzw='0 0 0 0'/>" + inertia}) {
     const Loaded loaded = LoadLink("<inertial>" + content + "</inertial>");
     EXPECT_EQ(loaded.model.links()[0].inertia.mass, 0.0) << content;
     EXPECT_THAT(loaded.warnings, ElementsAre(AllOf(HasSubstr("inertias that are incomplete"),
@@ -150,6 +151,13 @@ TEST(UrdfRepairTest, AMaterialOfTheRobotThatIsNoColourIsLeftOut) {
                    "<link name='arm'/>")
                   .warnings,
               IsEmpty());
+}
+
+TEST(UrdfRepairTest, ACapsuleMayHaveAttributesThatUrdfDoesNotHave) {
+  const Loaded loaded = LoadLink(
+      "<collision><geometry><capsule radius='1' length='2' segments='9'/></geometry></collision>");
+  EXPECT_EQ(std::get<geometry::Capsule>(loaded.model.links()[0].collisions[0].shape).length, 2.0);
+  EXPECT_THAT(loaded.warnings, ElementsAre(HasSubstr("'segments' of")));
 }
 
 TEST(UrdfRepairTest, NumbersMayStandInSeveralLines) {
